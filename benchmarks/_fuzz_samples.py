@@ -23,10 +23,10 @@ from kineme.formats.listing import recordings_in
 from kineme.labels import json_table
 from kineme.labels.collections import labels_of
 from kineme.library import Library, build
-from kineme.library.storage.layout import SEEN
+from kineme.library.storage.layout import STATES
 from kineme.recordings import Motion
 from kineme.segments import editing
-from kineme.segments.editing.marks import marked
+from kineme.segments.editing.annotating import marked
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.journal import Journal
 from kineme.studio.storage.sidecars import (
@@ -103,7 +103,7 @@ def doors_of(path: Path) -> tuple[Door, ...]:
         "knowledge": (lambda root: kineme.KnowledgeBase.load(root / path),),
         "graphs": (lambda root: load_sources(read_graph(root / path)),),
         "library": (_ask_library, _search_library, _export_library)
-        + ((_build_library,) if path.name == SEEN else ()),
+        + ((_build_library,) if path.name == STATES else ()),
         "studio": (_read_beside,) if path.name in SIDE_FILES else (_open_studio,),
     }[path.parts[0]]
 

@@ -13,12 +13,12 @@ from kineme import Library, read
 from kineme._version import __version__
 from kineme.library import Settings
 from kineme.library.compiling import compiled
-from kineme.library.descriptions import make_piece
+from kineme.library.descriptions import analysis_of
 from kineme.library.executors import InProcess
 from kineme.library.settings import VOCABULARY
+from kineme.library.storage.analyses import Analysis, has_analysis, write_analysis
 from kineme.library.storage.index import write_index
-from kineme.library.storage.layout import HEAD, PIECES, SCHEMA, write_json
-from kineme.library.storage.pieces import Piece, has_piece, write_piece
+from kineme.library.storage.layout import ANALYSES, HEAD, SCHEMA, write_json
 from kineme.library.storage.tables import write_tables
 from kineme.recordings import Motion, Signals
 
@@ -30,12 +30,12 @@ LASTS_S = few(360.0, 60.0)
 
 def library_of(folder: Path, recordings: Iterable[tuple[str, Motion | Signals]]) -> Library:
     """A library of recordings in hand, by their names."""
-    (folder / PIECES).mkdir(parents=True, exist_ok=True)
+    (folder / ANALYSES).mkdir(parents=True, exist_ok=True)
     keys = {}
     for name, recording in recordings:
         keys[name] = f"{len(keys):032x}"
-        if not has_piece(folder / PIECES, keys[name]):
-            write_piece(folder / PIECES, keys[name], *make_piece(recording, Settings()))
+        if not has_analysis(folder / ANALYSES, keys[name]):
+            write_analysis(folder / ANALYSES, keys[name], *analysis_of(recording, Settings()))
     joined(folder, keys)
     return Library(folder)
 
@@ -63,10 +63,10 @@ def joined(folder: Path, keys: Mapping[str, str]) -> float:
 
 def simulated(folder: Path, hours: float) -> float:
     """A library of shaken pieces of subject 86; seconds that joining its clusters took."""
-    (folder / PIECES).mkdir(parents=True)
+    (folder / ANALYSES).mkdir(parents=True)
     rng = np.random.default_rng(0)
     made = [
-        make_piece(read(path), Settings())
+        analysis_of(read(path), Settings())
         for path in sorted(needed("cmu86").glob("*.amc"))[: few(None, 1)]
     ]
     keys = {}
@@ -80,5 +80,7 @@ def simulated(folder: Path, hours: float) -> float:
         frames = round(LASTS_S * piece.facts["fps"])
         facts = {**piece.facts, "n_frames": frames, "samples": n}
         key = keys[f"{number:05d}"] = f"{number:032x}"
-        write_piece(folder / PIECES, key, Piece(facts, piece.table, piece.embeddings), shaken)
+        write_analysis(
+            folder / ANALYSES, key, Analysis(facts, piece.table, piece.embeddings), shaken
+        )
     return joined(folder, keys)

@@ -35,7 +35,7 @@ from _options import command_line, few
 from kineme.errors import KinemeError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.storage import index
-from kineme.library.storage.pieces import read_features, read_piece
+from kineme.library.storage.analyses import read_analysis, read_features
 from kineme.library.storage.places import is_remote, place
 
 SPANS = {"a": (0, 400), "b": (700, 1100), "c": (1300, 1700), "d": (2000, 2500)}
@@ -100,7 +100,7 @@ def torn(folder: Path, counts: set[int]) -> Iterator[str]:
     """What is wrong with what a reader sees."""
     for path in (folder / "pieces").glob("[!.]*.parquet"):
         try:
-            read_piece(path.parent, path.stem)
+            read_analysis(path.parent, path.stem)
             read_features(path.parent, path.stem)
         except KinemeError as error:
             yield f"a piece is torn: {error}"

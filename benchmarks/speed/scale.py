@@ -37,10 +37,10 @@ from kineme import Library, bundled_recording, read, segment
 from kineme._interpolation import at_frames
 from kineme.features.canonical import MATCHING_FPS, matching_features
 from kineme.library import Settings
-from kineme.library.descriptions import make_piece
+from kineme.library.descriptions import analysis_of
 from kineme.library.searching import Example, Hit
-from kineme.library.storage.layout import HEAD, PIECES, TABLES
-from kineme.library.storage.pieces import Piece, has_piece, write_piece
+from kineme.library.storage.analyses import Analysis, has_analysis, write_analysis
+from kineme.library.storage.layout import ANALYSES, HEAD, TABLES
 from kineme.library.vocabulary.words import places_in
 from kineme.segments.table import SegmentTable
 
@@ -68,8 +68,8 @@ def costs() -> None:
             ticks.append(process_time())
             segment(recording)
             ticks.append(process_time())
-            piece, features, _ = make_piece(recording, Settings())
-            write_piece(Path(home), path.stem, piece, features)
+            piece, features, _ = analysis_of(recording, Settings())
+            write_analysis(Path(home), path.stem, piece, features)
             ticks.append(process_time())
             own = np.diff(ticks)
             for name, seconds in zip(spent, (own[0], own[1], own[2] - own[1]), strict=True):
@@ -172,7 +172,7 @@ def examples() -> Iterator[Example]:
 
 def simulated(folder: Path, hours: float) -> None:
     """A library of recordings put together from takes of several laboratories."""
-    (folder / PIECES).mkdir(parents=True, exist_ok=True)
+    (folder / ANALYSES).mkdir(parents=True, exist_ok=True)
     own = [
         matching_features(take.motion, mirrored=mirrored)
         for name in corpora()
@@ -180,12 +180,12 @@ def simulated(folder: Path, hours: float) -> None:
         for mirrored in (False, True)
     ]
     n = round(LASTS_S * MATCHING_FPS)
-    table, *_ = make_piece(read(bundled_recording()), Settings())
+    table, *_ = analysis_of(read(bundled_recording()), Settings())
     segments = nameless(table.table)
     keys = {}
     for number in range(round(hours * 3600 / LASTS_S)):
         key = keys[f"{number:05d}"] = f"{number:032x}"
-        if has_piece(folder / PIECES, key):  # of a run that was ended
+        if has_analysis(folder / ANALYSES, key):  # of a run that was ended
             continue
         rng = np.random.default_rng(number)
         laid, lasts = [], 0
@@ -196,8 +196,8 @@ def simulated(folder: Path, hours: float) -> None:
             "format": "", "fps": 120.0, "n_frames": round(120 * LASTS_S), "vocabulary": "bodies",
             "features_fps": MATCHING_FPS, "samples": n, "notes": [],
         }  # fmt: skip
-        piece = Piece(facts, segments, table.embeddings)
-        write_piece(folder / PIECES, key, piece, np.concatenate(laid)[:n])
+        piece = Analysis(facts, segments, table.embeddings)
+        write_analysis(folder / ANALYSES, key, piece, np.concatenate(laid)[:n])
     joined(folder, keys)
 
 

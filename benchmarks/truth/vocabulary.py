@@ -40,8 +40,8 @@ from kineme.evaluation import TRANSITION, Comparison, Labelling, Truth, one_to_o
 from kineme.library.compiling import compiled
 from kineme.library.executors import Executor, Outcome, Task, processes
 from kineme.library.settings import VOCABULARY
-from kineme.library.storage.layout import PIECES
-from kineme.library.storage.pieces import read_features, read_piece, write_piece
+from kineme.library.storage.analyses import read_analysis, read_features, write_analysis
+from kineme.library.storage.layout import ANALYSES
 from kineme.library.vocabulary.words import places_in
 
 SEQUENCES, MORE = 6, few(5, 1)
@@ -127,7 +127,7 @@ def show_growth(folder: Path, sizes: list[int], most: int) -> None:
     for size in sizes:
         with TemporaryDirectory() as home:
             entries = many(library, size, Path(home))
-            kept = sum(path.stat().st_size for path in (Path(home) / PIECES).glob("*.npy"))
+            kept = sum(path.stat().st_size for path in (Path(home) / ANALYSES).glob("*.npy"))
             clocks, made = {}, []
             for jobs in (1, 2):
                 with processes(jobs) as executor:
@@ -180,18 +180,18 @@ def timed(work: Callable[[Task], Outcome], task: Task) -> tuple[Outcome, float, 
 
 def many(library: Library, size: int, home: Path) -> list[tuple[str, Path, str]]:
     """Shaken copies of recordings with so many words, each of which is shaken in its own way."""
-    (home / PIECES).mkdir()
+    (home / ANALYSES).mkdir()
     keys = library.recordings["piece"]
-    own = [(read_piece(library.folder / PIECES, key), key) for key in keys]
+    own = [(read_analysis(library.folder / ANALYSES, key), key) for key in keys]
     entries, n = [], 0
     while n < size:
         piece, key = own[len(entries) % len(own)]
         rng = np.random.default_rng(len(entries))
-        features = read_features(library.folder / PIECES, key)
+        features = read_features(library.folder / ANALYSES, key)
         features = features + np.float32(SHAKEN) * rng.standard_normal(features.shape, np.float32)
         features /= np.linalg.norm(features, axis=1, keepdims=True)
         name = f"{len(entries):032x}"
-        write_piece(home / PIECES, name, piece, features)
+        write_analysis(home / ANALYSES, name, piece, features)
         entries.append((name, home / name, name))
         n += len(places_in(piece, 0))
     return entries

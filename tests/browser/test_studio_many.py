@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 
 import kineme
-from kineme.segments.editing.marks import marked
+from kineme.segments.editing.annotating import marked
 from screen import Screen, until
 from studio_server import saved_table
 

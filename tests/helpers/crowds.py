@@ -59,4 +59,4 @@ def joined(words: Crowd, executor: Any = None, progress: Any = None, **constants
 
 
 def bytes_of(found: Joined) -> tuple[bytes, ...]:
-    return tuple(column.tobytes() for column in vars(found).values())
+    return tuple(column.tobytes() for column in found)

@@ -112,7 +112,7 @@ def test_a_pause_costs_a_folder_no_label(tmp_path) -> None:
     one, other = evaluate_folder(sources, ["uniform"], processes=1).methods["uniform"]
     assert not one.error + other.error
     assert other.notes == ()
-    assert one.results["mof"].whole == other.results["mof"].whole == 2400  # none is cut off
+    assert one.results["mof"].total == other.results["mof"].total == 2400  # none is cut off
 
 
 def test_one_result_and_its_table_have_the_clock(tmp_path) -> None:

@@ -15,7 +15,7 @@ import pytest
 
 from kineme.labels import read_segments, write_segments
 from kineme.segments import editing
-from kineme.segments.editing.marks import marked
+from kineme.segments.editing.annotating import marked
 from kineme.segments.segmentation import Segmentation
 
 OLDER = Path(__file__).parents[1] / "older" / "tables"

@@ -18,7 +18,7 @@ import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Library, Settings, build, gathering
 from kineme.library.gathering import Group
-from kineme.library.vocabulary import moments
+from kineme.library.vocabulary import signals
 from library_folders import contents, write_channels
 
 
@@ -183,7 +183,7 @@ def test_channels_have_clusters_in_common_that_keep_number_and_name(
     labels = {row["label"] for row in Library(folder).table("segments").to_pylist()}
     assert labels == {"", "fast"}
     build(own, tmp_path / "once")
-    monkeypatch.setattr(moments, "AT_ONCE", 1)
+    monkeypatch.setattr(signals, "AT_ONCE", 1)
     build(own, tmp_path / "backwards", client=Backwards())
     assert contents(tmp_path / "backwards") == contents(tmp_path / "once")
 
@@ -344,7 +344,7 @@ def test_a_full_disk_ends_the_build_and_leaves_what_was_there(
     def full(*_: object) -> None:
         raise WriteError(folder, "cannot be written: No space left on device")
 
-    monkeypatch.setattr(gathering, "write_piece", full)
+    monkeypatch.setattr(gathering, "write_analysis", full)
     with pytest.raises(WriteError, match="No space left"):
         build((), folder, settings=Settings(constants={"min_action": 3.0}))
     assert contents(folder) == before

@@ -18,7 +18,7 @@ from kineme.library.windows import (
     all_windows,
     by_length,
     count,
-    wanted,
+    parts_at_speeds,
     windows_of,
 )
 
@@ -60,7 +60,7 @@ def test_the_window_that_is_the_example_is_the_nearest() -> None:
     features = np.random.default_rng(1).normal(size=(300, 40)).astype(np.float32)
     step = LENGTHS[1] // 2
     example = features[4 * step : 4 * step + LENGTHS[1]]
-    windows, parts = windows_of(features, LENGTHS[1]), wanted(example)
+    windows, parts = windows_of(features, LENGTHS[1]), parts_at_speeds(example)
     least = np.empty(len(windows), np.int32)
     least_squares(windows, parts, np.int32(FINER), least)
     assert least.tolist() == naive.least_squares(windows.tolist(), parts.tolist(), FINER)

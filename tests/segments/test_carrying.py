@@ -10,7 +10,7 @@ from test_editing import EDITS, spans, walk_pause_jump
 
 from kineme.errors import ParameterError
 from kineme.segments import editing
-from kineme.segments.editing.marks import marked, noted, span_of
+from kineme.segments.editing.annotating import marked, noted, span_of
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 

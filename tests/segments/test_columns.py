@@ -34,7 +34,6 @@ sys.modules["kineme.segments.table"] = segments.table = table
 exec(compile(source.replace(last, field + last), "table.py", "exec"), table.__dict__)
 
 from kineme.labels import read_segments, write_segments
-from kineme.labels.json_table import json_schema
 from kineme.library.storage.tables import DESCRIBED
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
@@ -53,7 +52,8 @@ for name in ("made.csv", "made.json", "made.parquet"):
     read[name] = read_segments(folder / name).table.effort.tolist()
 for name in ("found.csv", "found_whole.json", "found.parquet"):
     read[name] = set(map(str, read_segments(older / name).table.effort.tolist())) == {"nan"}
-schema = json_schema()["properties"]["segments"]["items"]
+filling = runpy.run_path(str(docs / "fill_columns.py"))
+schema = filling["json_schema"]()["properties"]["segments"]["items"]
 print(json.dumps({
     "read": read,
     "csv": (folder / "made.csv").read_text().splitlines()[:2],
@@ -64,7 +64,7 @@ print(json.dumps({
     "schema": [schema["properties"]["effort"], "effort" in schema["required"]],
     "message": json.loads(to_json(segments_message(made)))["segments"][1]["effort"],
     "types": runpy.run_path(str(pages / "make_messages.py"))["messages_typescript"](),
-    "docs": runpy.run_path(str(docs / "fill_columns.py"))["rows"](),
+    "docs": filling["rows"](),
     "library": "effort" in DESCRIBED["segments"],
 }))
 '''

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 
 from kineme._colors import cluster_color, label_colors
 from kineme.segments import timeline
-from kineme.segments.notebook import ROWS
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.timeline import FIRST_ROWS
 from segmentations import segmentations
 
 
@@ -34,7 +34,7 @@ def parsed(html: str) -> ET.Element:
 @given(segmentations())
 def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None:
     page = parsed(result._repr_html_())
-    assert len(page.findall(".//tbody/tr")) == min(ROWS, len(result.activities))
+    assert len(page.findall(".//tbody/tr")) == min(FIRST_ROWS, len(result.activities))
     bars = page.findall(".//rect")
     colors = {bar.get("fill") for bar in bars}
     labels = label_colors(result)
@@ -63,7 +63,7 @@ def test_a_day_of_segments_stays_small() -> None:
     bars = parsed(html).findall(".//rect")
     assert len(bars) <= 1 + timeline.WIDTH
     assert len(html) < 200_000
-    assert f"and {86_401 - ROWS} more" in result.table._repr_html_()
+    assert f"and {86_401 - FIRST_ROWS} more" in result.table._repr_html_()
 
 
 def test_bars_lie_where_their_segments_do() -> None:

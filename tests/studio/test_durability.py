@@ -258,7 +258,11 @@ def test_undo_and_redo_are_each_others_inverse(steps: list[int | str]) -> None:
             elif step == "redo":
                 history, at = history.redone(), at + 1
             else:
-                history, told, at = history.then(int(step)), [*told[: at + 1], int(step)], at + 1
+                history, told, at = (
+                    history.followed_by(int(step)),
+                    [*told[: at + 1], int(step)],
+                    at + 1,
+                )
         except ParameterError:
             assert not (history.past if step == "undo" else history.future)
         assert history.present == told[at]

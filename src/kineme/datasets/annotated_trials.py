@@ -55,26 +55,9 @@ class Action(NamedTuple):
 
 
 def read_actions(path: str | PathLike[str]) -> dict[str, list[Action]]:
-    """The actions of each trial by its name, known errors mended.
+    """The actions of each trial by its name, in ``annotations.json`` or the authors' text.
 
-    Parameters
-    ----------
-    path : path-like
-        ``annotations.json``, or the authors' text.
-
-    Returns
-    -------
-    dict of str to list of Action
-
-    Raises
-    ------
-    ReadError
-        Not such a file.
-
-    Warns
-    -----
-    KinemeWarning
-        For every row that was mended.
+    Known errors are mended, with a `KinemeWarning` for every row.
     """
     trials = _json_trials(path) if Path(path).suffix.lower() == ".json" else _text_trials(path)
     return {name: _mended(name, rows) for name, rows in trials.items()}

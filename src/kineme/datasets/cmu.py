@@ -49,13 +49,7 @@ class Fetched:
 
 
 def cache_folder() -> Path:
-    """Where recordings are kept: ``KINEME_CACHE``, else the system's place for caches.
-
-    Raises
-    ------
-    MissingDependencyError
-        pooch is not installed, and the variable is not set.
-    """
+    """Where recordings are kept: ``KINEME_CACHE``, else the system's place for caches."""
     named = environ.get("KINEME_CACHE")
     if named:
         return Path(named)

@@ -41,28 +41,9 @@ def fetch(
 ) -> Path | None:
     """The file of this address in ``folder``; None if the server has no such file.
 
-    Parameters
-    ----------
-    url : str
-        The address; its last part is the file's name.
-    folder : Path
-        Made where it is missing.
-    check : callable
-        Called with the complete file; raises FileError for one that is not what it should be.
-    progress : callable, optional
-        Called with name, bytes so far and bytes in all (None if not known).
-    timeout_s : float, optional
-        A connection that is silent for so long is tried again.
-
-    Raises
-    ------
-    ReadError
-        The server cannot be reached, breaks off again and again without sending more, refuses, or
-        sends what does not pass the check.
-    WriteError
-        The folder cannot be written to.
-    MissingDependencyError
-        pooch is not installed.
+    ``check`` is called with the complete file and raises FileError for one that is not what it
+    should be, ``progress`` with name, bytes so far, and bytes in all or None. A connection that is
+    silent for ``timeout_s`` is tried again.
     """
     try:
         import pooch

@@ -82,15 +82,9 @@ def figure(size: float = _HEIGHT) -> Skeleton:
 
 
 def joint_rotations(skeleton: Skeleton, angles: Mapping[str, Floats], heading: Floats) -> Floats:
-    """Rotations (frames, joints, 4) of the figure.
+    """Rotations (frames, joints, 4) of the figure, from degrees (frames,) for each of ``ANGLES``.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-    angles : mapping of str to ndarray
-        (frames,) in degrees for every name in ``ANGLES``.
-    heading : ndarray of shape (frames,)
-        In degrees, where the figure faces: 0 is +z, 90 is +x.
+    ``heading`` is where the figure faces, degrees: 0 is +z, 90 is +x.
     """
     a = {name: np.radians(values) for name, values in angles.items()}
     facing = np.radians(heading)

@@ -27,16 +27,7 @@ _SMOOTHING_S = 0.025
 def root_path(skeleton: Skeleton, rotations: Floats, airborne: Floats, fps: float) -> Floats:
     """Positions (frames, 3) of the root that keep the feet on the floor y = 0.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        The figure and its joint rotations.
-    rotations : ndarray
-        See `skeleton`.
-    airborne : ndarray of shape (frames,)
-        Metres between the feet and the floor; 0 while they bear.
-    fps : float
-        Frames per second.
+    ``airborne`` (frames,) are metres between the feet and the floor; 0 while they bear.
     """
     contacts = _contacts(skeleton, rotations, fps)
     heights = contacts[:, :, 1]

@@ -28,17 +28,8 @@ def joined(
 ) -> tuple[Motion, NDArray[np.int64], list[int]]:
     """One motion of all, the first frame of each and the end, and half of each join in frames.
 
-    Parameters
-    ----------
-    motions : sequence of Motion
-        Of one skeleton and one frame rate, with rotations.
-    join : float, optional
-        Seconds over which a join is blended; at most a third of the shorter motion.
-
-    Raises
-    ------
-    ParameterError
-        Motions that do not fit together, or one without rotations.
+    Motions need one skeleton, one frame rate, and rotations. A join is blended over ``join``
+    seconds, at most a third of the shorter motion.
     """
     check_fit(motions)
     fps = motions[0].fps

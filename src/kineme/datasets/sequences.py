@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from kineme.datasets.joining import check_fit, joined
 from kineme.datasets.synthetic import SyntheticRecording
+from kineme.datasets.timeline import Row, segments_of
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Provenance
 from kineme.segments.segmentation import Segmentation
@@ -173,7 +174,7 @@ def _truth(
 ) -> Segmentation:
     numbers = {name: i for i, name in enumerate(dict.fromkeys(part.name for part in parts))}
     halves = [0, *halves, 0]  # no join at the recording's own ends
-    rows: list[tuple[str, str, int, int, int, str]] = []
+    rows: list[Row] = []
 
     def add(level: str, kind: str, start: int, stop: int, name: str = "") -> None:
         if stop > start:
@@ -191,10 +192,4 @@ def _truth(
             borders = np.linspace(start, stop, parts[i].repetitions + 1).astype(int).tolist()
             for a, b in pairwise(borders):
                 add("primitive", "primitive", a, b, name)
-    keys = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
-    return Segmentation.from_columns(
-        dict(zip(keys, map(list, zip(*rows, strict=True)), strict=True)),
-        n_frames=int(starts[-1]),
-        fps=fps,
-        provenance={"notes": ["known by construction"]},
-    )
+    return segments_of(rows, int(starts[-1]), fps)

@@ -2,7 +2,7 @@
 
 A recording is a sequence of actions. Between two of them lies a transition of
 half a second to a second, in which the figure slows down, changes over and
-takes up the next. No two repetitions are alike: their pace and size vary by a
+takes up the next. No two repetitions are equal: their pace and size vary by a
 few per cent and the whole body sways. Everything random comes from the seed.
 
 The truth is a segmentation like any other: activities and transitions on one

@@ -15,6 +15,8 @@ from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 
 Floats = NDArray[np.float64]
+Row = tuple[str, str, int, int, int, str]
+"""Level, kind, first frame, one past the last frame, cluster and label."""
 
 _TRANSITION_S = (0.5, 1.0)
 _PACE_VARIES = 0.05  # standard deviation, relative
@@ -75,13 +77,7 @@ class Part:
 
 
 def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) -> list[Part]:
-    """The actions one after the other, each repetition a little shorter or longer.
-
-    Raises
-    ------
-    ParameterError
-        A repetition would last fewer than three frames.
-    """
+    """The actions one after the other, each repetition a little shorter or longer."""
     parts: list[Part] = []
     now, fade_in = 0, 0
     for place, action in enumerate(actions):
@@ -102,7 +98,7 @@ def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) ->
 def true_segments(parts: list[Part], fps: float) -> Segmentation:
     """Activities, transitions and repetitions as a segment table."""
     kinds = list(dict.fromkeys(map(_kind, parts)))
-    rows: list[tuple[str, str, int, int, int, str]] = []
+    rows: list[Row] = []
 
     def add(level: str, kind: str, start: int, stop: int, label: str, cluster: int = -1) -> None:
         if stop > start:
@@ -117,11 +113,15 @@ def true_segments(parts: list[Part], fps: float) -> Segmentation:
             add("primitive", "primitive", start, stop, name, cluster)
         for level in ("activity", "primitive"):
             add(level, "transition", frames[-1], frames[-1] + part.fade_out, "")
-    columns = zip(*rows, strict=True)
+    return segments_of(rows, int(parts[-1].frames[-1]), fps)
+
+
+def segments_of(rows: Sequence[Row], n_frames: int, fps: float) -> Segmentation:
+    """Rows of known truth as a segment table."""
     keys = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
     return Segmentation.from_columns(
-        dict(zip(keys, map(list, columns), strict=True)),
-        n_frames=int(parts[-1].frames[-1]),
+        dict(zip(keys, map(list, zip(*rows, strict=True)), strict=True)),
+        n_frames=n_frames,
         fps=fps,
         provenance={"notes": ["known by construction"]},
     )

@@ -21,7 +21,13 @@ SHORT_TRANSITION_S = 1.0
 
 
 class BorderScore(NamedTuple):
-    """Shares of the found borders that are right, of the true ones met, and their harmonic mean."""
+    """Shares of the found borders that are right, of the true ones met, and their harmonic mean.
+
+    Examples
+    --------
+    >>> border_score(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10))
+    BorderScore(precision=1.0, recall=1.0, f1=1.0)
+    """
 
     precision: float
     recall: float
@@ -33,14 +39,6 @@ def border_score(compared: Comparison) -> BorderScore:
 
     As many pairs are made as can be: in time order each true border takes the first found one
     that is right. With nothing to find and nothing found all three are 1.
-
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    BorderScore
 
     Examples
     --------
@@ -91,30 +89,28 @@ def covering(compared: Comparison) -> float:
     intersection over union with any found interval. Source: Arbeláez et al.
     2011, equation 4; used for change points by van den Burg and Williams 2020.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    float
-
     Examples
     --------
     >>> covering(Comparison([0, 0, 1, 1], [5, 5, 5, 5], fps=10))
     0.5
     """
-    wanted, found = compared.spans.actions.at_means(), compared.spans.activities.merged()
+    actions, found = compared.spans.actions.at_means(), compared.spans.activities.merged()
     best = []
-    for start, stop in zip(wanted.starts, wanted.stops, strict=True):
+    for start, stop in zip(actions.starts, actions.stops, strict=True):
         inner = np.minimum(stop, found.stops) - np.maximum(start, found.starts)
         union = np.maximum(stop, found.stops) - np.minimum(start, found.starts)
         best.append((np.maximum(inner, 0) / union).max())
-    return float(np.average(best, weights=np.diff(wanted.borders)))
+    return float(np.average(best, weights=np.diff(actions.borders)))
 
 
 def border_ratio(compared: Comparison) -> Ratio:
-    """Borders found over true borders: 1 is as many, above is too many."""
+    """Borders found over true borders: 1 is as many, above is too many.
+
+    Examples
+    --------
+    >>> border_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
+    Ratio(part=3, total=1)
+    """
     found = border_frames(compared.spans.activities)
     return Ratio(found.size, compared.spans.actions.mean.size)
 
@@ -122,18 +118,10 @@ def border_ratio(compared: Comparison) -> Ratio:
 def cut_ratio(compared: Comparison) -> Ratio:
     """The same where both sides of any found transition are cuts.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    Ratio
-
     Examples
     --------
     >>> cut_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
-    Ratio(part=3, whole=1)
+    Ratio(part=3, total=1)
     """
     cuts = compared.spans.activities.merged().borders.size - 2
     return Ratio(cuts, compared.spans.actions.mean.size)
@@ -142,18 +130,10 @@ def cut_ratio(compared: Comparison) -> Ratio:
 def cluster_ratio(compared: Comparison) -> Ratio:
     """Clusters found over classes: 1 is as many, above is too many; transitions are no classes.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    Ratio
-
     Examples
     --------
     >>> cluster_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
-    Ratio(part=2, whole=2)
+    Ratio(part=2, total=2)
     """
     neither = {UNLABELLED} if compared.transitions else set()
     sides = ({*np.unique(side).tolist()} - neither for side in (compared.found, compared.truth))

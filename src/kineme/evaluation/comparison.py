@@ -11,8 +11,9 @@ There are two ways to put the two sides together, by what the truth is:
   is usual in action segmentation; transitions of the result are one more cluster. Borders are
   right within 0.5 s.
 - a `Truth` with uncertain borders (`Comparison.of`): every frame counts, and where people
-  disagree is a class of its own. A result that names transitions means them; one that does not
-  may use up a cluster for them. Borders are right within the truth's own tolerance.
+  disagree is a class of its own. Transitions of the result must match those of the truth;
+  where it has none, one of its clusters may stand for them. Borders are right within the truth's
+  own tolerance.
 """
 
 from __future__ import annotations
@@ -61,6 +62,12 @@ class Spans:
         Of the recording: metres, y up.
     features : array_like, (frames, dims), optional
         Of the recording, stacked.
+
+    Examples
+    --------
+    >>> spans = Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10).spans
+    >>> spans.actions.labels, spans.activities.borders.tolist()
+    (('0', '1'), [0, 3, 4])
     """
 
     actions: Truth
@@ -136,24 +143,7 @@ class Comparison:
     ) -> Comparison:
         """A result beside a truth whose borders are uncertain, at the truth's frame rate.
 
-        Parameters
-        ----------
-        truth : Truth
-            What people say.
-        clusters : Labelling
-            Which frames are the same thing.
-        activities : Labelling, optional
-            Which spans are one activity; by default ``clusters``.
-        primitives : Labelling, optional
-            Single repetitions; by default ``clusters``.
-        positions : array_like, (frames, joints, 3), optional
-            Metres, y up, at the truth's frame rate.
-        features : array_like, (frames, dims), optional
-            Stacked, at the truth's frame rate.
-
-        Returns
-        -------
-        Comparison
+        Parameters are those of `kineme.evaluation.evaluate`.
 
         Raises
         ------
@@ -291,16 +281,6 @@ def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
 
     One-to-one: of more clusters than classes, those that would add least stand for none.
 
-    Parameters
-    ----------
-    comparisons : sequence of Comparison
-        Equal numbers mean the same cluster, and the same class, in all of them.
-
-    Returns
-    -------
-    dict of int to int
-        Clusters that stand for no class are missing.
-
     Examples
     --------
     >>> best_mapping([Comparison([0, 0, 1], [4, 4, 4], fps=1), Comparison([1], [9], fps=1)])
@@ -322,22 +302,14 @@ def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
 def contingency(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
     """Clusters, classes, and how many frames are of each cluster (row) and class (column)."""
     clusters, given = np.unique(found, return_inverse=True)
-    classes, wanted = np.unique(truth, return_inverse=True)
+    classes, true = np.unique(truth, return_inverse=True)
     frames = np.zeros((len(clusters), len(classes)), np.int64)
-    np.add.at(frames, (given, wanted), 1)
+    np.add.at(frames, (given, true), 1)
     return clusters, classes, frames
 
 
 def runs(labels: ArrayLike) -> list[Run]:
     """The runs of equal labels, in order.
-
-    Parameters
-    ----------
-    labels : array_like of int, (frames,)
-
-    Returns
-    -------
-    list of Run
 
     Examples
     --------
@@ -365,6 +337,14 @@ def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
     Returns
     -------
     Labelling
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> labelling_of(found.activities, fps=found.fps).labels[:4]
+    ('0', 'transition', '1', 'transition')
     """
     labels = [
         TRANSITION

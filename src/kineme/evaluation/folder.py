@@ -81,18 +81,7 @@ class FolderScores:
     mapping: Mapped
 
     def over_all(self, method: str) -> dict[str, float]:
-        """The scores of a method over the recordings that it has scores of.
-
-        Parameters
-        ----------
-        method : str
-
-        Returns
-        -------
-        dict of str to float
-            By the names of the scores, nan where none can be had; and ``seconds_per_hour`` of
-            recording.
-        """
+        """The scores of a method over its recordings by name, and ``seconds_per_hour``."""
         good = [one for one in self.methods[method] if not one.error]
         found = {n: over_all(one.results.get(n) for one in good) for n in scores() if good}
         length = sum(one.length_s for one in good)
@@ -175,6 +164,15 @@ def evaluate_folder(
     ------
     ParameterError
         There is no such method.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> sources = {kineme.bundled_recording(): LabelSource(bundled_truth())}
+    >>> found = evaluate_folder(sources, ["uniform"], processes=1)
+    >>> 0 < found.over_all("uniform")["mof"] < 1
+    True
     """
     others = dict(constants or {})
     for name in methods:
@@ -202,20 +200,7 @@ def evaluate_folder(
 def joined_comparisons(
     answers: Sequence[tuple[Job, Answer]], n_clusters: int | None = None
 ) -> list[Comparison | None]:
-    """The comparisons of what one method found, by one mapping of joined clusters.
-
-    Parameters
-    ----------
-    answers : sequence of Job and Answer
-        Of jobs that join.
-    n_clusters : int, optional
-        Of signals, how many there are of each kind; found out by default.
-
-    Returns
-    -------
-    list of Comparison or None
-        None where a job failed.
-    """
+    """The comparisons of one method by one mapping of joined clusters; None where a job failed."""
     classes: dict[str, int] = {}
     compared = {
         i: compare(sides.truth, found, classes=classes)
@@ -254,8 +239,8 @@ def _joined(
     kinds: dict[tuple[str, ...], list[int]] = {}
     for i, (_, answer) in enumerate(answers):
         if answer.sides is not None:
-            moments = answer.sides.moments
-            kinds.setdefault(moments.names if moments else (), []).append(i)
+            samples = answer.sides.samples
+            kinds.setdefault(samples.names if samples else (), []).append(i)
     found: dict[int, tuple[Sides, Segmentation]] = {}
     following = 0
     for rows in kinds.values():
@@ -272,9 +257,9 @@ def _of_one_kind(
     jobs: Sequence[Job], sides: Sequence[Sides], n_clusters: int | None
 ) -> list[Segmentation]:
     segmentations = [one.found for one in sides]
-    moments = [one.moments for one in sides if one.moments is not None]
-    if moments:
-        return share_by_samples(moments, segmentations, n_clusters=n_clusters)
+    samples = [one.samples for one in sides if one.samples is not None]
+    if samples:
+        return share_by_samples(samples, segmentations, n_clusters=n_clusters)
     motions = [motion for job in jobs if isinstance(motion := job.reading.read(job.path), Motion)]
     try:
         return share_clusters(motions, segmentations)

@@ -24,7 +24,7 @@ def frames_right(compared: Comparison) -> Ratio:
     Examples
     --------
     >>> frames_right(Comparison([0, 0, 1], [4, 4, 4], fps=1))
-    Ratio(part=2, whole=3)
+    Ratio(part=2, total=3)
     """
     return Ratio(int(np.sum(compared.mapped == compared.truth)), compared.truth.size)
 
@@ -55,14 +55,6 @@ def one_to_one_accuracy(compared: Comparison) -> float:
 def rand_index(compared: Comparison) -> float:
     """Adjusted Rand index of classes and clusters: 1 is equal, 0 is chance, below is worse.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    float
-
     Examples
     --------
     >>> rand_index(Comparison([0, 0, 1, 1], [7, 7, 2, 2], fps=1))
@@ -73,14 +65,6 @@ def rand_index(compared: Comparison) -> float:
 
 def mutual_information(compared: Comparison) -> float:
     """Mutual information of classes and clusters over the mean of both entropies: 0 to 1.
-
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    float
 
     Examples
     --------

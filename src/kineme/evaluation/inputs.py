@@ -28,21 +28,7 @@ FPS = 30.0
 def read_result(path: Path, *, fps: float | None = None) -> Segmentation:
     """What a method found, in a file of any label format.
 
-    Parameters
-    ----------
-    path : Path
-        A segment table, intervals, or one label per frame in a text file.
-    fps : float, optional
-        Frames per second, where the file does not tell; of labels in seconds 30 by default.
-
-    Returns
-    -------
-    Segmentation
-
-    Raises
-    ------
-    ReadError
-        It cannot be read or understood, or counts frames without a frame rate.
+    ``fps`` is used where the file does not tell; without, labels in seconds are taken at 30 Hz.
     """
     label_format, content = read_content(path)
     if isinstance(content, Segmentation):
@@ -54,29 +40,8 @@ def read_result(path: Path, *, fps: float | None = None) -> Segmentation:
 def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> Truth:
     """What people say about the recording of a result, at the rate of comparison.
 
-    Parameters
-    ----------
-    path : Path
-        Labels of any format.
-    found : Segmentation
-        The result.
-    fps : float, optional
-        Frames per second of labels that count frames, if not the result's.
-
-    Returns
-    -------
-    Truth
-        Transitions are the spans in which a border may lie.
-
-    Raises
-    ------
-    ReadError
-        It cannot be read or understood, or is of another length than the result.
-
-    Warns
-    -----
-    KinemeWarning
-        Labels were joined or left out, such as those that meet no frame.
+    ``fps`` is that of labels which count frames, if not the result's. What is unusual about the
+    labels is a `KinemeWarning`.
     """
     n_frames, rate = comparison(found)
     label_format, content = read_content(path)
@@ -93,23 +58,9 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
 
 
 def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
-    """The activities of a segmentation as a truth; its transitions are uncertain borders.
+    """The activities of a segmentation as a truth at a rate; transitions are uncertain borders.
 
-    Parameters
-    ----------
-    truth : Segmentation
-        Activities are called by their labels, else by their clusters.
-    n_frames, fps : int and float
-        Length and rate of the comparison.
-
-    Returns
-    -------
-    Truth
-
-    Raises
-    ------
-    ParameterError
-        Another length than the comparison's, or no activity.
+    Activities are called by their labels, else by their clusters.
     """
     rows = truth.activities
     clusters = labelling_of(rows, fps=truth.fps)
@@ -130,22 +81,6 @@ def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
 def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
     """The scores of a result, another segmentation of the recording taken for the truth.
 
-    Parameters
-    ----------
-    truth, found : Segmentation
-        Of one recording.
-
-    Returns
-    -------
-    dict of str to float
-        As `evaluate_segmentation` names them, those that are numbers; none where the truth has
-        no activity at the rate of comparison.
-
-    Raises
-    ------
-    ParameterError
-        The two are of different lengths.
-
     Examples
     --------
     >>> import kineme
@@ -163,42 +98,13 @@ def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
 
 
 def comparison(found: Segmentation) -> tuple[int, float]:
-    """Frames and rate at which a result is compared: 30 Hz, or its own if lower.
-
-    Parameters
-    ----------
-    found : Segmentation
-
-    Returns
-    -------
-    n_frames : int
-    fps : float
-    """
+    """Frames and rate at which a result is compared: 30 Hz, or its own if lower."""
     rate = min(FPS, found.fps)
     return floor((found.n_frames - 1) * rate / found.fps + 1e-9) + 1, rate
 
 
 def score(truth: Truth, found: Segmentation, motion: Motion | None = None) -> dict[str, float]:
-    """Every score; with the recording also the variances within clusters.
-
-    Parameters
-    ----------
-    truth : Truth
-        At the rate of comparison.
-    found : Segmentation
-    motion : Motion, optional
-        The recording.
-
-    Returns
-    -------
-    dict of str to float
-        As `evaluate_segmentation` names them.
-
-    Raises
-    ------
-    ParameterError
-        The recording is of another length than the result.
-    """
+    """Every score, of a truth at the rate of comparison; variances, too, with the recording."""
     data: dict[str, Any] = {}
     if motion is not None:
         from kineme.methods.region_growing.preset import VOEGELE2014
@@ -217,16 +123,7 @@ def score(truth: Truth, found: Segmentation, motion: Motion | None = None) -> di
 
 
 def recording_of(found: Segmentation) -> Path | None:
-    """The file a segmentation was made from, if it is still there and unchanged.
-
-    Parameters
-    ----------
-    found : Segmentation
-
-    Returns
-    -------
-    Path or None
-    """
+    """The file a segmentation was made from, if it is still there and unchanged."""
     from kineme.formats.files import load
 
     source = found.provenance.get("input") or {}

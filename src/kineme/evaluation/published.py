@@ -29,13 +29,14 @@ def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:
     sum of these intersections over the sum of all lengths. Tolerant: the same
     over the actions alone. Labels play no part.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    strict, tolerant : float
+    Examples
+    --------
+    >>> from kineme.evaluation import Labelling
+    >>> truth = Truth(("walk", "run"), [40], [50], [60], frames=100, fps=30)
+    >>> found = Labelling.from_cuts([50], ["0", "1"], frames=100, fps=30)
+    >>> strict, tolerant = strict_and_tolerant(Comparison.of(truth, found))
+    >>> round(strict, 2), round(tolerant, 2)
+    (0.79, 1.0)
     """
     start, stop, certain = _closed_spans(compared.spans.actions)
     found = compared.spans.activities
@@ -65,13 +66,10 @@ def majority_accuracy(compared: Comparison) -> tuple[float, float]:
     A cluster takes the class that more than half of its frames have, else
     none. Cutting into many clusters is not punished.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    everywhere, agreed : float
+    Examples
+    --------
+    >>> majority_accuracy(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10))
+    (0.75, 0.75)
     """
     clusters, classes, frames = contingency(compared.found, compared.truth)
     most = frames.max(axis=1)
@@ -82,9 +80,9 @@ def majority_accuracy(compared: Comparison) -> tuple[float, float]:
 
 def _closed_spans(truth: Truth) -> tuple[Ints, Ints, NDArray[np.bool_]]:
     """First and last frames of actions and uncertain spans in turn, and which are actions."""
-    marks = np.stack([truth.earliest, truth.latest], axis=1).ravel()
-    start = np.concatenate([[0], marks])
-    stop = np.concatenate([marks, [truth.frames - 1]])
+    borders = np.stack([truth.earliest, truth.latest], axis=1).ravel()
+    start = np.concatenate([[0], borders])
+    stop = np.concatenate([borders, [truth.frames - 1]])
     certain = np.zeros(start.size, np.bool_)
     certain[::2] = [label != TRANSITION for label in truth.labels]
     return start, stop, certain

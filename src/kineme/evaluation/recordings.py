@@ -51,23 +51,7 @@ class Reading:
     options: dict[str, Any] = field(default_factory=dict)
 
     def read(self, path: Path) -> Motion | Signals:
-        """The recording in a file.
-
-        Parameters
-        ----------
-        path : Path
-
-        Returns
-        -------
-        Motion or Signals
-
-        Raises
-        ------
-        ReadError
-            Missing or damaged.
-        ParameterError
-            No column is left.
-        """
+        """The recording in a file."""
         from kineme.formats import read
 
         if not (self.columns or self.without):
@@ -88,29 +72,14 @@ class Reading:
         return [f"{UNMET} {pattern!r:.60}" for pattern in unmet]
 
     def takes(self, name: str) -> bool:
-        """Whether a column is one of those wanted; capitals and small letters are the same."""
+        """Whether a column is one of those to take; capitals and small letters are the same."""
         small = name.lower()
-        wanted = not self.columns or any(fnmatchcase(small, p.lower()) for p in self.columns)
-        return wanted and not any(fnmatchcase(small, p.lower()) for p in self.without)
+        fits = not self.columns or any(fnmatchcase(small, p.lower()) for p in self.columns)
+        return fits and not any(fnmatchcase(small, p.lower()) for p in self.without)
 
 
 def recordings_below(folder: Path) -> list[Path]:
-    """The recordings in a folder and in the folders in it.
-
-    Parameters
-    ----------
-    folder : Path
-
-    Returns
-    -------
-    list of Path
-        In the order of their names, those of a folder before those deeper in it.
-
-    Raises
-    ------
-    ReadError
-        There are none.
-    """
+    """The recordings in a folder and in the folders in it, one at least, by name."""
     from kineme.formats.listing import recordings_in
 
     found = recordings_in(folder, recursive=True).recordings
@@ -123,27 +92,6 @@ def segment_by(
     name: str, recording: Motion | Signals, *, n_classes: int, **constants: Any
 ) -> Segmentation:
     """The segments that a method finds in a recording.
-
-    Parameters
-    ----------
-    name : str
-        Of a preset, see `kineme.PRESETS`.
-    recording : Motion or Signals
-        What is segmented.
-    n_classes : int
-        The true number of classes, for methods that have to be told.
-    **constants
-        Of the preset to change.
-
-    Returns
-    -------
-    Segmentation
-        In frames of the recording.
-
-    Raises
-    ------
-    ParameterError
-        There is no such preset, or the recording is too short for it.
 
     Examples
     --------
@@ -161,17 +109,7 @@ def segment_by(
 
 
 def check_method(name: str) -> None:
-    """Refuse what is no method.
-
-    Parameters
-    ----------
-    name : str
-
-    Raises
-    ------
-    ParameterError
-        The message lists those there are.
-    """
+    """ParameterError for what is no method."""
     if name not in PRESETS:
         raise ParameterError(f"no method {name!r}; there are {', '.join(PRESETS)}")
 
@@ -199,7 +137,7 @@ class Sides:
 
     truth: Segmentation
     found: Segmentation
-    moments: ChannelSamples | None
+    samples: ChannelSamples | None
     """Of signals; motions are read again."""
 
 
@@ -217,19 +155,7 @@ class Answer:
 
 
 def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
-    """Each job and its answer, as they come.
-
-    Parameters
-    ----------
-    jobs : sequence of Job
-    processes : int
-        How many at once; 1 stays in this process.
-
-    Yields
-    ------
-    job : Job
-    answer : Answer
-    """
+    """Each job and its answer, as they come."""
     if processes == 1:
         for job in jobs:
             yield job, _answer(job)
@@ -266,26 +192,13 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     found = segment_by(job.method, recording, n_classes=len(classes), **job.constants)
     seconds = clock() - start
     compared = compare(truth, found, classes=classes)
-    sides = sides_of(recording, truth, found) if job.joins else None
+    sides = None
+    if job.joins:
+        samples = channel_samples(recording) if isinstance(recording, Signals) else None
+        sides = Sides(truth, replace(found, hierarchy=None), samples)
     unmet = (str(note) for note in recording.provenance.notes if note.startswith(UNMET))
     notes = (*unmet, *truth.provenance.get("notes", ()))
     return Answer(compared, sides, classes, seconds, recording.duration, notes)
-
-
-def sides_of(recording: Motion | Signals, truth: Segmentation, found: Segmentation) -> Sides:
-    """Both sides as they can be joined with others.
-
-    Parameters
-    ----------
-    recording : Motion or Signals
-    truth, found : Segmentation
-
-    Returns
-    -------
-    Sides
-    """
-    moments = channel_samples(recording) if isinstance(recording, Signals) else None
-    return Sides(truth, replace(found, hierarchy=None), moments)
 
 
 def _failed(error: BaseException) -> Answer:

@@ -2,7 +2,7 @@
 
 A score is a function of a `Comparison`: what people say of a recording, and what a method found
 there. It gives a number for one recording, or None where the two do not tell. Over a folder,
-numbers are averaged; a function that gives a `Ratio` has its parts and wholes summed over the
+numbers are averaged; a function that gives a `Ratio` has its parts and totals summed over the
 recordings first, so that long recordings weigh more.
 
 Other packages add scores by `register`, or by naming them in the entry point group
@@ -31,15 +31,21 @@ Counted = Literal["frames", "segments", "borders", "repetitions", "clusters", "p
 
 
 class Ratio(NamedTuple):
-    """A score that is a part of a whole, such as frames right of all frames."""
+    """A score that is a part of a total, such as frames right of all frames.
+
+    Examples
+    --------
+    >>> Ratio(9, 12).value
+    0.75
+    """
 
     part: float
-    whole: float
+    total: float
 
     @property
     def value(self) -> float:
-        """The part over the whole; nan where there is no whole."""
-        return self.part / self.whole if self.whole else math.nan
+        """The part over the total; nan where there is none."""
+        return self.part / self.total if self.total else math.nan
 
 
 Value = float | Ratio | None
@@ -131,6 +137,16 @@ def register(new: Score, *, replace: bool = False) -> None:
     ------
     ParameterError
         There is a score of this name, or it is none.
+
+    Examples
+    --------
+    >>> def cuts_per_minute(compared):
+    ...     return 60 * (len(compared.found_runs) - 1) * compared.fps / len(compared.found)
+    >>> title, help = "cuts a minute", "how often the result changes"
+    >>> register(Score("cuts", title, help, "borders", cuts_per_minute))
+    >>> value_of(scores()["cuts"].function(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=2)))
+    30.0
+    >>> SCORES.remove("cuts")
     """
     SCORES.register(new, replace=replace)
 
@@ -139,15 +155,6 @@ def results_of(compared: Comparison) -> dict[str, float | Ratio]:
     """All scores of a comparison by name, those left out that cannot be had.
 
     A score that fails costs itself only: a `KinemeWarning` names it.
-
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    dict of str to float or Ratio
-        In the order in which they are shown.
     """
     found = {name: _result(score, compared) for name, score in scores().items()}
     return {name: result for name, result in found.items() if result is not None}
@@ -195,6 +202,14 @@ def evaluate(
     ------
     ParameterError
         Labels or data of another length than the truth.
+
+    Examples
+    --------
+    >>> truth = Truth(("walk", "run"), [40], [50], [60], frames=100, fps=30)
+    >>> found = Labelling.from_cuts([48], ["0", "1"], frames=100, fps=30)
+    >>> result = evaluate(truth, found)
+    >>> result["border_f1"], round(result["strict"], 2)
+    (1.0, 0.79)
     """
     compared = Comparison.of(
         truth,
@@ -219,6 +234,16 @@ def evaluate_segmentation(
     Its clusters are those of its activities where they have any (or labels), else those
     of its primitives. A segment in no cluster goes by its label, and without one is a cluster
     of its own.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> from kineme.evaluation.inputs import truth_of
+    >>> labels = kineme.read_segments(bundled_truth())
+    >>> truth = truth_of(labels, n_frames=labels.n_frames, fps=labels.fps)
+    >>> evaluate_segmentation(truth, labels)["one_to_one"]
+    1.0
     """
     rows = found.activities
     activities = labelling_of(rows, fps=found.fps)
@@ -244,16 +269,6 @@ def value_of(result: Value) -> float:
 def over_all(results: Iterable[Value]) -> float:
     """One number for many recordings: of ratios the sums' ratio, of numbers the mean.
 
-    Parameters
-    ----------
-    results : iterable
-        What a score's function gave for each recording; nan and None are left out.
-
-    Returns
-    -------
-    float
-        nan where there is nothing to average.
-
     Examples
     --------
     >>> over_all([Ratio(1, 10), Ratio(9, 10)]), over_all([0.2, 0.4])
@@ -262,7 +277,7 @@ def over_all(results: Iterable[Value]) -> float:
     kept = list(results)
     ratios = [result for result in kept if isinstance(result, Ratio)]
     if ratios:
-        return Ratio(sum(r.part for r in ratios), sum(r.whole for r in ratios)).value
+        return Ratio(sum(r.part for r in ratios), sum(r.total for r in ratios)).value
     numbers = [value for value in map(value_of, kept) if math.isfinite(value)]
     return sum(numbers) / len(numbers) if numbers else math.nan
 
@@ -280,12 +295,12 @@ def _result(score: Score, compared: Comparison) -> Value:
 
 
 def one_of(
-    measure: Callable[[Comparison], Sequence[float] | None], which: int
+    measure: Callable[[Comparison], Sequence[float] | None], number: int
 ) -> Callable[[Comparison], float | None]:
     """The function of a score that is one of several numbers which are computed together."""
 
     def function(compared: Comparison) -> float | None:
         numbers = compared.once(measure)
-        return None if numbers is None else numbers[which]
+        return None if numbers is None else numbers[number]
 
     return function

@@ -53,15 +53,6 @@ def edit_score(compared: Comparison) -> float:
 def edit_distance(a: Sequence[int], b: Sequence[int]) -> int:
     """The fewest insertions, deletions and exchanges that turn one sequence into another.
 
-    Parameters
-    ----------
-    a, b : sequence of int
-
-    Returns
-    -------
-    int
-        Levenshtein's distance.
-
     Examples
     --------
     >>> edit_distance([1, 2, 3], [1, 3, 3, 4])
@@ -107,18 +98,6 @@ def found_counts(truth: Truth, primitives: Labelling) -> list[int]:
     """How many primitives have their middle in each action of the truth.
 
     Actions are cut at the mean marks; transitions are no primitives.
-
-    Parameters
-    ----------
-    truth : Truth
-        Of one recording at one frame rate.
-    primitives : Labelling
-        See `truth`.
-
-    Returns
-    -------
-    list of int
-        One per action.
     """
     kept = np.array([label != TRANSITION for label in primitives.labels])
     middles = (primitives.starts + primitives.stops)[kept] / 2
@@ -137,6 +116,13 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
     -------
     error, exact : float
         None where the truth knows no count.
+
+    Examples
+    --------
+    >>> truth = Truth(("jump", "rest"), [60], [60], [60], frames=90, fps=30, counts=(3, None))
+    >>> found = Labelling.from_cuts([15, 30, 60], ["0", "0", "0", "1"], frames=90, fps=30)
+    >>> count_errors(Comparison.of(truth, found))
+    (0.0, 1.0)
     """
     truth = compared.spans.actions
     found = found_counts(truth, compared.spans.primitives)
@@ -151,15 +137,15 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
 def _hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
     """How many true segments are found."""
     labels, starts, stops = np.array(true).T
-    met: set[int] = set()
+    hits: set[int] = set()
     for label, start, stop in found:
         inner = np.minimum(stops, stop) - np.maximum(starts, start)
         union = np.maximum(stops, stop) - np.minimum(starts, start)
         overlap = np.where(labels == label, inner / union, -1.0)
         best = int(np.argmax(overlap))
         if overlap[best] > 0 and overlap[best] >= least:
-            met.add(best)  # a second one that meets it is wrong
-    return len(met)
+            hits.add(best)  # a second one that meets it is wrong
+    return len(hits)
 
 
 SCORES = (

@@ -29,10 +29,7 @@ def score_rows(
 ) -> list[tuple[str, list[tuple[str, list[str]]]]]:
     """Groups of rows ready to print: a group's title, and per row its name and cells.
 
-    Parameters
-    ----------
-    columns : mapping of str to mapping of str to float
-        Scores by column title; those that are a number in none are left out.
+    ``columns`` are scores by column title; those that are a number in none are left out.
     """
     titles: dict[str, dict[str, str]] = {}
     for name, score in scores().items():
@@ -61,13 +58,7 @@ def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
-    """Write records as JSON (with the version) or CSV, by suffix.
-
-    Raises
-    ------
-    WriteError
-        Another suffix, or the file cannot be written.
-    """
+    """Write records as JSON (with the version) or CSV, by suffix."""
     suffix = path.suffix.lower()
     if suffix not in OUTPUTS:
         raise WriteError(path, f"scores are written as {' or '.join(OUTPUTS)}")
@@ -90,13 +81,7 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
 
 
 def write_text(text: str, path: Path) -> None:
-    """Write text to a file, whole or not at all.
-
-    Raises
-    ------
-    WriteError
-        The file cannot be written.
-    """
+    """Write text to a file, whole or not at all."""
     with atomic_write(path) as draft:
         draft.write_text(f"{text}\n", encoding="utf-8")
 

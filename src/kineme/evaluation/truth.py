@@ -47,6 +47,12 @@ class Labelling:
     ------
     ParameterError
         Borders do not start at 0 or do not rise, or the number of labels does not fit.
+
+    Examples
+    --------
+    >>> labels = Labelling([0, 30, 50], ("walk", "run"), fps=10)
+    >>> labels.frames, labels.per_frame()[30]
+    (50, 'run')
     """
 
     borders: Ints
@@ -182,6 +188,12 @@ class Truth:
     ------
     ParameterError
         Borders run backwards, overlap or pass the end, or there is no action.
+
+    Examples
+    --------
+    >>> truth = Truth(("walk", "run"), [28], [30], [33], frames=50, fps=10)
+    >>> truth.labelling().labels
+    ('walk', 'transition', 'run')
     """
 
     labels: tuple[str, ...]
@@ -203,12 +215,12 @@ class Truth:
                 f"{len(self.labels)} actions need as many counts, not {len(self.counts)}"
             )
         for name in ("earliest", "mean", "latest"):
-            marks = np.asarray(getattr(self, name), np.int64)
-            object.__setattr__(self, name, marks)
-            if marks.shape != (len(self.labels) - 1,):
+            frames = np.asarray(getattr(self, name), np.int64)
+            object.__setattr__(self, name, frames)
+            if frames.shape != (len(self.labels) - 1,):
                 raise ParameterError(
                     f"{len(self.labels)} actions have {len(self.labels) - 1} borders between "
-                    f"them, not {marks.size} ({name})"
+                    f"them, not {frames.size} ({name})"
                 )
         backwards = np.flatnonzero((self.mean < self.earliest) | (self.latest < self.mean))
         if backwards.size:

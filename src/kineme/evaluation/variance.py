@@ -41,6 +41,13 @@ class ClusterVariance:
 
     Distances are nan for a single segment, variances where there are fewer
     than two values.
+
+    Examples
+    --------
+    >>> found = Labelling.from_cuts([2], ["0", "0"], frames=4, fps=2)
+    >>> (cluster,) = feature_variance([[0.0], [1.0], [0.0], [1.5]], found)
+    >>> cluster.segments, cluster.distance_mean, cluster.length_mean_s
+    (2, 0.25, 1.0)
     """
 
     label: str
@@ -65,6 +72,14 @@ def point_cloud_variance(positions: ArrayLike, found: Labelling) -> list[Cluster
     ------
     ParameterError
         Positions of another shape or length.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())[:60]
+    >>> steps = Labelling.from_cuts([30], ["step", "step"], frames=60, fps=60)
+    >>> point_cloud_variance(motion.positions, steps)[0].segments
+    2
     """
     points = np.asarray(positions, np.float64)
     if points.ndim != 3 or points.shape[2] != 3:
@@ -87,6 +102,12 @@ def feature_variance(features: ArrayLike, found: Labelling) -> list[ClusterVaria
     ------
     ParameterError
         Features of another shape or length.
+
+    Examples
+    --------
+    >>> found = Labelling.from_cuts([2], ["0", "0"], frames=4, fps=2)
+    >>> feature_variance([[0.0], [1.0], [0.0], [1.5]], found)[0].distance_mean
+    0.25
     """
     vectors = np.asarray(features, np.float64)
     if vectors.ndim != 2:
@@ -97,7 +118,13 @@ def feature_variance(features: ArrayLike, found: Labelling) -> list[ClusterVaria
 def overall(clusters: list[ClusterVariance]) -> tuple[float, float]:
     """Mean distance and mean variance over the clusters of at least two segments.
 
-    Clusters weigh alike, as bars of a figure do; nan where there is none.
+    Clusters weigh the same, as bars of a figure do; nan where there is none.
+
+    Examples
+    --------
+    >>> found = Labelling.from_cuts([2], ["0", "0"], frames=4, fps=2)
+    >>> overall(feature_variance([[0.0], [1.0], [0.0], [1.5]], found))
+    (0.25, 0.0)
     """
     shared = [c for c in clusters if c.segments > 1]
     if not shared:

@@ -77,14 +77,14 @@ def labels_of(recording: Mapping[str, Any], path: Path) -> Labels:
     """The labels of one recording of BABEL as Python has it."""
     length = _seconds(recording, "dur", path)
     annotation = recording.get("frame_ann") or recording.get("seq_ann")
-    whole = not recording.get("frame_ann")
+    one_span = not recording.get("frame_ann")
     labels = annotation.get("labels") if isinstance(annotation, dict) else None
     if not isinstance(labels, list) or not all(isinstance(label, dict) for label in labels):
         raise ReadError(path, "has no labels: neither frame_ann nor seq_ann holds a list of them")
     spans = [
         Span(
-            0.0 if whole else _seconds(label, "start_t", path),
-            length if whole else _seconds(label, "end_t", path),
+            0.0 if one_span else _seconds(label, "start_t", path),
+            length if one_span else _seconds(label, "end_t", path),
             _text(label),
         )
         for label in labels

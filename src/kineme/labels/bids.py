@@ -24,7 +24,7 @@ from kineme._files import atomic_write
 from kineme._json import loaded
 from kineme.errors import ReadError, WriteError
 from kineme.labels import pairs
-from kineme.labels.delimited import number, read_rows, whole, write_rows
+from kineme.labels.delimited import integer, number, read_rows, write_rows
 from kineme.labels.heads import columns
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
@@ -116,7 +116,7 @@ def _span(cells: dict[str, str], path: Path, line: int) -> Span:
         onset + length,
         text,
         level,
-        -1 if cluster in (MISSING, "") else whole(cluster, "cluster", path, line),
+        -1 if cluster in (MISSING, "") else integer(cluster, "cluster", path, line),
         math.nan if confidence in (MISSING, "") else number(confidence, "confidence", path, line),
     )
 

@@ -94,7 +94,7 @@ def _order(event: dict[str, Any]) -> tuple[int, bool]:
 
 def _paired(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
     """Each STOP with the START of the same behavior before it."""
-    begun: dict[tuple[str, ...], float] = {}
+    starts: dict[tuple[str, ...], float] = {}
     for line, cells in rows:
         kind = (cells.get("Behavior type") or cells.get("Status") or "").strip().upper()
         if kind == "POINT":
@@ -102,15 +102,15 @@ def _paired(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
         same = ("Observation id", "Subject", "Behavior", "Behavioral category")
         key = tuple(cells.get(name, "") for name in same)
         time = number(cells["Time"], "Time", path, line)
-        if kind == "START" and key not in begun:
-            begun[key] = time
-        elif kind == "STOP" and key in begun:
-            yield Span(begun.pop(key), time, cells["Behavior"], _level(cells))
+        if kind == "START" and key not in starts:
+            starts[key] = time
+        elif kind == "STOP" and key in starts:
+            yield Span(starts.pop(key), time, cells["Behavior"], _level(cells))
         else:
             reason = f"{cells['Behavior']!r:.60} has a {kind!r:.20} where START and STOP alternate"
             raise ReadError(path, reason, line=line)
-    if begun:
-        raise ReadError(path, f"{next(iter(begun))[2]!r:.60} has a START without a STOP")
+    if starts:
+        raise ReadError(path, f"{next(iter(starts))[2]!r:.60} has a START without a STOP")
 
 
 def _aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:

@@ -67,10 +67,10 @@ def read(path: Path, names: Collection[str] | None = None) -> Labels:
     inside = [(at, name) for at, name in file.events if 0 <= at < length]
     if not inside:
         raise ReadError(path, "has no events")
-    known = sorted({name for _, name in inside})
+    present = sorted({name for _, name in inside})
     for name in names or ():
-        if name not in known:
-            raise ReadError(path, f"has no event {name!r}; there are {', '.join(known)}")
+        if name not in present:
+            raise ReadError(path, f"has no event {name!r}; there are {', '.join(present)}")
     frames = {round(at * file.rate): name for at, name in inside if not names or name in names}
     starts = sorted(frames)
     stops = [*starts[1:], len(file.points)]

@@ -20,7 +20,7 @@ from pathlib import Path
 from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.csv_table import roundest_rate
-from kineme.labels.delimited import number, read_rows, whole, write_rows
+from kineme.labels.delimited import integer, number, read_rows, write_rows
 from kineme.labels.heads import columns
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
@@ -52,7 +52,7 @@ def read(path: Path) -> Labels:
     seconds: tuple[int, float] | None = None
     with path.open(encoding="utf-8-sig", newline="") as file:
         for line, cells in read_rows(file, path, [NEEDED]):
-            start, stop = (whole(cells[name], name, path, line) for name in NEEDED[1:])
+            start, stop = (integer(cells[name], name, path, line) for name in NEEDED[1:])
             spans[Span(start, stop, cells.get("label", ""))] = None
             sources[cells["file"]] = None
             if cells.get("stop_s"):

@@ -2,9 +2,9 @@
 
 A recording that pauses has fewer seconds than its clock, and one that begins at half past nine
 has none of those that its clock shows. People label by the clock: of the time column, of the day,
-since 1970. Where more of the labels' time meets the recording if they are counted from its first
-frame, pauses included, or if they count frames as the package's own tables do, they are taken so,
-and a note says it. Labels that meet nothing are left out by name.
+since 1970. They may also be counted from the first frame, pauses included, or without
+pauses, as the package's own tables do. That by which most of their time lies in the recording is
+taken, and a note says so. Labels that meet nothing are left out by name.
 """
 
 from __future__ import annotations
@@ -27,19 +27,6 @@ NAMED = 4
 def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
     """The labels in seconds of the recording, and notes on how they were taken.
 
-    Parameters
-    ----------
-    labels : Labels
-        Those that count frames stay as they are.
-    clock : Clock or None
-        Of the recording; None where its seconds are those of its frames.
-    length_s : float
-        Of the recording: frames over the rate.
-
-    Returns
-    -------
-    Labels
-
     Examples
     --------
     >>> labels = Labels([Span(50, 60, "walk"), Span(100, 130, "rest"), Span(660, 700, "run")])
@@ -51,20 +38,21 @@ def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
     """
     if clock is None or labels.unit != "seconds" or not labels.spans:
         return labels
-    given = np.array([span[:2] for span in labels.spans], np.float64)
-    seconds, said = _taken(given, clock, length_s)
+    times = np.array([span[:2] for span in labels.spans], np.float64)
+    seconds, remarks = _seconds(times, clock, length_s)
     begin, end = np.maximum(seconds[:, 0], 0.0), seconds[:, 1]
-    backward = given[:, 1] < given[:, 0]
+    backward = times[:, 1] < times[:, 0]
     meets = backward | ((begin < np.minimum(end, length_s)) & (end > 0))
-    met = [
+    placed = [
         span._replace(start=float(a), stop=float(b))
         for span, a, b in zip(labels.spans, begin, end, strict=True)
     ]
     lost = [span for span, kept in zip(labels.spans, meets, strict=True) if not kept]
     notes = (*labels.notes, *lost_labels(lost, "s"))
-    spans = [span for span, kept in zip(met, meets, strict=True) if kept]
-    remarks = (*labels.remarks, *said)
-    return replace(labels, spans=spans, length=None, notes=notes, remarks=remarks)
+    spans = [span for span, kept in zip(placed, meets, strict=True) if kept]
+    return replace(
+        labels, spans=spans, length=None, notes=notes, remarks=(*labels.remarks, *remarks)
+    )
 
 
 def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
@@ -76,9 +64,9 @@ def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
     return (f"meeting no frame, left out: {', '.join(named[:NAMED])}{more}",)
 
 
-def _taken(given: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
+def _seconds(times: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
     """The seconds that starts and stops stand for, and a note unless they are the clock's own."""
-    ways: tuple[tuple[Callable[[ArrayLike], Floats], tuple[str, ...]], ...] = (
+    candidates: tuple[tuple[Callable[[ArrayLike], Floats], tuple[str, ...]], ...] = (
         (clock.second, ()),
         (
             clock.since_first().second,
@@ -86,11 +74,11 @@ def _taken(given: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[
         ),
         (np.asarray, ("times taken as frames over the rate, without pauses",)),
     )
-    taken = [(way(given), note) for way, note in ways]
-    return max(taken, key=lambda one: _met(one[0], length_s))
+    answers = [(seconds(times), remark) for seconds, remark in candidates]
+    return max(answers, key=lambda answer: _shared_seconds(answer[0], length_s))
 
 
-def _met(seconds: Floats, length_s: float) -> float:
+def _shared_seconds(seconds: Floats, length_s: float) -> float:
     """Seconds of the recording that labels meet, to the millisecond."""
     inside = np.clip(seconds, 0.0, length_s)
     return round(float(np.maximum(inside[:, 1] - inside[:, 0], 0.0).sum()), 3)

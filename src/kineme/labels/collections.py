@@ -50,35 +50,17 @@ class LabelSource:
     labels: Labels | None = None
 
     def of(self, *, n_frames: int, fps: float, clock: Clock | None = None) -> Segmentation:
-        """The labels in frames of their recording.
-
-        Parameters
-        ----------
-        n_frames, fps : int and float
-            Of the recording.
-        clock : Clock, optional
-            The one by which seconds are counted, where frames over the rate are not.
-
-        Returns
-        -------
-        Segmentation
-            What no label covers is a transition.
-
-        Raises
-        ------
-        ReadError
-            The file is damaged, or its labels are not of such a recording.
-        """
+        """The labels in frames of their recording; what none covers is a transition."""
         content: Labels | Segmentation | None = self.labels
         name = csv_table.FORMAT.name
         if content is None:
-            known, content = read_content(self.path)
-            name = known.name
+            label_format, content = read_content(self.path)
+            name = label_format.name
         if isinstance(content, Labels):
-            told = content.fps or fps
-            timed = by_clock(content, clock, length_s=n_frames / told)
-            labels = in_frames(timed, told, n_frames=n_frames)
-            return as_segmentation(labels, self.path, name, fps=told, n_frames=n_frames)[0]
+            rate = content.fps or fps
+            timed = by_clock(content, clock, length_s=n_frames / rate)
+            labels = in_frames(timed, rate, n_frames=n_frames)
+            return as_segmentation(labels, self.path, name, fps=rate, n_frames=n_frames)[0]
         if content.n_frames != n_frames:
             raise ReadError(
                 self.path, f"is of {content.n_frames} frames, but the recording has {n_frames}"
@@ -96,23 +78,8 @@ def labels_of(
 ) -> Mapping[Path, LabelSource]:
     """Where the labels of each recording are; recordings that have none are left out.
 
-    Parameters
-    ----------
-    recordings : iterable of Path
-        Their files.
-    labels : path-like
-        A table with a column ``recording``, or a folder with a file for each.
-
-    Returns
-    -------
-    Mapping of Path to LabelSource
-        In the order of the recordings.
-
-    Raises
-    ------
-    ReadError
-        There is no such file or folder, the table cannot be understood, or nothing in it is
-        of any of the recordings.
+    They are in a table with a column ``recording``, or in a folder with a file for each. ReadError
+    where nothing there is of any of the recordings.
     """
     files, home = list(recordings), Path(labels)
     named = _in_folder(home) if home.is_dir() else _in_table(home)
@@ -120,9 +87,9 @@ def labels_of(
     found = {path: source for path, source in pairs if source is not None}
     if not found:
         first = files[0].stem if files else "none"
-        whose = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
+        owners = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
         of = ", ".join(map(repr, named)) or "none"
-        raise ReadError(labels, f"has no labels of {whose}{first!r}, but of {of:.60}")
+        raise ReadError(labels, f"has no labels of {owners}{first!r}, but of {of:.60}")
     return found
 
 
@@ -134,27 +101,7 @@ def labels_for(
     fps: float,
     clock: Clock | None = None,
 ) -> Segmentation:
-    """What a label file says of a recording: its own rows, where others are in the table, too.
-
-    Parameters
-    ----------
-    recording : Path
-        Its file.
-    labels : path-like
-        A file of any label format, or a table with a column ``recording``.
-    n_frames, fps, clock : int, float and Clock
-        Of the recording.
-
-    Returns
-    -------
-    Segmentation
-        What no label covers is a transition.
-
-    Raises
-    ------
-    ReadError
-        The file cannot be understood, is of another length, or names other recordings only.
-    """
+    """What a label file says of a recording: its own rows, where others are in the table, too."""
     table = format_to_read(labels) is csv_table.FORMAT and "recording" in columns(Path(labels))
     if not table:
         return read_segments(labels, fps=fps, n_frames=n_frames, clock=clock)
@@ -163,42 +110,14 @@ def labels_for(
 
 
 def strays_of(recordings: Iterable[Path], labels: str | PathLike[str]) -> list[str]:
-    """The recordings that a table has labels of and that are not there.
-
-    Parameters
-    ----------
-    recordings : iterable of Path
-        Those that are there.
-    labels : path-like
-        As for `labels_of`; a folder has none.
-
-    Returns
-    -------
-    list of str
-        As the table names them.
-    """
+    """The recordings that a table names and that are not there; of a folder none."""
     home = Path(labels)
-    there = {name for path in recordings for name in (path.name, path.stem)}
-    return [] if home.is_dir() else [name for name in _in_table(home) if name not in there]
+    present = {name for path in recordings for name in (path.name, path.stem)}
+    return [] if home.is_dir() else [name for name in _in_table(home) if name not in present]
 
 
 def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     """The labels as spans of a recording's frames that neither overlap nor run backwards.
-
-    Parameters
-    ----------
-    labels : Labels
-        In seconds or frames.
-    fps : float
-        Of the recording, whose frame i is at i / fps seconds.
-    n_frames : int
-        Its length; labels that reach beyond are cut off there.
-
-    Returns
-    -------
-    Labels
-        In frames, with a note where labels were cut or left out: those that meet no frame by
-        their names.
 
     Examples
     --------
@@ -210,15 +129,15 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     """
     rate = fps if labels.unit == "seconds" else 1.0
     backward = sum(span.stop < span.start for span in labels.spans)
-    whole = [
+    rounded = [
         span._replace(
             start=max(0, _first_frame(span.start * rate, n_frames)),
             stop=_first_frame(span.stop * rate, n_frames),
         )
         for span in labels.spans
     ]
-    forward = [span for span in whole if span.start < span.stop]
-    pairs = list(zip(labels.spans, whole, strict=True))
+    forward = [span for span in rounded if span.start < span.stop]
+    pairs = list(zip(labels.spans, rounded, strict=True))
     lost = [old for old, new in pairs if old.start <= old.stop and new.start >= new.stop]
     beyond = sum(old.stop * rate > n_frames + 1 for old, new in pairs if new.start < new.stop)
     before = sum(old.start * rate < -1 for old, new in pairs if new.start < new.stop)
@@ -228,13 +147,13 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
         apart = [cut for old in kept for cut in _cut(old, new)]
         overlaps += apart != kept
         kept = [*apart, new]
-    told = {
+    counts = {
         "overlapping others": overlaps,
         "running backwards, left out": backward,
         "beginning before the start, cut off there": before,
         "reaching beyond the end, cut off there": beyond,
     }
-    notes = [f"{what}: {counted(count, 'label')}" for what, count in told.items() if count]
+    notes = [f"{what}: {counted(count, 'label')}" for what, count in counts.items() if count]
     notes += lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
     return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
 

@@ -37,7 +37,7 @@ from kineme.labels.heads import separator
 from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span
-from kineme.segments.editing.comments import from_rows, in_rows
+from kineme.segments.editing.annotating import from_rows, in_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import (
     COLUMNS,
@@ -129,8 +129,8 @@ def intervals(path: Path) -> dict[str, Labels]:
     with path.open(encoding="utf-8-sig", newline="") as file:
         comma = separator(file.readline())
         file.seek(0)
-        wanted = [(*names, "label") for names in SPANS.values()]
-        for line, row in read_rows(file, path, wanted, delimiter=comma):
+        headers = [(*names, "label") for names in SPANS.values()]
+        for line, row in read_rows(file, path, headers, delimiter=comma):
             unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
             cells = {name: row[name] if comma == "," else dotted(row[name]) for name in SPANS[unit]}
             convert = _second if unit == "seconds" else number
@@ -203,8 +203,8 @@ def _cell(text: str | None, name: str, path: Path, line: int, *, commas: bool) -
     try:
         return kind(dotted(text) if commas else text)
     except ValueError as error:
-        wanted = "a whole number" if kind is int else "a number"
-        raise ReadError(path, f"{name} must be {wanted}, not {text!r}", line=line) from error
+        needed = "a whole number" if kind is int else "a number"
+        raise ReadError(path, f"{name} must be {needed}, not {text!r}", line=line) from error
 
 
 def _digest(columns: Mapping[str, Any]) -> str:

@@ -28,13 +28,13 @@ def read_rows(
             if names and any(cells):
                 texts = dict(zip(names, map(from_text, cells), strict=False))
                 yield rows.line_num, dict.fromkeys(names, "") | texts
-            elif not names and any(set(wanted) <= set(cells) for wanted in header):
+            elif not names and any(set(needed) <= set(cells) for needed in header):
                 names = cells
     except csv.Error as error:
         raise ReadError(path, f"is not a valid table: {error}", line=rows.line_num) from error
     if not names:
-        wanted = " or ".join(", ".join(map(repr, names)) for names in header)
-        raise ReadError(path, f"has no header line with the columns {wanted}")
+        needed = " or ".join(", ".join(map(repr, names)) for names in header)
+        raise ReadError(path, f"has no header line with the columns {needed}")
 
 
 def write_rows(
@@ -60,7 +60,7 @@ def number(text: str, name: str, path: Path, line: int) -> float:
     return value
 
 
-def whole(text: str, name: str, path: Path, line: int) -> int:
+def integer(text: str, name: str, path: Path, line: int) -> int:
     """``text`` as a whole number."""
     value = number(text, name, path, line)
     if value != int(value):

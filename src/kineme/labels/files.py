@@ -62,16 +62,18 @@ def write_segments(
     """
     check_type(segmentation, Segmentation, "write_segments", "kineme.segment(motion) gives one")
     check_path(path, "write_segments")
-    known = format_to_write(path, format)
-    if known.holds == "all" and level is not None:
-        raise ParameterError(f"{known.name} always holds both levels: leave out level={level!r}")
-    if level is None and known.holds == "level":
+    label_format = format_to_write(path, format)
+    if label_format.holds == "all" and level is not None:
+        raise ParameterError(
+            f"{label_format.name} always holds both levels: leave out level={level!r}"
+        )
+    if level is None and label_format.holds == "level":
         level = "activity"
     rows = list(segmentation if level is None else segmentation.level(level))
     if not rows:
         raise WriteError(path, f"there are no segments of level {level!r}")
-    if known.write is not None:
-        known.write(rows, segmentation, Path(path))
+    if label_format.write is not None:
+        label_format.write(rows, segmentation, Path(path))
 
 
 def read_segments(
@@ -131,19 +133,19 @@ def read_segments(
         raise ParameterError(f"fps is {fps!r:.60}: give frames per second, above 0")
     if n_frames is not None and not (is_number(n_frames) and n_frames >= 1):
         raise ParameterError(f"n_frames is {n_frames!r:.60}: a recording has at least 1 frame")
-    known, content = read_content(path, format)
-    told = content.fps
+    label_format, content = read_content(path, format)
+    rate = content.fps
     if isinstance(content, Labels):
         if clock is not None and fps is not None and n_frames is not None:
             content = by_clock(content, clock, length_s=n_frames / fps)
         with reading(path):
             content, unusual = as_segmentation(
-                content, Path(path), known.name, fps=fps, n_frames=n_frames
+                content, Path(path), label_format.name, fps=fps, n_frames=n_frames
             )
         if unusual:
             warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
-    if fps is not None and told is not None and not isclose(told, fps, rel_tol=1e-6):
-        raise ReadError(path, f"says {told:g} frames per second, but fps is {fps:g}")
+    if fps is not None and rate is not None and not isclose(rate, fps, rel_tol=1e-6):
+        raise ReadError(path, f"says {rate:g} frames per second, but fps is {fps:g}")
     if n_frames is not None and content.n_frames != n_frames:
         raise ReadError(path, f"is of {content.n_frames} frames, but n_frames is {n_frames}")
     if clock is None or "clock" in content.provenance:
@@ -154,13 +156,7 @@ def read_segments(
 def read_content(
     path: str | PathLike[str], name: str | None = None
 ) -> tuple[LabelFormat, Segmentation | Labels]:
-    """The format of a file and what it holds by itself, before anything is filled in.
-
-    Raises
-    ------
-    ReadError
-        Missing, damaged, or of another format.
-    """
-    known = format_to_read(path, name)
+    """The format of a file and what it holds by itself, before anything is filled in."""
+    label_format = format_to_read(path, name)
     with reading(path):
-        return known, known.read(Path(path))
+        return label_format, label_format.read(Path(path))

@@ -47,19 +47,11 @@ from kineme.labels.label_format import LabelFormat
 from kineme.segments.annotation import Annotation, parted
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Column, Segment, lacking, present_names
+from kineme.segments.table import COLUMNS, Segment, lacking, present_names
 
 SCHEMA = "kineme.segments/2"
-ABOUT = (
-    "The segments of a recording. The confidence of a row is the probability that what its kind "
-    "claims is right: of an activity its cluster, of a primitive the number of repetitions of its "
-    "activity; transitions and events have none. The border_confidence is the probability that it "
-    "starts where it says. With the published presets, and for labels from a knowledge base, the "
-    "confidence is a share and no probability."
-)
-"""The head of the schema."""
 OLDER = ("kineme.segments/1",)
-HELD = tuple(name for name, column in COLUMNS.items() if not column.derived)
+INDEPENDENT = tuple(name for name, column in COLUMNS.items() if not column.derived)
 """Of the tables at other details; the rest follows from these."""
 
 
@@ -159,76 +151,6 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
         raise ReadError(path, f'"hierarchy" is none: {error}') from error
 
 
-def json_schema() -> dict[str, Any]:
-    """The JSON Schema of such a file, its columns as the table declares them."""
-    columns = {name: _schema_of(column) for name, column in COLUMNS.items()}
-    text, number, names = {"type": "string"}, {"type": "number"}, {"type": ["string", "null"]}
-    provenance = {
-        "kineme": text,
-        "preset": text,
-        "parameters": {"type": "object"},
-        "input": _object({"path": names, "format": names, "sha256": names}),
-        "notes": {"type": "array", "items": text},
-    }
-    positive = {"type": "number", "exclusiveMinimum": 0}
-    needed = [name for name in HELD if COLUMNS[name].default is None] + ["cluster"]
-    lists = {"type": "object", "required": needed, "additionalProperties": {"type": "array"}}
-    level = _object({"detail": positive, "columns": lists}, required=["detail"])
-    levels = {"type": "array", "minItems": 1, "items": level}
-    head = {
-        "schema": {"const": SCHEMA},
-        "n_frames": {"type": "integer", "minimum": 1},
-        "fps": positive,
-        "provenance": _object(provenance),
-        "timings": {"type": "object", "additionalProperties": number},
-    }
-    of, whole = {"enum": [*COLUMNS["level"].allowed]}, {"type": "integer", "minimum": 0}
-    span = {"type": "array", "prefixItems": [of, whole, whole], "minItems": 3}
-    comment = {"type": "array", "prefixItems": [of, whole, text], "minItems": 3}
-    annotation = {
-        "checked": {"type": "array", "items": span},
-        "by_hand": {"type": "array", "items": span},
-        "comments": {"type": "array", "items": comment},
-        "cluster_names": {"type": "object", "additionalProperties": text},
-        "corrections": whole,
-    }
-    rows = {"type": "array", "minItems": 1, "items": _object(columns, required=lacking(()))}
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": SCHEMA,
-        "description": ABOUT,
-        **_object(
-            {
-                **head,
-                "annotation": _object(annotation),
-                "hierarchy": _object(
-                    {"detail": positive, "levels": levels}, required=["detail", "levels"]
-                ),
-                "segments": rows,
-            },
-            required=[*head, "segments"],
-        ),
-    }
-
-
-def _object(properties: dict[str, Any], *, required: Sequence[str] = ()) -> dict[str, Any]:
-    need = {"required": [*required]} if required else {}
-    return {"type": "object", **need, "properties": properties}
-
-
-def _schema_of(column: Column) -> dict[str, Any]:
-    """The schema of a cell."""
-    kinds: dict[Any, str] = {str: "string", int: "integer", float: "number"}
-    kind: str | list[str] = kinds[column.type]
-    if column.type is float and column.default is not None:  # null where nothing is known
-        kind = [kinds[float], "null"]
-    cell: dict[str, Any] = {"enum": [*column.allowed]} if column.allowed else {"type": kind}
-    if column.least is not None:
-        cell["minimum"] = column.least
-    unit = {"unit": column.unit} if column.unit else {}
-    return {"description": column.meaning, **cell, **unit}
-
-
 def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
     """A hierarchy as JSON holds it."""
     levels: list[dict[str, Any]] = []
@@ -237,7 +159,7 @@ def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
         if detail != hierarchy.detail:
             columns = table.columns()
             levels[-1]["columns"] = {
-                name: [_cell(value) for value in columns[name].tolist()] for name in HELD
+                name: [_cell(value) for value in columns[name].tolist()] for name in INDEPENDENT
             }
     return {"detail": hierarchy.detail, "levels": levels}
 

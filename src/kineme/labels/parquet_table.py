@@ -18,7 +18,7 @@ from kineme.formats.files import load
 from kineme.labels.heads import tail
 from kineme.labels.json_table import head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
-from kineme.segments.editing.comments import from_rows, in_rows
+from kineme.segments.editing.annotating import from_rows, in_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import (
     COLUMNS,
@@ -51,16 +51,16 @@ def read(path: Path) -> Segmentation:
     content = load(path)
     file = parquet_file(content)
     metadata = file.schema_arrow.metadata or {}
-    there = file.schema_arrow.names
-    places = present_names({name: name for name in there})
+    names = file.schema_arrow.names
+    places = present_names({name: name for name in names})
     if KEY not in metadata or lacking(places):
         raise ReadError(path, "is a Parquet file, but not a segment table written by kineme")
     head = parse(metadata[KEY].decode(errors="replace"), path)
-    wanted = {name: places[name] for name in COLUMNS if name in places}
-    table = parquet_columns(content, file, [*wanted.values()])
-    columns = {name: table.column(place).to_numpy() for name, place in wanted.items()}
+    present = {name: places[name] for name in COLUMNS if name in places}
+    table = parquet_columns(content, file, [*present.values()])
+    columns = {name: table.column(place).to_numpy() for name, place in present.items()}
     found = with_head(columns, head, path)
-    if COMMENT not in there:
+    if COMMENT not in names:
         return found
     comments = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
     return from_rows(found, [str(text or "") for text in comments])

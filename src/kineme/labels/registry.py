@@ -68,6 +68,12 @@ def register(new: LabelFormat, *, replace: bool = False) -> None:
     ------
     ParameterError
         There is a format of this name, or it is none.
+
+    Examples
+    --------
+    >>> register(label_formats()["csv"], replace=True)
+    >>> label_formats()["csv"].suffixes
+    ('.csv', '.tsv')
     """
     FORMATS.register(new, replace=replace)
 
@@ -79,21 +85,18 @@ def written_suffixes() -> tuple[str, ...]:
     -------
     tuple of str
         Lower case, with the dot, each once.
+
+    Examples
+    --------
+    >>> written_suffixes()[:3]
+    ('.csv', '.json', '.parquet')
     """
     writers = [candidate for candidate in label_formats().values() if candidate.write]
     return tuple(dict.fromkeys(candidate.written_suffix.lower() for candidate in writers))
 
 
 def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
-    """The format in which a file is read: the one named, else by its content and suffix.
-
-    Raises
-    ------
-    ParameterError
-        There is no format of this name.
-    ReadError
-        No format has the file's suffix.
-    """
+    """The format in which a file is read: the one named, else by its content and suffix."""
     if name is not None:
         return _named(name)
     suffix = Path(path).suffix.lower()
@@ -106,15 +109,7 @@ def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelF
 
 
 def format_to_write(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
-    """The format in which a file is written: the one named, else the first with its suffix.
-
-    Raises
-    ------
-    ParameterError
-        There is no format of this name.
-    WriteError
-        No format is written with the file's suffix, or the named one is only read.
-    """
+    """The format in which a file is written: the one named, else the first with its suffix."""
     if name is not None:
         chosen = _named(name)
         if chosen.write is None:

@@ -29,14 +29,20 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment, kind_of
 
 TOO_FAR = 2**53
-"""Frames that a float no longer tells from their neighbours."""
+"""Frames from which a float cannot tell neighbours apart."""
 COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "confidence")
 
 Row = tuple[Level, Kind, int, int, int, str, float]
 
 
 class Span(NamedTuple):
-    """From ``start`` to ``stop``, in the unit of its `Labels`, something was called ``text``."""
+    """From ``start`` to ``stop``, in the unit of its `Labels`, something was called ``text``.
+
+    Examples
+    --------
+    >>> Span(1.5, 4.0, "walk").level
+    'activity'
+    """
 
     start: float
     stop: float
@@ -65,6 +71,12 @@ class Labels:
         What is worth a warning, such as labels that had to be joined.
     remarks : tuple of str
         What was inferred, for the provenance alone.
+
+    Examples
+    --------
+    >>> labels = Labels([Span(0, 4, "walk"), Span(5, 9, "run")], fps=30, length=10)
+    >>> [span.text for span in labels.spans]
+    ['walk', 'run']
     """
 
     spans: Sequence[Span]
@@ -95,38 +107,15 @@ def meaning(text: str) -> tuple[Kind, int, str]:
 def as_segmentation(
     labels: Labels, path: Path, name: str, *, fps: float | None = None, n_frames: int | None = None
 ) -> tuple[Segmentation, tuple[str, ...]]:
-    """The segmentation that labels speak of, and what of it is worth a warning.
+    """The segmentation that labels speak of, and sentences on what of it is worth a warning.
 
-    Where all spans are of the primitive level they become activities, which every
-    segmentation has. Counts of repetitions, where the labels have some, are kept in the
-    provenance, ``["labels"]["counts"]``: one per row of the activity level, or None.
-
-    Parameters
-    ----------
-    labels : Labels
-        What a file holds.
-    path : Path
-        Where it was read, for messages and the provenance.
-    name : str
-        Of the format.
-    fps, n_frames : float and int, optional
-        Of the recording, where the labels leave them out.
-
-    Returns
-    -------
-    Segmentation
-        Tiled: what no label covers is a transition.
-    tuple of str
-        Sentences for a `KinemeWarning`; they are in the provenance's notes, too.
-
-    Raises
-    ------
-    ReadError
-        No spans, an unknown frame rate, or spans that overlap or lie outside.
+    What no label covers is a transition. Where all spans are of the primitive level they become
+    activities, which every segmentation has. Counts of repetitions, where the labels have some, are
+    kept in the provenance, ``["labels"]["counts"]``: one per row of the activity level, or None.
     """
     if not labels.spans:
-        which = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
-        raise ReadError(path, f"has no labels{which}")
+        recording = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
+        raise ReadError(path, f"has no labels{recording}")
     rate = fps or labels.fps
     if rate is None:
         raise ReadError(

@@ -9,15 +9,15 @@ A library is a folder. `build` fills it from recordings; `Library` opens it.
                               NAME is a digest of what they hold; of large libraries the index
 ``pieces/KEY.parquet``        segments and embeddings of one recording, as it was found alone
 ``pieces/KEY.npy``            its matching features, float32 (samples, dims)
-``pieces/KEY.windows.npy``    their windows, int8 (windows, 32): see `kineme.library.windows`
-``pieces/KEY.moments.npy``    of signals: means and deviations of channels, five times a second
+``pieces/KEY.*.npy``          of bodies, windows of these: see `kineme.library.windows`; of signals,
+                              means and deviations of channels, five times a second
 ``edits.json``                what people said: names, merges and splits of clusters
 ``seen.json``                 size and time of every file when it was read; may be deleted
 ============================= ==================================================================
 
-**One piece a recording.** KEY is a digest of the files that a recording is read from (an AMC's
-skeleton is one of them), of the version of kineme, and of every constant and option. A piece that
-is there is never made again, so a build that was ended at any moment goes on where it was, and
+**One analysis a recording.** KEY is a digest of the files that a recording is read from (an AMC's
+skeleton is one of them), of the version of kineme, and of every constant and option. An analysis
+that is there is never made again, so a build that was ended goes on where it was, and
 what a library holds depends neither on the number of processes nor on the order of their work.
 
 **One vocabulary.** The clusters of single recordings are joined over all of them by what they

@@ -11,17 +11,17 @@ MOST = np.int32(np.iinfo(np.int32).max)
 
 
 @njit("void(Array(int8, 2, 'C', readonly=True), int32[:, ::1], int32, int32[::1])", **OPTIONS)
-def least_squares(windows, wanted, finer, least):
-    """The square of each window's distance from the nearest of what is wanted.
+def least_squares(windows, parts, finer, least):
+    """The square of each window's distance from the nearest part of an example.
 
-    ``windows`` (n, numbers) are whole numbers, ``wanted`` (m, numbers) those of parts as much
+    ``windows`` (n, numbers) are whole numbers, ``parts`` (m, numbers) those of an example, as much
     ``finer``, and so is what is left in ``least`` (n), squared.
     """
     for i in range(len(windows)):
         window = windows[i]
         best = MOST
-        for j in range(len(wanted)):
-            other = wanted[j]
+        for j in range(len(parts)):
+            other = parts[j]
             total = np.int32(0)
             for k in range(len(other)):
                 apart = np.int32(finer * window[k] - other[k])

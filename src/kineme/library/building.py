@@ -16,11 +16,12 @@ from kineme.library.gathering import gather
 from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import VOCABULARY, Settings
 from kineme.library.sources import listed, names_of
+from kineme.library.storage.analyses import has_analysis
 from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import (
+    ANALYSES,
     HEAD,
     LOCK_EDITS,
-    PIECES,
     SCHEMA,
     TABLES,
     arrow,
@@ -28,7 +29,6 @@ from kineme.library.storage.layout import (
     write_json,
     writer_lock,
 )
-from kineme.library.storage.pieces import has_piece
 from kineme.library.storage.places import lies_in, place, reaching, remove_folder
 from kineme.library.storage.tables import read_table, write_tables
 from kineme.library.vocabulary.numbering import read_removed, removed_after, write_removed
@@ -36,10 +36,10 @@ from kineme.library.vocabulary.numbering import read_removed, removed_after, wri
 Head = Mapping[str, Any]
 """What ``library.json`` says; nothing where there is none yet."""
 Former = Mapping[Path, tuple[str, str]]
-"""Name and piece of recordings that the library has."""
+"""Name and analysis of recordings that the library has."""
 
-NOT_THERE = "there is no such file or folder"
-GONE = "is not there: its recordings are kept; --remove takes them out"
+NEVER_FOUND = "there is no such file or folder"
+NOT_FOUND = "is not there: its recordings are kept; --remove takes them out"
 
 
 @dataclass(frozen=True)
@@ -139,11 +139,11 @@ def build(
     check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
     check_type(settings, (Settings, type(None)), "build", "kineme.library.Settings() makes one")
     with processes(int(jobs)) if client is None else connected(client) as executor:
-        named, gone = as_paths(sources), as_paths(remove)
-        folder = opened(into, [*named, *gone])
+        added, removed = as_paths(sources), as_paths(remove)
+        folder = opened(into, [*added, *removed])
         with writer_lock(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
-            plan = plan_of(folder, head, named, gone, recursive, settings)
+            plan = plan_of(folder, head, added, removed, recursive, settings)
             return _built(plan, head, executor, progress or (lambda _: None))
 
 
@@ -156,7 +156,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     not_found = {path: entry for path, entry in before.items() if path not in found}
     absent = _without_source(plan, not_found, missing_sources)
     gathered = gather(plan, list(found), executor, progress)
-    failed = dict.fromkeys(missing_sources, GONE) | gathered.failed
+    failed = dict.fromkeys(missing_sources, NOT_FOUND) | gathered.failed
     keys = {path: plan.settings.key(digest) for path, digest in gathered.digests.items()}
     keys |= {path: before[path][1] for path in absent}
     names = names_of(
@@ -173,7 +173,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
         gathered.new,
         len(before.keys() - keys.keys()),
         plan.recursive,
-        failed | dict.fromkeys(plan.missing, NOT_THERE),
+        failed | dict.fromkeys(plan.missing, NEVER_FOUND),
     )
 
 
@@ -194,7 +194,7 @@ def _without_source(
         path: source
         for path, (_, key) in not_found.items()
         for source in missing_sources
-        if lies_in(path, source) and has_piece(plan.pieces, key)
+        if lies_in(path, source) and has_analysis(plan.analyses, key)
     }
 
 
@@ -233,9 +233,9 @@ def _written(
         made, following = compiled(
             plan.folder, entries, {**returned, **former}, following, executor, progress
         )
-        pieces = dict(before.values())
-        by_piece = {pieces[name]: spans for name, spans in former.items() if name in pieces}
-        write_removed(plan.folder, removed_after(removed, by_piece, (key for _, _, key in entries)))
+        keys = dict(before.values())
+        by_key = {keys[name]: spans for name, spans in former.items() if name in keys}
+        write_removed(plan.folder, removed_after(removed, by_key, (key for _, _, key in entries)))
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**content, "following": following, "tables": tables}
@@ -246,7 +246,7 @@ def _written(
 
 def _clean(folder: Path, keys: set[str], tables: str) -> None:
     """Remove what nothing names any more, and drafts of builds that were ended."""
-    for path in (folder / PIECES).iterdir():
+    for path in (folder / ANALYSES).iterdir():
         if path.suffix not in (".npy", ".parquet") or path.name.partition(".")[0] not in keys:
             path.unlink(missing_ok=True)
     for path in (folder / TABLES).iterdir():

@@ -1,4 +1,4 @@
-"""From the pieces of a library to its tables: one vocabulary over all recordings."""
+"""From the analyses of a library to its tables: one vocabulary over all recordings."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from kineme.library.executors import Executor, Progress
 from kineme.library.planning import Entry
 from kineme.library.settings import VOCABULARY
-from kineme.library.storage.layout import BODIES, EMBEDDED, PIECES, arrow, as_array, as_column
-from kineme.library.storage.pieces import Piece, read_piece
+from kineme.library.storage.analyses import Analysis, read_analysis
+from kineme.library.storage.layout import ANALYSES, BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.tables import read_table, table_of
-from kineme.library.vocabulary.joining import clusters_in
+from kineme.library.vocabulary.joining import Joined, clusters_in
 from kineme.library.vocabulary.numbering import Spans, lasting_numbers
 from kineme.library.vocabulary.words import Place, crowd_of, places_in
 from kineme.segments.table import COLUMNS
@@ -31,10 +31,7 @@ class _Words:
     """The words of all recordings, and what became of them."""
 
     places: list[Place]
-    labels: Ints
-    following: Ints
-    confidence: NDArray[np.float64]
-    spread: NDArray[np.float64]
+    joined: Joined
 
 
 def compiled(
@@ -45,43 +42,25 @@ def compiled(
     executor: Executor,
     progress: Progress,
 ) -> tuple[dict[str, Any], int]:
-    """The tables of a library.
+    """The tables of a library by name, and the first number that no cluster was given.
 
-    Parameters
-    ----------
-    folder : Path
-    entries : sequence of (str, Path, str)
-        The recordings in the order of their names.
-    before : mapping of str to (starts, stops, clusters)
-        By recording, the activities that it had, see `activities_in`: clusters that are found
-        again keep their numbers.
-    following : int
-        The first number of a cluster that was never given.
-    executor : Executor
-        Where clusters are compared.
-    progress : callable
-        Called with a sentence on how far it is.
-
-    Returns
-    -------
-    tables : dict of str to pyarrow.Table
-    following : int
-        The first number that was not given now either.
+    ``entries`` are in the order of their names, ``before`` are the activities that recordings had,
+    see `activities_in`: clusters that are found again keep their numbers.
     """
-    pieces = [read_piece(folder / PIECES, key) for _, _, key in entries]
-    words = _joined_words(folder, entries, pieces, executor, progress)
-    shared = _shared(pieces, words)
+    analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
+    words = _joined_words(folder, entries, analyses, executor, progress)
+    shared = _shared(analyses, words)
     new = {
-        name: _spans(piece.table.columns(), clusters)
-        for (name, _, _), piece, clusters in zip(entries, pieces, shared, strict=True)
+        name: _spans(analysis.table.columns(), clusters)
+        for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
     }
     numbers = lasting_numbers(before, new, following=following)
     renumbered = np.array([*numbers.values(), -1], np.int64)  # labels are 0, 1, …
     tables = {
-        "recordings": _recordings(entries, pieces),
-        "segments": _segments(entries, pieces, [renumbered[each] for each in shared]),
+        "recordings": _recordings(entries, analyses),
+        "segments": _segments(entries, analyses, [renumbered[each] for each in shared]),
         "words": _word_table(entries, words, renumbered),
-        "embeddings": _embeddings(entries, pieces),
+        "embeddings": _embeddings(entries, analyses),
     }
     return {name: table_of(name, columns) for name, columns in tables.items()}, max(
         [following, *(number + 1 for number in numbers.values())]
@@ -89,18 +68,7 @@ def compiled(
 
 
 def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
-    """The activities of each recording with their clusters, in tables of a library.
-
-    Parameters
-    ----------
-    folder : Path
-    tables : str, optional
-        None where there are none yet.
-
-    Returns
-    -------
-    dict of str to (starts, stops, clusters)
-    """
+    """The activities of each recording with their clusters, in tables of a library."""
     if tables is None:
         return {}
     table = read_table(folder, tables, "segments")
@@ -118,50 +86,52 @@ def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
 def _joined_words(
     folder: Path,
     entries: Sequence[Entry],
-    pieces: Sequence[Piece],
+    analyses: Sequence[Analysis],
     executor: Executor,
     progress: Progress,
 ) -> _Words:
     """The words of each vocabulary, joined; clusters are counted on from one to the next."""
     places: list[Place] = []
-    parts: list[tuple[Ints, Ints, Any, Any]] = []
+    parts: list[Joined] = []
     count = 0
-    for vocabulary in sorted({piece.facts["vocabulary"] for piece in pieces} - {""}):
+    for vocabulary in sorted({analysis.facts["vocabulary"] for analysis in analyses} - {""}):
         words = [
             place
-            for number, piece in enumerate(pieces)
-            if piece.facts["vocabulary"] == vocabulary
-            for place in places_in(piece, number)
+            for number, analysis in enumerate(analyses)
+            if analysis.facts["vocabulary"] == vocabulary
+            for place in places_in(analysis, number)
         ]
         if not words:
             continue
         keys = [key for _, _, key in entries]
         if vocabulary == BODIES or len({place.recording for place in words}) == 1:
-            crowd = crowd_of(words, pieces, folder / PIECES, keys)
+            crowd = crowd_of(words, analyses, folder / ANALYSES, keys)
             found = clusters_in(crowd, VOCABULARY, executor, progress)
         else:
-            from kineme.library.vocabulary.moments import clusters_of_moments
+            from kineme.library.vocabulary.signals import clusters_of_signals
 
-            found = clusters_of_moments(words, pieces, folder / PIECES, keys, executor)
+            found = clusters_of_signals(words, analyses, folder / ANALYSES, keys, executor)
         following = np.where(found.following < 0, -1, found.following + count)
         places += words
-        parts.append((found.labels + count, following, found.confidence, found.spread))
+        parts.append(found._replace(labels=found.labels + count, following=following))
         count += int(found.labels.max()) + 1
     if not places:
-        none = np.empty(0)
-        return _Words([], none.astype(np.int64), none.astype(np.int64), none, none)
-    return _Words(places, *map(np.concatenate, zip(*parts, strict=True)))
+        none = np.empty(0, np.int64)
+        return _Words([], Joined(none, none, np.empty(0), np.empty(0)))
+    return _Words(places, Joined(*map(np.concatenate, zip(*parts, strict=True))))
 
 
-def _shared(pieces: Sequence[Piece], words: _Words) -> list[Ints]:
-    """The cluster of each segment of each piece in the common vocabulary, -1 in none."""
+def _shared(analyses: Sequence[Analysis], words: _Words) -> list[Ints]:
+    """The cluster of each segment of each analysis in the common vocabulary, -1 in none."""
     label = {
-        (place.recording, place.own_cluster): cluster
-        for place, cluster in zip(words.places, words.labels.tolist(), strict=True)
+        (place.recording, place.cluster): cluster
+        for place, cluster in zip(words.places, words.joined.labels.tolist(), strict=True)
     }
     return [
-        np.array([label.get((i, number), -1) for number in piece.table.cluster.tolist()], np.int64)
-        for i, piece in enumerate(pieces)
+        np.array(
+            [label.get((i, number), -1) for number in analysis.table.cluster.tolist()], np.int64
+        )
+        for i, analysis in enumerate(analyses)
     ]
 
 
@@ -172,33 +142,30 @@ def _spans(columns: Columns, clusters: Ints) -> Spans:
     return columns["start_s"][rows], columns["stop_s"][rows], clusters[rows]
 
 
-def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
-    facts = [piece.facts for piece in pieces]
+def _recordings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
+    facts = [analysis.facts for analysis in analyses]
     names = ("vocabulary", "format", "n_frames", "fps", "features_fps", "samples")
-    columns: Columns = {name: [each[name] for each in facts] for name in names}
     return {
         "recording": [name for name, _, _ in entries],
         "path": [str(path) for _, path, _ in entries],
-        **{name: columns[name] for name in ("vocabulary", "format", "n_frames", "fps")},
+        **{name: [each[name] for each in facts] for name in names},
         "duration_s": [each["n_frames"] / each["fps"] for each in facts],
         "piece": [key for _, _, key in entries],
-        "features_fps": columns["features_fps"],
-        "samples": columns["samples"],
         "notes": ["\n".join(each["notes"]) for each in facts],
     }
 
 
 def _segments(
-    entries: Sequence[Entry], pieces: Sequence[Piece], clusters: Sequence[Ints]
+    entries: Sequence[Entry], analyses: Sequence[Analysis], clusters: Sequence[Ints]
 ) -> Columns:
-    tables = [piece.table for piece in pieces]
+    tables = [analysis.table for analysis in analyses]
     columns: Columns = {name: _all(getattr(table, name) for table in tables) for name in COLUMNS}
     actions = [
         numbers[np.flatnonzero(table.level == "activity")][table.activity]
         for numbers, table in zip(clusters, tables, strict=True)
     ]
     return {
-        **_rows(entries, pieces),
+        **_rows(entries, analyses),
         **columns,
         "cluster": _all(clusters),
         "action": _all(actions),
@@ -209,31 +176,31 @@ def _segments(
 def _word_table(entries: Sequence[Entry], words: _Words, numbers: Ints) -> Columns:
     return {
         "recording": [entries[place.recording][0] for place in words.places],
-        "own_cluster": [place.own_cluster for place in words.places],
-        "cluster": numbers[words.labels],
-        "following": numbers[words.following],
-        "confidence": words.confidence,
-        "spread": words.spread,
+        "own_cluster": [place.cluster for place in words.places],
+        "cluster": numbers[words.joined.labels],
+        "following": numbers[words.joined.following],
+        "confidence": words.joined.confidence,
+        "spread": words.joined.spread,
         "start_s": [place.start_s for place in words.places],
         "stop_s": [place.stop_s for place in words.places],
         "seconds": [place.seconds for place in words.places],
     }
 
 
-def _embeddings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
+def _embeddings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
     pa, _ = arrow()
-    values = _all(piece.embeddings for piece in pieces).reshape(-1, EMBEDDED)
+    values = _all(analysis.embeddings for analysis in analyses).reshape(-1, EMBEDDED)
     embedded = np.flatnonzero(values.any(axis=1))
     rows = {
         name: np.asarray(column)[embedded] if len(column) else column
-        for name, column in _rows(entries, pieces).items()
+        for name, column in _rows(entries, analyses).items()
     }
     flat = as_column(values[embedded].ravel(), np.float32)
     return {**rows, "embedding": pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)}
 
 
-def _rows(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
-    counts = [len(piece.table) for piece in pieces]
+def _rows(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
+    counts = [len(analysis.table) for analysis in analyses]
     return {
         "recording": [n for (n, _, _), k in zip(entries, counts, strict=True) for _ in range(k)],
         "segment": _all(np.arange(count) for count in counts),

@@ -5,8 +5,8 @@ described by their posture and energy (`kineme.features.channels`), in half the 
 deviation of each in the recording, so that one threshold serves both, whatever the number of
 channels; they compare with recordings of the same channels only.
 
-Everything of the library that knows what features are is here. What segments and what finds moments
-is imported by who makes a piece: who searches only does not wait for it.
+Everything of the library that knows what features are is here. What segments and samples channels
+is imported only where an analysis is made: a search does not wait for it.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from kineme.features.channels import at_rate, channel_statistics, standardized
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
 from kineme.library.settings import Settings
+from kineme.library.storage.analyses import LARGEST_SAMPLE, Analysis
 from kineme.library.storage.layout import BODIES, EMBEDDED
-from kineme.library.storage.pieces import LARGEST_MOMENT, Piece
 from kineme.matching.embeddings import course, embedding
 from kineme.methods.kineme.preset import SENSORS
 from kineme.recordings import Motion, Signals
@@ -36,7 +36,7 @@ Floats = NDArray[np.float64]
 UNIT = 0.5
 """Of the root mean square over channels; a distance of 0.85 then is where right matches end."""
 NOWHERE = 100.0
-"""In each feature of channels that were not recorded: farther from anything than a match can be."""
+"""Value of each feature in gaps: too far from all others for a match."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,24 +91,9 @@ def describe(
 ) -> Description:
     """The features of a recording; none, with the reason, where it has no body.
 
-    Parameters
-    ----------
-    recording : Motion or Signals
-    effectors : joints, optional
-        To take for head, hands and feet where names do not tell.
-    emg : bool
-        Take the envelopes of muscle signals.
-    mirrored : bool
-        Left and right exchanged; of a motion only.
-
-    Returns
-    -------
-    Description
-
-    Raises
-    ------
-    ParameterError
-        Mirrored signals.
+    ``effectors`` are joints to take for head, hands and feet where names do not tell. With ``emg``
+    the envelopes of muscle signals are taken, with ``mirrored`` left and right of a body are
+    exchanged.
     """
     if isinstance(recording, Signals):
         if mirrored:
@@ -125,18 +110,7 @@ def describe(
 
 
 def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
-    """Features (samples, dims) of channels, `SENSORS.rate` a second.
-
-    Parameters
-    ----------
-    signals : Signals
-    emg : bool
-        Take the envelopes of muscle signals.
-
-    Returns
-    -------
-    ndarray of float32
-    """
+    """Features (samples, dims) of channels, `SENSORS.rate` a second."""
     preset = SENSORS.at_most(signals.fps)
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     spans = signals.spans()
@@ -164,22 +138,12 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
     return features
 
 
-def make_piece(
+def analysis_of(
     recording: Motion | Signals, settings: Settings
-) -> tuple[Piece, NDArray[np.float32], NDArray[np.float32] | None]:
-    """What is kept of a recording, its features, and its moments.
+) -> tuple[Analysis, NDArray[np.float32], NDArray[np.float32] | None]:
+    """What is kept of a recording, its features (samples, dims), and samples of its channels.
 
-    Parameters
-    ----------
-    recording : Motion or Signals
-    settings : Settings
-
-    Returns
-    -------
-    piece : Piece
-    features : (samples, dims) array
-    moments : (moments, 1 + 2 · channels) array, or None
-        Of signals: the second of each, means and deviations.
+    These are of signals only: a row each of second, means and deviations.
     """
     from kineme.segmentation.segmenter import segment
 
@@ -196,7 +160,7 @@ def make_piece(
     for row, each in enumerate(found.table):
         if each.kind != "transition":
             embeddings[row] = described.embedding(each.start_s, each.stop_s)
-    moments = _moments(recording) if isinstance(recording, Signals) else None
+    channel_samples = _channel_samples(recording) if isinstance(recording, Signals) else None
     reason = f"not searched: {described.reason}" if described.reason else ""
     facts = {
         "format": recording.provenance.format or "",
@@ -205,18 +169,18 @@ def make_piece(
         "vocabulary": described.vocabulary,
         "features_fps": described.fps,
         "samples": len(described.features),
-        "moments": 0 if moments is None else len(moments),
+        "moments": 0 if channel_samples is None else len(channel_samples),
         "notes": [*found.provenance["notes"], *filter(None, [reason])],
     }
-    return Piece(facts, found.table, embeddings), described.features, moments
+    return Analysis(facts, found.table, embeddings), described.features, channel_samples
 
 
-def _moments(signals: Signals) -> NDArray[np.float32]:
+def _channel_samples(signals: Signals) -> NDArray[np.float32]:
     from kineme.transfer.channel_samples import channel_samples
 
     found = channel_samples(signals)
     columns = np.column_stack([found.frames / signals.fps, found.means, found.deviations])
-    clipped: NDArray[np.float32] = np.clip(columns, -LARGEST_MOMENT, LARGEST_MOMENT).astype(
+    clipped: NDArray[np.float32] = np.clip(columns, -LARGEST_SAMPLE, LARGEST_SAMPLE).astype(
         np.float32
     )
     return clipped

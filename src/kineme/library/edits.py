@@ -62,7 +62,7 @@ class Edits:
 
     @property
     def following(self) -> int:
-        """The first number that no edit speaks of."""
+        """The first number above those of all clusters in the edits."""
         return max([-1, *self.names, *self.merged, *(split.into for split in self.splits)]) + 1
 
     def number(self, cluster: int) -> int:
@@ -96,14 +96,7 @@ class Edits:
         return replace(self, splits=(*self.splits, *splits))
 
     def applied(self, clusters: Ints, recordings: NDArray[Any]) -> Ints:
-        """Computed cluster numbers as they are now.
-
-        Parameters
-        ----------
-        clusters : (rows,) array
-        recordings : (rows,) array of str
-            The recording that each row is of.
-        """
+        """Computed cluster numbers of rows of these recordings as they are now."""
         now = clusters.copy()
         for split in self.splits:
             now[(now == split.cluster) & np.isin(recordings, split.recordings)] = split.into
@@ -126,13 +119,7 @@ class Edits:
 
 
 def read_edits(folder: Path) -> Edits:
-    """What people said of a library so far.
-
-    Raises
-    ------
-    ReadError
-        The file is damaged, or of another schema.
-    """
+    """What people said of a library so far."""
     path = folder / EDITS
     content = read_json(path)
     if not content:
@@ -165,18 +152,9 @@ def _cluster(written: Any) -> int:
 
 
 def edited(table: Any, edits: Edits) -> Any:
-    """A table of a library as it is now: clusters split and merged, names beside them.
+    """A computed table as it is now: clusters split and merged, names beside them.
 
-    Parameters
-    ----------
-    table : pyarrow.Table
-        As it was computed.
-    edits : Edits
-
-    Returns
-    -------
-    pyarrow.Table
-        With ``label`` for ``cluster``, and ``action_label`` for ``action`` where there is one.
+    A ``label`` goes with ``cluster``, an ``action_label`` with ``action`` where there is one.
     """
     recordings = as_array(table.column("recording"))
     for name, label in (("cluster", "label"), ("following", None), ("action", "action_label")):

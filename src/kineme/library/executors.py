@@ -37,11 +37,11 @@ PRELOADED = (
 )
 """What takes long to import."""
 _SOON = threading.Event()
-"""Set where this was begun before it was known what there is to do."""
+"""Set once processes are being started, before the tasks are known."""
 EXTRA = "cluster"
 """The extra that installs what clusters need."""
 AHEAD = 1000
-"""Tasks that the scheduler knows at a time."""
+"""Tasks that the scheduler has at a time."""
 _ONE = threading.Lock()
 Progress = Callable[[str], None]
 
@@ -74,8 +74,8 @@ class Executor(Protocol):
         task
             One of the given.
         outcome
-            None where whatever process worked on it died. Others than this task lose nothing by
-            it. Who stops asking ends the work on what is left.
+            None where the process that worked on it died; other tasks are not affected. To close
+            the iterator ends the work on what is left.
         """
         ...
 
@@ -96,12 +96,7 @@ class InProcess:
 
 
 class Processes:
-    """So many processes of this machine at most, which go on from one work to the next.
-
-    Parameters
-    ----------
-    jobs : int
-    """
+    """So many processes of this machine at most, kept from one call to the next."""
 
     def __init__(self, jobs: int):
         self._jobs = jobs
@@ -130,7 +125,7 @@ class Processes:
                     yield task, None
 
     def close(self, *, wait: bool = False) -> None:
-        """End the processes once they are done with what they are at, and wait for that.
+        """End the processes once their present tasks are done, and wait for that.
 
         Python that ends at the same time as they do may complain of it.
         """
@@ -179,7 +174,7 @@ def processes(jobs: int) -> Iterator[Executor]:
 
 
 def start_soon() -> None:
-    """Start what processes are copies of: that takes a second, in which this one can go on."""
+    """Start the server that processes are forked from: that takes a second beside this one."""
     if sys.platform == "linux":
         context(PRELOADED)
         _SOON.set()
@@ -191,17 +186,6 @@ class Cluster:
     They see the recordings and the library at the same places as the client does. A worker has one
     task at a time, and as many threads for it as dask gave it. Dask tries a task anew whose worker
     died, three times by default (``distributed.scheduler.allowed-failures``).
-
-    Parameters
-    ----------
-    client : distributed.Client
-
-    Raises
-    ------
-    ParameterError
-        It is none, or workers have another version of kineme, or none.
-    MissingDependencyError
-        dask is not installed.
     """
 
     def __init__(self, client: Any):
@@ -250,13 +234,6 @@ def connected(client: Any) -> Iterator[Executor]:
     """The cluster of a client, or of the scheduler at an address such as ``tcp://10.0.0.1:8786``.
 
     An executor is taken as it is.
-
-    Raises
-    ------
-    ParameterError
-        No scheduler answers there; or as `Cluster`.
-    MissingDependencyError
-        dask is not installed.
     """
     if isinstance(client, Executor):
         yield client
@@ -314,16 +291,7 @@ def _alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
 class Watch:
     """Tells how many things are done, and for how many seconds the work on the others goes on.
 
-    Parameters
-    ----------
-    progress : callable
-        Called with each sentence.
-    things : int
-        That there are.
-    work : float
-        That they make, in any unit.
-    what : str
-        Said before the numbers.
+    So many things make so much work, in any unit. ``what`` stands before the numbers.
     """
 
     def __init__(self, progress: Progress, things: int, work: float, what: str = ""):

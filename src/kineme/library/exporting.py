@@ -30,19 +30,7 @@ ALL = "clusters.png"
 
 
 def table_called(tables: OpenTables, name: str) -> Any:
-    """One of the tables of a library, edits applied, a pyarrow.Table.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    name : str
-        One of `kineme.library.storage.tables.DESCRIBED`, or ``clusters``.
-
-    Raises
-    ------
-    ParameterError
-        There is no such table.
-    """
+    """One of `DESCRIBED`, or ``clusters``, edits applied, a pyarrow.Table."""
     if name == CLUSTERS:
         return cluster_table(clusters_of(tables))
     if name not in DESCRIBED:
@@ -53,21 +41,7 @@ def table_called(tables: OpenTables, name: str) -> Any:
 
 
 def answer(tables: OpenTables, sql: str) -> Any:
-    """The answer to a question in SQL over all tables of a library, a pyarrow.Table.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    sql : str
-        For DuckDB.
-
-    Raises
-    ------
-    ParameterError
-        DuckDB cannot make sense of it.
-    MissingDependencyError
-        duckdb is not installed.
-    """
+    """The answer to a question in SQL over all tables of a library, a pyarrow.Table."""
     try:
         import duckdb
     except ImportError as error:
@@ -88,13 +62,7 @@ def answer(tables: OpenTables, sql: str) -> Any:
 
 
 def write_table(table: Any, path: str | PathLike[str]) -> None:
-    """Write a pyarrow.Table as Parquet, CSV or TSV, by the suffix; text files without embeddings.
-
-    Raises
-    ------
-    WriteError
-        Another suffix, or a place that cannot be written.
-    """
+    """Write a pyarrow.Table as Parquet, CSV or TSV, by the suffix; texts without embeddings."""
     suffix = Path(path).suffix.lower()
     if suffix == ".parquet":
         _, parquet = arrow()
@@ -110,30 +78,17 @@ def write_table(table: Any, path: str | PathLike[str]) -> None:
 
 
 def write_hits(tables: OpenTables, hits: Sequence[Hit], folder: str | PathLike[str]) -> list[Path]:
-    """Write what a search found as clips, those of one recording together.
-
-    Parameters
-    ----------
-    tables : OpenTables
-        Of the library that was searched.
-    hits : sequence of Hit
-    folder : path-like
-        To be made; one that is there must be empty.
-
-    Returns
-    -------
-    list of Path
-    """
+    """Write what a search found as clips, those of one recording together, in an empty folder."""
     from kineme.clips.split import write_clips
 
     by_recording: dict[str, list[Hit]] = {}
     for hit in hits:
         by_recording.setdefault(hit.recording, []).append(hit)
-    wanted = ((tables.read(name), group) for name, group in by_recording.items())
+    recordings = ((tables.read(name), group) for name, group in by_recording.items())
     return write_clips(
         (
             (recording, [_as_segment(hit, recording) for hit in group])
-            for recording, group in wanted
+            for recording, group in recordings
         ),
         folder,
     )
@@ -164,24 +119,9 @@ def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:
 
 
 def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
-    """A picture of each cluster, and one of those of most seconds below each other.
+    """A picture of each cluster, and before it one of those of most seconds below each other.
 
-    Parameters
-    ----------
-    tables : OpenTables
-        Of the library.
-    folder : Path
-        Where to write them; made where there is none.
-
-    Returns
-    -------
-    list of Path
-        That of all clusters first. Clusters whose recording is gone have none.
-
-    Raises
-    ------
-    WriteError
-        The folder cannot be written.
+    Clusters whose recording is gone have none.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -16,9 +16,9 @@ from kineme.library.index import Parts, Sought, joined, matches_in, parts_like
 from kineme.library.open_library import OpenTables, numbers_of
 from kineme.library.searching import Example, Hit, Named, best
 from kineme.library.sources import read_at
+from kineme.library.storage.analyses import read_features
 from kineme.library.storage.index import open_index
-from kineme.library.storage.layout import BODIES, PIECES
-from kineme.library.storage.pieces import read_features
+from kineme.library.storage.layout import ANALYSES, BODIES
 from kineme.library.storage.places import place
 from kineme.library.windows import Float32s, length_for
 from kineme.recordings import Motion, Signals
@@ -29,7 +29,7 @@ TYPICAL = 5
 """Words that stand for a cluster in a search, the most typical ones."""
 
 BEYOND = 0.1
-"""Seconds: an example that stops so much after the end of its recording is rounded."""
+"""Seconds by which an example may stop after the end of its recording without a warning."""
 LARGEST, MOST_HITS = 1e6, 1 << 31
 
 
@@ -44,32 +44,7 @@ def hits_like(
     mirror: bool,
     executor: Executor | None = None,
 ) -> list[Hit]:
-    """Where the recordings of a library are like one of the examples, the nearest first.
-
-    Parameters
-    ----------
-    tables : OpenTables
-        Of the library.
-    examples, counterexamples : sequence of Example
-        What is more like a counter-example than like any example is left out.
-    threshold : float
-        Largest distance.
-    top : int, optional
-        Hits at most.
-    max_per_recording : int, optional
-        Of one recording at most.
-    mirror : bool
-        Search for the mirror images of the examples as well.
-    executor : Executor, optional
-        Where it is searched; threads of this process by default.
-
-    Raises
-    ------
-    ParameterError
-        A limit is below 1, or the examples do not compare with each other, or with no recording.
-    ReadError
-        One cannot be read, or has no body.
-    """
+    """Where the recordings of a library are like one of the examples, the nearest first."""
     for name, value in (("top", top), ("max_per_recording", max_per_recording)):
         if value is not None and not (is_number(value) and value >= 1):
             raise ParameterError(f"{name} must be a whole number above 0, not {value!r:.60}")
@@ -79,15 +54,17 @@ def hits_like(
     top = None if top is None else int(min(top, MOST_HITS))
     if max_per_recording is not None:
         max_per_recording = int(min(max_per_recording, MOST_HITS))
-    wanted = features_of(tables, examples, mirror=mirror)
-    vocabulary = one_vocabulary(wanted)
+    described = features_of(tables, examples, mirror=mirror)
+    vocabulary = one_vocabulary(described)
     refused = [part for kind, part in features_of(tables, counterexamples) if kind == vocabulary]
-    features = [part for _, part in wanted]
+    features = [part for _, part in described]
     sought = Sought(features, refused, threshold, None if max_per_recording else top)
     parts = _all_parts(tables, vocabulary)
     if top is not None and vocabulary == BODIES:
         parts = _likely_parts(tables, features, top) or parts
-    found = matches_in(tables.folder / PIECES, tables.recordings["piece"], parts, sought, executor)
+    found = matches_in(
+        tables.folder / ANALYSES, tables.recordings["piece"], parts, sought, executor
+    )
     rows = list(found)
     chosen = best(list(found.values()), top=top, most=max_per_recording)
     return [_hit(tables, rows[i], *span) for i, span in chosen]
@@ -127,9 +104,9 @@ def _rows_of(tables: OpenTables, vocabulary: str) -> list[int]:
     kinds = tables.recordings["vocabulary"]
     rows = [row for row, kind in enumerate(kinds) if kind == vocabulary]
     if not rows:
-        there = "; ".join(sorted(set(kinds) - {""}))
+        present = "; ".join(sorted(set(kinds) - {""}))
         raise ParameterError(
-            f"the example is of {vocabulary}, the library has {there or 'nothing'}"
+            f"the example is of {vocabulary}, the library has {present or 'nothing'}"
         )
     return rows
 
@@ -182,22 +159,7 @@ def as_examples(
 def features_of(
     tables: OpenTables, examples: Sequence[Example], *, mirror: bool = False
 ) -> list[tuple[str, Float32s]]:
-    """Vocabulary and features of each example, and of its mirror image.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    examples : sequence of Example
-    mirror : bool
-        The mirror images, too.
-
-    Raises
-    ------
-    ParameterError
-        An example starts where its recording has ended.
-    ReadError
-        It cannot be read, or has no body.
-    """
+    """Vocabulary and features of each example, and of its mirror image."""
     found = []
     for example in examples:
         for mirrored in (False, True)[: 1 + mirror]:
@@ -218,9 +180,9 @@ def features_of(
     return found
 
 
-def one_vocabulary(wanted: Sequence[tuple[str, Float32s]]) -> str:
+def one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
     """What all examples are of; ParameterError where they do not compare."""
-    kinds = sorted({kind for kind, _ in wanted})
+    kinds = sorted({kind for kind, _ in described})
     if len(kinds) > 1:
         raise ParameterError(f"the examples do not compare with each other: {'; '.join(kinds)}")
     return kinds[0]
@@ -238,7 +200,7 @@ def _description(
             raise ReadError(recording, "there is no such file, and no recording of that name")
         if not mirrored:
             row = recordings["recording"].index(recording)
-            features = read_features(tables.folder / PIECES, recordings["piece"][row])
+            features = read_features(tables.folder / ANALYSES, recordings["piece"][row])
             described = Description(
                 recordings["vocabulary"][row], features, recordings["features_fps"][row]
             )

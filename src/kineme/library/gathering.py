@@ -1,11 +1,10 @@
-"""The pieces of the recordings of a build: those that are there, and those to be made.
+"""The analyses of the recordings of a build: those that exist are kept, the others are made.
 
-Any executor makes them; whatever happens to one recording costs it only. What makes them takes a
-second to import, so that is left to the processes that do it: the one that waits for them has
-started them by then.
+Any executor makes them; an error costs one recording only. To import what makes them takes a
+second, so that is left to the processes of the executor.
 
-Recordings of the same content are worked on once. Whole files are read for that only where sizes
-and a sample are equal, so few are that are not equal.
+Recordings of the same content are analysed once. Files are compared by their sizes, then by a
+sample, and read as a whole only where both are equal.
 """
 
 from __future__ import annotations
@@ -30,14 +29,14 @@ from kineme.formats.options import AnyPath
 from kineme.library.executors import Executor, InProcess, Progress, Watch
 from kineme.library.planning import Plan
 from kineme.library.settings import Settings
-from kineme.library.sources import FileStates, content_digest, fetched, size_of
-from kineme.library.storage.layout import SEEN, read_json, write_json
-from kineme.library.storage.pieces import has_piece, write_piece
+from kineme.library.sources import content_digest, fetched, size_of, states_of
+from kineme.library.storage.analyses import has_analysis, write_analysis
+from kineme.library.storage.layout import STATES, read_json, write_json
 from kineme.library.storage.places import is_remote
 
 States = dict[str, tuple[str, str]]
 UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
-"""What is said of such a file."""
+"""The error of such a file."""
 SAMPLE = 4096
 """Bytes from the middle of a file."""
 PER_WORKER = 1 << 20
@@ -52,11 +51,11 @@ class Gathered:
     Attributes
     ----------
     digests : dict of Path to str
-        Of the files of each recording that has a piece.
+        Of the files of each recording that has an analysis.
     failed : dict of Path to str
         Why the others have none.
     new : int
-        How many pieces were made.
+        How many analyses were made.
     """
 
     digests: dict[Path, str] = field(default_factory=dict)
@@ -65,29 +64,13 @@ class Gathered:
 
 
 def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Progress) -> Gathered:
-    """The pieces of recordings, made where there is none.
+    """The analyses of recordings, made where there is none.
 
     Files that look as they did when they were last read are not read again.
-
-    Parameters
-    ----------
-    plan : Plan
-    found : sequence of Path
-        The recordings.
-    executor : Executor
-        Where they are made.
-    progress : callable
-        Called with a sentence on how far it is.
-
-    Raises
-    ------
-    WriteError
-        The folder cannot be written.
     """
-    former = _former_states(plan.folder / SEEN, progress)
-    file_states = FileStates(plan.settings.options().skeleton)
+    former = _former_states(plan.folder / STATES, progress)
     readable = [path for path in found if is_text(str(path))]
-    states = {path: file_states.of(path) for path in readable}
+    states = states_of(readable, plan.settings.options().skeleton)
     unreadable = [path for path in found if path not in states]
     gathered = Gathered(_unchanged(plan, states, former), failed=dict.fromkeys(unreadable, UNNAMED))
     waiting = [path for path in readable if path not in gathered.digests]
@@ -95,7 +78,7 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
         _make(plan, waiting, executor, progress, gathered)
     present = {str(path): (states[path], digest) for path, digest in gathered.digests.items()}
     if present != former:
-        write_json(plan.folder / SEEN, present)
+        write_json(plan.folder / STATES, present)
     return gathered
 
 
@@ -104,17 +87,17 @@ def _former_states(path: Path, progress: Progress) -> States:
     try:
         return read_json(path, tuple[str, str])
     except ReadError as error:
-        progress(f"{path.name} is left alone, all recordings are looked at anew: it {error.reason}")
+        progress(f"{path.name} is not used, all recordings are read again: it {error.reason}")
         return {}
 
 
 def _unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> dict[Path, str]:
-    """Digests of recordings that look as they did, and have a piece."""
+    """Digests of recordings that look as they did, and have an analysis."""
     digests = {}
-    complete = {piece.stem for piece in plan.pieces.glob("*.parquet")}
+    complete = {path.stem for path in plan.analyses.glob("*.parquet")}
     for path, state in states.items():
-        known_state, digest = former.get(str(path), ("", ""))
-        if known_state and known_state == state and plan.settings.key(digest) in complete:
+        former_state, digest = former.get(str(path), ("", ""))
+        if former_state and former_state == state and plan.settings.key(digest) in complete:
             digests[path] = digest
     return digests
 
@@ -126,8 +109,8 @@ def _make(
     progress: Progress,
     into: Gathered,
 ) -> None:
-    """Make the pieces of recordings; what came of each is noted."""
-    tasks = tasks_for(waiting, plan.pieces, plan.settings)
+    """Make the analyses of recordings; what came of each is noted."""
+    tasks = tasks_for(waiting, plan.analyses, plan.settings)
     groups = {
         group.tasks[0]: group for group in by_content(tasks, plan.settings.options().skeleton)
     }
@@ -150,7 +133,7 @@ def _make(
 
 
 def _note(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
-    """What came of a task; WriteError where others will fail alike."""
+    """Note what came of a task; WriteError for an error that all others will have, too."""
     if outcome.fatal:
         raise WriteError(plan.folder, outcome.error)
     if outcome.error:
@@ -168,19 +151,7 @@ class Group(NamedTuple):
 
 
 def by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Group]:
-    """Groups of equal content, the largest first, as their tasks.
-
-    Parameters
-    ----------
-    tasks : iterable of Task
-    skeleton : path-like, optional
-        That all of them are read with.
-
-    Returns
-    -------
-    list of Group
-        What is elsewhere, and what cannot be read, is alone.
-    """
+    """Groups of equal content, the largest first; what is elsewhere or cannot be read is alone."""
     criteria: tuple[Callable[[Task], str], ...] = (
         lambda task: "" if is_remote(task.path) else f"{task.size}",
         _sample,
@@ -228,15 +199,15 @@ class Task:
     Attributes
     ----------
     path : Path
-    pieces : Path
-        Where its piece goes.
+    analyses : Path
+        Where its analysis goes.
     settings : Settings
     size : int
         Bytes of the recording.
     """
 
     path: Path
-    pieces: Path
+    analyses: Path
     settings: Settings
     size: int
 
@@ -246,7 +217,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a task: the digest of its files, whose piece is there, or why it is not.
+    """What came of a task: the digest of its files, whose analysis is there, or why it is not.
 
     Attributes
     ----------
@@ -255,7 +226,7 @@ class Outcome:
         Whether it was not there before.
     error : str
     fatal : bool
-        Whether others will fail alike, as on a full disk.
+        Whether all others will fail, too, as on a full disk.
     """
 
     digest: str = ""
@@ -264,26 +235,14 @@ class Outcome:
     fatal: bool = False
 
 
-def tasks_for(paths: Iterable[Path], pieces: Path, settings: Settings) -> list[Task]:
+def tasks_for(paths: Iterable[Path], analyses: Path, settings: Settings) -> list[Task]:
     """The tasks of recordings, the largest first: the last ones to be done are short."""
-    tasks = [Task(path, pieces, settings, size_of(path)) for path in paths]
+    tasks = [Task(path, analyses, settings, size_of(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 
 def outcomes_of(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
-    """Each task and what came of it, as they come.
-
-    Parameters
-    ----------
-    tasks : sequence of Task
-    executor : Executor
-        Where they are worked on.
-
-    Yields
-    ------
-    task : Task
-    outcome : Outcome
-    """
+    """Each task and what came of it, as they come."""
     for task, outcome in executor.completed(work_on, tasks, workers=workers_for(tasks)):
         yield task, outcome or Outcome(error=DIED)
 
@@ -294,9 +253,9 @@ def workers_for(tasks: Iterable[Task]) -> int:
 
 
 def work_on(task: Task) -> Outcome:
-    """Read, segment and describe a recording, unless its piece is there."""
+    """Read, segment and describe a recording, unless its analysis is there."""
     try:
-        from kineme.library.descriptions import make_piece
+        from kineme.library.descriptions import analysis_of
 
         with warnings.catch_warnings(), threadpool_limits(1):  # sums do not depend on threads
             warnings.simplefilter("ignore", KinemeWarning)
@@ -304,10 +263,10 @@ def work_on(task: Task) -> Outcome:
             with fetched(task.path, options.skeleton) as path:
                 digest = content_digest(path, options.skeleton)
                 key = task.settings.key(digest)
-                if has_piece(task.pieces, key):
+                if has_analysis(task.analyses, key):
                     return Outcome(digest)
                 recording = read_quietly(path, options)
-            write_piece(task.pieces, key, *make_piece(recording, task.settings))
+            write_analysis(task.analyses, key, *analysis_of(recording, task.settings))
     except (WriteError, MissingDependencyError) as error:
         return Outcome(error=_reason(error), fatal=isinstance(error, WriteError))
     except Exception as error:  # noqa: BLE001 (one recording never ends a build)

@@ -22,14 +22,14 @@ from kineme.errors import KinemeError
 from kineme.library._kernels import least_squares
 from kineme.library.executors import Executor
 from kineme.library.searching import spans_like
+from kineme.library.storage.analyses import read_parts
 from kineme.library.storage.index import Windows
-from kineme.library.storage.pieces import read_parts
 from kineme.library.windows import (
     FINER,
     Float32s,
     Ints,
+    parts_at_speeds,
     step,
-    wanted,
 )
 from kineme.matching import Matches
 
@@ -44,7 +44,7 @@ BLOCK = 1 << 16
 AT_ONCE = 1 << 15
 """Samples that are searched in one go."""
 APART = 1e3
-"""In each feature of a sample between two parts: no match reaches over it."""
+"""Value of each feature between two parts: no match crosses it."""
 
 
 class Parts(NamedTuple):
@@ -75,26 +75,17 @@ class Sought:
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Parts to be searched in one go, and the pieces that hold their recordings, by row."""
+    """Parts to be searched in one go, and the analyses that hold their recordings, by row."""
 
     folder: Path
-    pieces: dict[int, str]
+    analyses: dict[int, str]
     parts: Parts
     sought: Sought
 
 
 def parts_like(windows: Windows, example: Float32s, top: int) -> Parts:
-    """The parts of recordings around the windows that are nearest to an example.
-
-    Parameters
-    ----------
-    windows : Windows
-        Of the length that `length_for` gives.
-    example : (samples, dims) array
-    top : int
-        Hits that are wanted.
-    """
-    near = _nearest(windows, wanted(example), top)
+    """The parts of recordings around the windows that are nearest to an example."""
+    near = _nearest(windows, parts_at_speeds(example), top)
     rows = np.searchsorted(windows.firsts, near, side="right") - 1
     middles = (near - windows.firsts[rows]) * step(windows.length) + windows.length // 2
     reach = step(windows.length) + len(example)  # a match may last twice as long
@@ -119,26 +110,14 @@ def joined(parts: Parts) -> Parts:
 
 def matches_in(
     folder: Path,
-    pieces: Sequence[str],
+    analyses: Sequence[str],
     parts: Parts,
     sought: Sought,
     executor: Executor | None,
 ) -> dict[int, Matches]:
-    """The matches in parts of recordings by row, the best of each first.
-
-    Parameters
-    ----------
-    folder : Path
-        That holds the pieces.
-    pieces : sequence of str
-        Of all recordings.
-    parts : Parts
-    sought : Sought
-    executor : Executor, optional
-        Threads of this process by default.
-    """
+    """The matches in parts of recordings by row, the best of each first."""
     tasks = [
-        Task(folder, {row: pieces[row] for row in set(batch.rows.tolist())}, batch, sought)
+        Task(folder, {row: analyses[row] for row in set(batch.rows.tolist())}, batch, sought)
         for batch in _batches(parts)
     ]
     if executor is None:
@@ -159,7 +138,7 @@ def search_parts(task: Task) -> dict[int, Matches]:
     lasts = parts.stops - parts.starts
     firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
     features = np.full((firsts[-1], sought.examples[0].shape[1]), APART, np.float32)
-    for row, key in sorted(task.pieces.items()):
+    for row, key in sorted(task.analyses.items()):
         at = np.flatnonzero(parts.rows == row)
         spans = zip(firsts[at].tolist(), (firsts[at] + lasts[at]).tolist(), strict=True)
         read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
@@ -170,21 +149,21 @@ def search_parts(task: Task) -> dict[int, Matches]:
         threshold=sought.threshold,
         top=sought.top,
     )
-    which = np.searchsorted(firsts, matches.starts, side="right") - 1
-    offsets = parts.starts[which] - firsts[which]
+    owners = np.searchsorted(firsts, matches.starts, side="right") - 1
+    offsets = parts.starts[owners] - firsts[owners]
     moved = Matches(matches.starts + offsets, matches.stops + offsets, matches.distances)
-    rows = parts.rows[which]
+    rows = parts.rows[owners]
     return {row: Matches(*(column[rows == row] for column in moved)) for row in set(rows.tolist())}
 
 
-def _nearest(windows: Windows, wanted: NDArray[np.int32], top: int) -> Ints:
-    """The windows that are nearest to any of what is wanted, in their order."""
+def _nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
+    """The windows that are nearest to any part of an example, in their order."""
     n = len(windows.embedded)
     least = np.empty(n, np.int32)
 
     def compare(first: int) -> None:
         block = slice(first, first + BLOCK)
-        least_squares(np.asarray(windows.embedded[block]), wanted, np.int32(FINER), least[block])
+        least_squares(np.asarray(windows.embedded[block]), parts, np.int32(FINER), least[block])
 
     map_threads(compare, range(0, n, BLOCK))
     most = min(max(round(SHARE * n), MORE * top), n)
@@ -195,8 +174,8 @@ def _nearest(windows: Windows, wanted: NDArray[np.int32], top: int) -> Ints:
 def _batches(parts: Parts) -> Iterator[Parts]:
     """Parts of about `AT_ONCE` samples together; one that is longer is alone."""
     reached = np.cumsum(parts.stops - parts.starts)
-    which = (reached - (parts.stops - parts.starts)) // AT_ONCE
-    edges = np.flatnonzero(np.diff(which, prepend=-1, append=-1))
+    batches = (reached - (parts.stops - parts.starts)) // AT_ONCE
+    edges = np.flatnonzero(np.diff(batches, prepend=-1, append=-1))
     for first, stop in pairwise(edges.tolist()):
         yield Parts(*(column[first:stop] for column in parts))
 

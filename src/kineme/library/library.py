@@ -8,23 +8,15 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Self
 
+import numpy as np
+
 from kineme._checks import check_flag, check_path
 from kineme._counts import counted
 from kineme.errors import ParameterError
 from kineme.library.executors import connected
 from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
 from kineme.library.finding import as_examples, hits_like, typical_examples
-from kineme.library.open_library import (
-    Cluster,
-    OpenTables,
-    Word,
-    clusters_of,
-    merge_clusters,
-    name_cluster,
-    numbers_of,
-    split_cluster,
-    unsure_words,
-)
+from kineme.library.open_library import Cluster, OpenTables, Word, clusters_of, numbers_of
 from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
 from kineme.library.storage.layout import arrow
@@ -113,8 +105,13 @@ class Library:
         return clusters_of(self._tables)
 
     def unsure(self) -> list[Word]:
-        """The words that may as well be in another cluster, the least sure first."""
-        return unsure_words(self._tables)
+        """The words whose cluster is uncertain, those of least confidence first."""
+        words, most = self._tables.columns("words"), self.head["vocabulary"]["unsure"]
+        confidence = words["confidence"]
+        rows = np.flatnonzero((confidence < most) & (words["cluster"] != words["following"]))
+        rows = rows[np.argsort(confidence[rows], kind="stable")]
+        columns = (words[name][rows].tolist() for name in Word._fields)
+        return [Word(*row) for row in zip(*columns, strict=True)]
 
     def numbers(self, cluster: int | str) -> list[int]:
         """The clusters of that number or name; ParameterError where there is none."""
@@ -226,17 +223,38 @@ class Library:
 
     def name(self, cluster: int | str, name: str) -> Self:
         """The same library, with a name for a cluster; an empty one takes it away."""
-        name_cluster(self._tables, cluster, name)
+        with self._tables.editing():
+            edits = self._tables.edits
+            for number in self.numbers(cluster):
+                edits = edits.with_name(number, name)
+            self._tables.write(edits)
         return self
 
     def merge(self, cluster: int | str, *others: int | str) -> Self:
         """The same library, with others made part of a cluster, which keeps its number and name."""
-        merge_clusters(self._tables, cluster, others)
+        if not others:
+            raise ParameterError("nothing to merge: name two clusters at least")
+        with self._tables.editing():
+            target, *same = self.numbers(cluster)
+            moved = [*same, *(number for other in others for number in self.numbers(other))]
+            self._tables.write(self._tables.edits.with_merge(target, moved))
         return self
 
     def split(self, cluster: int | str, recordings: Iterable[str]) -> int:
-        """The number of a new cluster: what one has in some of its recordings."""
-        return split_cluster(self._tables, cluster, list(recordings))
+        """The number of a new cluster: what one has in some, not all, of its recordings."""
+        chosen, tables = list(recordings), self._tables
+        with tables.editing():
+            (number, *_) = self.numbers(cluster)
+            words = tables.columns("words")
+            present = set(words["recording"][words["cluster"] == number].tolist())
+            if not present.intersection(chosen) or present <= set(chosen):
+                raise ParameterError(
+                    f"cluster {number} is split by naming some, not all, of its {len(present)} "
+                    f"recordings: {', '.join(sorted(present)[:5])}"
+                )
+            into: int = max(tables.head["following"], tables.edits.following)
+            tables.write(tables.edits.with_split(number, into, chosen))
+        return into
 
     def path_of(self, recording: str) -> Path:
         """The file that a recording of the library was read from."""

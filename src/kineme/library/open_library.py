@@ -34,17 +34,7 @@ Columns = dict[str, NDArray[Any]]
 class OpenTables:
     """The tables that were valid when a library was opened, and the edits so far.
 
-    Parameters
-    ----------
-    folder : Path
-        Of the library.
-
-    Attributes
-    ----------
-    folder : Path
-    head : dict
-        What ``library.json`` says.
-    edits : Edits
+    ``head`` is what ``library.json`` says.
     """
 
     def __init__(self, folder: Path):
@@ -241,101 +231,15 @@ def cluster_table(clusters: Sequence[Cluster]) -> Any:
     )
 
 
-def unsure_words(tables: OpenTables) -> list[Word]:
-    """The words that may as well be in another cluster, the least sure first."""
-    words, most = tables.columns("words"), tables.head["vocabulary"]["unsure"]
-    rows = np.flatnonzero((words["confidence"] < most) & (words["cluster"] != words["following"]))
-    rows = rows[np.argsort(words["confidence"][rows], kind="stable")]
-    columns = (words[name][rows].tolist() for name in Word._fields)
-    return [Word(*row) for row in zip(*columns, strict=True)]
-
-
 def numbers_of(tables: OpenTables, cluster: int | str) -> list[int]:
-    """The numbers of the clusters of that number or name, one at least.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    cluster : int or str
-
-    Raises
-    ------
-    ParameterError
-        There is none.
-    """
-    there = sorted(set(tables.columns("words")["cluster"].tolist()))
+    """The numbers of the clusters of that number or name, one at least."""
+    numbers = sorted(set(tables.columns("words")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)
     named = isinstance(cluster, str)  # a whole number is never taken for a name of digits
-    found = [number for number in there if named and edits.name(number) == text]
+    found = [number for number in numbers if named and edits.name(number) == text]
     if not found and text.isdecimal():
-        found = [number for number in there if number == edits.number(int(text))]
+        found = [number for number in numbers if number == edits.number(int(text))]
     if not found:
-        names = ", ".join(edits.name(number) or str(number) for number in there[:20])
+        names = ", ".join(edits.name(number) or str(number) for number in numbers[:20])
         raise ParameterError(f"no cluster is called {text:.60}; there are {names or 'none'}")
     return found
-
-
-def name_cluster(tables: OpenTables, cluster: int | str, name: str) -> None:
-    """Call a cluster, by number or name, by a name; an empty one takes it away."""
-    with tables.editing():
-        edits = tables.edits
-        for number in numbers_of(tables, cluster):
-            edits = edits.with_name(number, name)
-        tables.write(edits)
-
-
-def merge_clusters(tables: OpenTables, cluster: int | str, others: Sequence[int | str]) -> None:
-    """Make other clusters part of one, which keeps its number and name.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    cluster : int or str
-        By number or name.
-    others : sequence of int or str
-
-    Raises
-    ------
-    ParameterError
-        There are no others, or no cluster is called so.
-    """
-    if not others:
-        raise ParameterError("nothing to merge: name two clusters at least")
-    with tables.editing():
-        target, *same = numbers_of(tables, cluster)
-        moved = [*same, *(number for other in others for number in numbers_of(tables, other))]
-        tables.write(tables.edits.with_merge(target, moved))
-
-
-def split_cluster(tables: OpenTables, cluster: int | str, recordings: Sequence[str]) -> int:
-    """Make what a cluster has in some recordings a cluster of its own.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    cluster : int or str
-        By number or name.
-    recordings : sequence of str
-
-    Returns
-    -------
-    int
-        The number of the new cluster.
-
-    Raises
-    ------
-    ParameterError
-        It is in none of these recordings, or in no other.
-    """
-    with tables.editing():
-        (number, *_) = numbers_of(tables, cluster)
-        words = tables.columns("words")
-        there = set(words["recording"][words["cluster"] == number].tolist())
-        if not there.intersection(recordings) or there <= set(recordings):
-            raise ParameterError(
-                f"cluster {number} is split by naming some, not all, of its {len(there)} "
-                f"recordings: {', '.join(sorted(there)[:5])}"
-            )
-        into: int = max(tables.head["following"], tables.edits.following)
-        tables.write(tables.edits.with_split(number, into, recordings))
-    return into

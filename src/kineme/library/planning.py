@@ -11,12 +11,12 @@ from typing import Any
 
 from kineme.errors import ParameterError, WriteError
 from kineme.library.settings import Settings
-from kineme.library.storage.layout import HEAD, PIECES, read_head, read_json
+from kineme.library.storage.layout import ANALYSES, HEAD, read_head, read_json
 from kineme.library.storage.places import is_remote, place
 
 AnyPath = str | PathLike[str]
 Entry = tuple[str, Path, str]
-"""A recording: its name, where it was read from, and its piece."""
+"""A recording: its name, where it was read from, and its analysis."""
 
 NOTHING = "{}: nothing to build from: name recordings or folders"
 """The error where no recording is named, and none is known."""
@@ -46,8 +46,8 @@ class Plan:
     settings: Settings
 
     @property
-    def pieces(self) -> Path:
-        return self.folder / PIECES
+    def analyses(self) -> Path:
+        return self.folder / ANALYSES
 
 
 def plan_of(
@@ -58,14 +58,8 @@ def plan_of(
     recursive: bool | None,
     settings: Settings | None,
 ) -> Plan:
-    """The plan of a build; what was not said is as it was the last time.
-
-    Raises
-    ------
-    ParameterError
-        There is nothing to build from, or what is to be removed is not known.
-    """
-    every = known_sources(folder, sources, remove)
+    """The plan of a build; what was not said is as it was the last time."""
+    every = sources_after(folder, sources, remove)
     if not every and not head:
         raise ParameterError(NOTHING.format(folder))
     before = head.get("sources", ())
@@ -79,7 +73,7 @@ def plan_of(
     )
 
 
-def known_sources(
+def sources_after(
     into: AnyPath, sources: Iterable[Path] = (), remove: Iterable[Path] = ()
 ) -> list[Path]:
     """The sources of a library after these were added and removed, as absolute paths."""
@@ -101,13 +95,13 @@ def opened(into: AnyPath, named: Sequence[Path]) -> Path:
     if (folder / HEAD).is_file():
         read_head(folder)
         return folder
-    begun = (folder / PIECES).is_dir()  # by a build that was ended before its first head
+    unfinished = (folder / ANALYSES).is_dir()  # by a build that was ended before its first head
     try:
-        if folder.exists() and not begun and (not folder.is_dir() or any(folder.iterdir())):
+        if folder.exists() and not unfinished and (not folder.is_dir() or any(folder.iterdir())):
             raise WriteError(into, "is there already and is no library: name a new folder")
-        if not named and not begun:
+        if not named and not unfinished:
             raise ParameterError(NOTHING.format(folder))
-        (folder / PIECES).mkdir(parents=True, exist_ok=True)
+        (folder / ANALYSES).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise WriteError(into, f"cannot be made: {error.strerror or error}") from error
     return folder

@@ -76,6 +76,12 @@ class Hit(NamedTuple):
         Of the segment that covers most of it, -1 in none.
     label : str
         The name of that cluster.
+
+    Examples
+    --------
+    >>> hit = Hit("walk.bvh", 2.0, 3.2, 0.4, 7, "step")
+    >>> round(hit.stop_s - hit.start_s, 1), hit.label
+    (1.2, 'step')
     """
 
     recording: str
@@ -97,16 +103,6 @@ def spans_like(
     """Spans of a recording that are like one of the examples, apart from each other.
 
     A span goes that is more like a counter-example.
-
-    Parameters
-    ----------
-    features : (samples, dims) array
-        Of the recording.
-    examples, counterexamples : sequence of (samples, dims) array
-    threshold : float
-        Largest distance.
-    top : int, optional
-        Spans at most.
     """
     found = _union(features, examples, threshold, None if counterexamples else top)
     if counterexamples and len(found.starts):
@@ -123,22 +119,7 @@ def spans_like(
 def best(
     found: Sequence[Matches], *, top: int | None, most: int | None
 ) -> list[tuple[int, tuple[int, int, float]]]:
-    """The nearest spans of several recordings.
-
-    Parameters
-    ----------
-    found : sequence of Matches
-        Of each recording.
-    top : int, optional
-        Spans at most.
-    most : int, optional
-        Of one recording at most.
-
-    Returns
-    -------
-    list of (int, (int, int, float))
-        Which recording, and start, stop and distance; the nearest first.
-    """
+    """Which recording, and start, stop and distance, of the nearest spans; ``most`` of each."""
     spans = [
         (distance, i, start, stop)
         for i, each in enumerate(found)
@@ -165,5 +146,5 @@ def _union(
     return Matches(starts[chosen], stops[chosen], distances[chosen])
 
 
-def _picked(found: Matches, which: slice | Ints) -> Matches:
-    return Matches(found.starts[which], found.stops[which], found.distances[which])
+def _picked(found: Matches, rows: slice | Ints) -> Matches:
+    return Matches(found.starts[rows], found.stops[rows], found.distances[rows])

@@ -26,8 +26,8 @@ from kineme.methods.constants import (
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
-PIECE = "kineme.library.piece/4"
-"""Schema of a piece: a change of what is kept of a recording gets the next number."""
+ANALYSIS = "kineme.library.piece/4"
+"""Schema of an analysis: a change of what is kept of a recording gets the next number."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class Settings:
         Raises
         ------
         ParameterError
-            They are not.
+            They are of another shape.
         """
         try:
             constants = {name: _tupled(value) for name, value in content["constants"].items()}
@@ -110,7 +110,7 @@ class Settings:
             ) from error
 
     def key(self, digest: str) -> str:
-        """The name of the piece of a recording whose files have this digest."""
+        """The name of the analysis of a recording whose files have this digest."""
         return sha256(f"{self._digest} {digest}".encode()).hexdigest()[:32]
 
     @cached_property
@@ -121,7 +121,7 @@ class Settings:
             with suppress(ParameterError):  # constants of one that the other does not have
                 chosen = resolve_preset(self.preset, signals=signals, **self.constants)
                 presets.append([chosen.name, dict(chosen.parameters())])
-        content = [PIECE, __version__, presets, self.to_json()]
+        content = [ANALYSIS, __version__, presets, self.to_json()]
         return sha256(json.dumps(content, sort_keys=True, default=_plain).encode()).hexdigest()
 
 
@@ -138,34 +138,44 @@ class VocabularyConstants:
     """How the clusters of single recordings are joined; distances are those of a search."""
 
     join: float = constant(
-        "words are joined up to this mean distance, that of a search", limits=SOME_LENGTH,
+        "words are joined up to this mean distance, as a search measures it", limits=SOME_LENGTH,
         default=0.85,
     )  # fmt: skip
     farthest: float = constant(
-        "no two words are farther apart", limits=SOME_LENGTH, default=2.0, fine=True
+        "a larger distance counts as this one", limits=SOME_LENGTH, default=2.0, fine=True
     )
-    told_apart: float = constant(
-        "those of one recording are as far apart at least", limits=SOME_LENGTH, default=1.3,
-        fine=True,
+    same_recording: float = constant(
+        "a smaller distance of two words of one recording counts as this one", limits=SOME_LENGTH,
+        default=1.3, fine=True,
     )  # fmt: skip
     longest_example: float = constant(
-        "an example is cut to this", unit="s", limits=SOME_TIME, default=4.0, fine=True
+        "a longer example is cut to this", unit="s", limits=SOME_TIME, default=4.0, fine=True
     )
     longest_context: float = constant(
-        "and what it is looked for in to this", unit="s", limits=SOME_TIME, default=12.0, fine=True
+        "a longer context of an example is cut to this",
+        unit="s",
+        limits=SOME_TIME,
+        default=12.0,
+        fine=True,
     )
     most: int = constant(
-        "words compared each with each; of more a sample is", limits=SOME, default=400, fine=True
+        "words that are compared each with each; of more, a sample",
+        limits=SOME,
+        default=400,
+        fine=True,
     )
     typical: int = constant(
-        "words of each cluster that the others are compared with", limits=SOME, default=5, fine=True
+        "words of each cluster that further words are compared with",
+        limits=SOME,
+        default=5,
+        fine=True,
     )
     nearest: int = constant(
-        "clusters whose embeddings are nearest, of which a word may be", limits=SOME, default=4,
-        fine=True,
+        "clusters that a further word is compared with, the nearest by embedding", limits=SOME,
+        default=4, fine=True,
     )  # fmt: skip
     unsure: float = constant(
-        "confidence below which a word is shown as unsure", limits=SHARE, default=0.1,
+        "confidence below which a word is shown as uncertain", limits=SHARE, default=0.1,
         fine=True,
     )  # fmt: skip
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cache
 from hashlib import sha256
@@ -49,13 +49,7 @@ def size_of(path: Path) -> int:
 
 
 def content_digest(path: Path, skeleton: AnyPath | None) -> str:
-    """SHA-256 of what a recording is read from, and of its suffix, which tells the format.
-
-    Raises
-    ------
-    ReadError
-        A file cannot be opened.
-    """
+    """SHA-256 of what a recording is read from, and of its suffix, which tells the format."""
     digest = sha256(path.suffix.lower().encode())
     try:
         for file in files_of(path, skeleton):
@@ -69,45 +63,35 @@ def content_digest(path: Path, skeleton: AnyPath | None) -> str:
     return digest.hexdigest()
 
 
-class FileStates:
-    """Sizes and times of files: whether they changed, without reading them."""
+def states_of(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, str]:
+    """Sizes and times of the files of recordings: whether they changed, without reading them.
 
-    def __init__(self, skeleton: AnyPath | None):
-        self._skeleton = None if skeleton is None else Path(skeleton)
-        self._near = cache(_skeletons_in)
+    Empty where that cannot be told. With an AMC go the skeletons near it.
+    """
+    skeletons_in = cache(_skeletons_in)
 
-    def of(self, path: Path) -> str:
-        """Sizes and times of a recording's files, and of the skeletons near an AMC."""
-        try:
-            if path.is_dir():
-                return _state(sorted(path.iterdir()))
-            if self._skeleton is not None:
-                return _state([path, self._skeleton])
-            if path.suffix.lower() != _AMC:
-                return _state([path])
-            home = path.parent
-            near = [self._near(each) for each in (home, home / "asf", home.parent / "asf")]
-            return " ".join([_state([path]), *near]).strip()
-        except OSError:
-            return ""
+    def state(path: Path) -> str:
+        if path.is_dir():
+            return _state(sorted(path.iterdir()))
+        if skeleton is not None:
+            return _state([path, Path(skeleton)])
+        if path.suffix.lower() != _AMC:
+            return _state([path])
+        home = path.parent
+        near = [skeletons_in(each) for each in (home, home / "asf", home.parent / "asf")]
+        return " ".join([_state([path]), *near]).strip()
+
+    states = dict.fromkeys(paths, "")
+    for path in states:
+        with suppress(OSError):
+            states[path] = state(path)
+    return states
 
 
 def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:
-    """Each recording in the sources that are there, and the source it was found in.
+    """Each recording in the sources, an absolute path, and the first source it was found in.
 
-    Parameters
-    ----------
-    sources : iterable of Path
-        Recordings, and folders of them.
-    recursive : bool
-        Look into the folders of a folder, too.
-    without : Path
-        A folder whose files are none: the library itself.
-
-    Returns
-    -------
-    dict of Path to Path
-        Absolute paths; the first source counts.
+    Files ``without`` are left out: those of the library itself.
     """
     found: dict[Path, Path] = {}
     for source in sources:
@@ -123,16 +107,7 @@ def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[P
 def names_of(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Path, str]:
     """A name for each recording: its path in its source, with more folders where two are equal.
 
-    Parameters
-    ----------
-    found : mapping of Path to Path
-        Recordings and their sources.
-    former : mapping of Path to str
-        Names that are given already; they stay.
-
-    Returns
-    -------
-    dict of Path to str
+    Names that are given already stay.
     """
     names = {path: former[path] for path in found if path in former}
     used = set(names.values())
@@ -164,9 +139,9 @@ def recordings_under(folder: Path, *, recursive: bool) -> list[Path]:
     """The recordings in a folder; elsewhere, only such as are one file."""
     if not is_remote(folder):
         return recordings_in(folder, recursive=recursive).recordings
-    there: Any = folder
-    inside = there.fs.find(there.path, maxdepth=None if recursive else 1)
-    home = there.path.rstrip("/") + "/"
+    remote: Any = folder
+    inside = remote.fs.find(remote.path, maxdepth=None if recursive else 1)
+    home = remote.path.rstrip("/") + "/"
     paths = [folder / name.removeprefix(home) for name in sorted(inside)]
     return [path for path in paths if not path.name.startswith(".") and holds_recording(path)]
 

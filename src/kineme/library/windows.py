@@ -3,7 +3,7 @@
 A search compares samples along a warping. The mean of a window, and how its second half differs
 from the first (the first two terms of a cosine transform), are near where all samples are. Features
 are ordered by how much they tell, so the first of them do. Each number takes a byte: those of unit
-vectors lie between -1 and 1, and what rounding adds is little beside what is left out.
+vectors lie between -1 and 1, and rounding errs less than the numbers that are left out.
 """
 
 from __future__ import annotations
@@ -46,19 +46,7 @@ def count(samples: Ints, length: int) -> Ints:
 
 
 def windows_of(features: Float32s, length: int) -> Bytes:
-    """The windows of a recording in 32 numbers each.
-
-    Parameters
-    ----------
-    features : (samples, dims) array
-    length : int
-        Samples of a window.
-
-    Returns
-    -------
-    (windows, 32) array of int8
-        Means, and what tells of the two halves.
-    """
+    """The windows of a recording in 32 numbers each: means, and what tells of the two halves."""
     if len(features) == 0:
         return np.empty((0, NUMBERS), np.int8)
     if len(features) < length:
@@ -86,7 +74,7 @@ def length_for(example: Float32s) -> int:
     return min(LENGTHS, key=lambda length: abs(np.log(length / max(len(example), 1))))
 
 
-def wanted(example: Float32s) -> NDArray[np.int32]:
+def parts_at_speeds(example: Float32s) -> NDArray[np.int32]:
     """The middle of an example at each of `SPEEDS`, (speeds, 32), to compare windows with."""
     length = length_for(example)
     parts = []

@@ -41,6 +41,11 @@ class Annotation:
         is not there is called what more than half of its segments are.
     corrections : int
         How often the table was corrected.
+
+    Examples
+    --------
+    >>> Annotation(checked=(("activity", 0, 326),), corrections=2).to_json()
+    {'checked': (('activity', 0, 326),), 'corrections': 2}
     """
 
     checked: tuple[Span, ...] = ()

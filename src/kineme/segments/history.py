@@ -32,7 +32,7 @@ class History(Generic[State]):
 
     Examples
     --------
-    >>> history = History("cut").then("merged").then("named")
+    >>> history = History("cut").followed_by("merged").followed_by("named")
     >>> history.undone().present
     'merged'
     >>> history.undone().redone().present
@@ -43,48 +43,18 @@ class History(Generic[State]):
     past: tuple[State, ...] = ()
     future: tuple[State, ...] = ()
 
-    def then(self, state: State) -> History[State]:
-        """The history with a new present; what was undone cannot be redone any more.
-
-        Parameters
-        ----------
-        state : State
-
-        Returns
-        -------
-        History
-            With at most ``LONGEST`` states before the present one.
-        """
+    def followed_by(self, state: State) -> History[State]:
+        """The history with a new present; what was undone cannot be redone any more."""
         return History(state, (*self.past, self.present)[-LONGEST:])
 
     def undone(self) -> History[State]:
-        """The history one step back.
-
-        Returns
-        -------
-        History
-
-        Raises
-        ------
-        ParameterError
-            There is nothing to undo.
-        """
+        """The history one step back."""
         if not self.past:
             raise ParameterError("there is nothing to undo")
         return History(self.past[-1], self.past[:-1], (self.present, *self.future))
 
     def redone(self) -> History[State]:
-        """The history one step forward again.
-
-        Returns
-        -------
-        History
-
-        Raises
-        ------
-        ParameterError
-            There is nothing to redo.
-        """
+        """The history one step forward again."""
         if not self.future:
             raise ParameterError("there is nothing to redo")
         return History(self.future[0], (*self.past, self.present), self.future[1:])

@@ -336,7 +336,7 @@ class Segmentation:
         return f"<Segmentation of {length}: {self.describe()}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.notebook import page
+        from kineme.segments.timeline import page
 
         return page(repr(self).strip("<>"), [self.activities, self.primitives], self.activities)
 

@@ -82,7 +82,17 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """One row of the table: a span ``[start_frame, stop_frame)`` and what it is."""
+    """One row of the table: a span ``[start_frame, stop_frame)`` and what it is.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> walk = found.activities[0]
+    >>> walk.kind, walk.label, walk.start_frame, walk.stop_frame, round(walk.duration_s, 2)
+    ('activity', 'walk', 0, 326, 5.43)
+    """
 
     level: Annotated[Level, Column("which rows of the table: `activity` or `primitive`")]
     kind: Annotated[Kind, Column("`activity` or `primitive`, as its level, or `transition`")]
@@ -217,10 +227,6 @@ class SegmentTable:
     def to_dataframe(self) -> pd.DataFrame:
         """One row per segment: the columns in the documented order, and ``duration_s``.
 
-        Returns
-        -------
-        pandas.DataFrame
-
         Raises
         ------
         MissingDependencyError
@@ -313,31 +319,14 @@ class SegmentTable:
         return f"<SegmentTable of {of}{span}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.notebook import page
+        from kineme.segments.timeline import page
 
         levels = [self[self.level == level] for level in get_args(Level)]
         return page(repr(self).strip("<>"), levels, self)
 
 
 def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
-    """A table from columns in any row order; see `Segmentation.from_columns`.
-
-    Parameters
-    ----------
-    columns : mapping of str to array_like
-        By name, today's or that of older files, one value for each segment.
-    fps : float
-        Frames per second.
-
-    Returns
-    -------
-    SegmentTable
-
-    Raises
-    ------
-    ParameterError
-        A column is missing, of another length, or holds what it cannot.
-    """
+    """A table from columns in any row order; see `Segmentation.from_columns`."""
     present = present_names(columns)
     needed = {name: column for name, column in COLUMNS.items() if not column.derived}
     for name, column in needed.items():
@@ -360,13 +349,7 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
 
 
 def kinds_of(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.str_]:
-    """The kinds of segments of these levels; a primitive of older files is an activity there.
-
-    Raises
-    ------
-    ParameterError
-        A primitive on the activity level.
-    """
+    """The kinds of segments of these levels; a primitive of older files is an activity there."""
     if ((levels == "activity") & (kinds == "primitive")).any():
         raise ParameterError(
             "a segment of level 'activity' is an activity or a transition, not a primitive"

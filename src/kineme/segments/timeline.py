@@ -1,4 +1,4 @@
-"""A segment table along a line of seconds: on Axes of matplotlib, and as SVG for notebooks.
+"""A segment table along a line of seconds: on Axes of matplotlib, and as HTML for notebooks.
 
 Each level is a row, each segment a bar in the colour of its cluster, the same
 in every picture; grey is what is in no cluster, lighter grey a transition.
@@ -6,6 +6,7 @@ in every picture; grey is what is in no cluster, lighter grey a transition.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any, Protocol, Self
@@ -28,6 +29,9 @@ TRANSITION = "#F0F0F0"
 NO_LABELS: Mapping[str, str] = {}
 WIDTH, HEIGHT = 720, 16
 """Pixels of a row in a notebook."""
+FIRST_ROWS = 8
+"""Rows of a table that a notebook shows."""
+HEADER = ("kind", "start s", "stop s", "duration s", "cluster", "label", "confidence")
 
 
 class Row(Protocol):
@@ -79,23 +83,7 @@ def draw_timeline(
     colors: Sequence[Sequence[str]] | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Rows of segments below each other, each with its name at the left.
-
-    Parameters
-    ----------
-    rows : mapping of str to SegmentTable
-        By the names shown, from the top.
-    seconds : float
-        End of the line.
-    colors : sequence of sequences of str, optional
-        Of each segment of each row; by default those of `segment_color`.
-    ax : Axes, optional
-        Where to draw; Axes of a new figure of pyplot by default.
-
-    Returns
-    -------
-    Axes
-    """
+    """Rows of segments below each other, each with its name at the left."""
     axes = new_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
     if colors is None:
         labels = label_colors(segment for table in rows.values() for segment in table)
@@ -121,19 +109,7 @@ def draw_timeline(
 
 
 def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
-    """The same as an ``<svg>``: never more bars in a row than it has pixels.
-
-    Parameters
-    ----------
-    rows : sequence of SegmentTable
-        From the top.
-    start_s, stop_s : float
-        Ends of the line.
-
-    Returns
-    -------
-    str
-    """
+    """The same as an ``<svg>``: never more bars in a row than it has pixels."""
     height = HEIGHT * len(rows)
     labels = label_colors(segment for table in rows for segment in table)
     bars = [
@@ -147,6 +123,39 @@ def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
         f'<svg viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
         f'style="max-width:100%" role="img" aria-label="timeline">{"".join(bars)}</svg>'
     )
+
+
+def page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
+    """HTML of a title, timelines below each other, and the first rows of a table."""
+    shown = [table for table in timelines if len(table)]
+    picture = ""
+    if shown:
+        start = min(float(table.start_s.min()) for table in shown)
+        stop = max(float(table.stop_s.max()) for table in shown)
+        picture = timeline_svg(shown, start, stop)
+    more = len(rows) - FIRST_ROWS
+    below = f"<p>and {more} more</p>" if more > 0 else ""
+    return f"<div><p>{escape(title)}</p>{picture}{_rows(rows)}{below}</div>"
+
+
+def _rows(table: Rows) -> str:
+    head = "".join(f"<th>{name}</th>" for name in HEADER)
+    body = "".join(f"<tr>{_cells(segment)}</tr>" for segment in table.select(slice(FIRST_ROWS)))
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _cells(segment: Row) -> str:
+    square = f'<span style="color:{segment_color(segment)}">■</span>'
+    cells = (
+        segment.kind,
+        f"{segment.start_s:.2f}",
+        f"{segment.stop_s:.2f}",
+        f"{segment.duration_s:.2f}",
+        f"{square} {segment.cluster}" if segment.cluster >= 0 else "",
+        escape(segment.label),
+        "" if math.isnan(segment.confidence) else f"{segment.confidence:.2f}",
+    )
+    return "".join(f"<td>{cell}</td>" for cell in cells)
 
 
 def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float, float]]:

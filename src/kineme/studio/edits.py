@@ -12,7 +12,7 @@ from msgspec import UNSET, Struct
 from kineme.errors import ParameterError
 from kineme.labels.collections import labels_for
 from kineme.segments import editing
-from kineme.segments.editing.marks import noted
+from kineme.segments.editing.annotating import noted
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.loading import LoadedRecording

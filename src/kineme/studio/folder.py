@@ -16,7 +16,7 @@ from pathlib import Path
 from kineme.errors import KinemeError
 from kineme.formats.listing import files_in, holds_recording
 from kineme.labels import holds_labels, read_segments
-from kineme.segments.editing.marks import marked
+from kineme.segments.editing.annotating import marked
 from kineme.studio.reading import stamp_of
 from kineme.studio.storage.tables import usual_table, usual_tables
 

@@ -52,14 +52,6 @@ class ChannelSamples:
 def channel_samples(signals: Signals) -> ChannelSamples:
     """The samples of a recording, `RATE` a second outside of its gaps.
 
-    Parameters
-    ----------
-    signals : Signals
-
-    Returns
-    -------
-    ChannelSamples
-
     Examples
     --------
     >>> from kineme import Signals
@@ -120,22 +112,7 @@ class Units:
 
 
 def in_common_units(recordings: Sequence[ChannelSamples]) -> list[Float32s]:
-    """Features (samples, 2 · channels) of each recording, in units of all of them.
-
-    Parameters
-    ----------
-    recordings : sequence of ChannelSamples
-        With the same channels.
-
-    Returns
-    -------
-    list of ndarray
-
-    Raises
-    ------
-    ParameterError
-        Their channels differ.
-    """
+    """Features (samples, 2 · channels) of each recording, in units of all of these."""
     for one in recordings:
         if one.names != recordings[0].names:
             raise ParameterError(

@@ -145,14 +145,6 @@ class KnowledgeBase:
     def merged(cls, *bases: KnowledgeBase) -> Self:
         """All primitives of all; of a recording that several hold, those of the last.
 
-        Parameters
-        ----------
-        *bases : KnowledgeBase
-
-        Returns
-        -------
-        KnowledgeBase
-
         Raises
         ------
         ParameterError
@@ -176,14 +168,6 @@ class KnowledgeBase:
     def load(cls, path: str | PathLike[str]) -> Self:
         """The knowledge base in a file that `save` wrote.
 
-        Parameters
-        ----------
-        path : path-like
-
-        Returns
-        -------
-        KnowledgeBase
-
         Raises
         ------
         ReadError
@@ -194,10 +178,6 @@ class KnowledgeBase:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write all of it to one ``.npz`` file, or leave what is there as it was.
-
-        Parameters
-        ----------
-        path : path-like
 
         Raises
         ------

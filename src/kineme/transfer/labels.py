@@ -2,8 +2,8 @@
 
 Every unlabelled primitive takes the label of its cheapest valid match (see
 `kineme.transfer.matching`), and stays without one where none is cheap
-enough. Its confidence is the margin: the share by which the next label is dearer,
-from 0 (a toss-up) to 1.
+enough. Its confidence is the margin: the share by which the next label costs more,
+from 0 (both cost the same) to 1.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1; threshold, margin and
 spreading through clusters are our own.
@@ -23,20 +23,15 @@ from kineme._checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable
-from kineme.transfer.choosing import (
-    REACH,
-    SIMILAR,
-    activity_labels,
-    another_movement,
-    cheapest,
-    costs_of,
-    spread_in_clusters,
-)
 from kineme.transfer.features import FPS, working_frames
 from kineme.transfer.knowledge import KnowledgeBase
-from kineme.transfer.matching import THRESHOLD, Floats, Primitives, same_movements
+from kineme.transfer.matching import THRESHOLD, Floats, Primitives, label_costs, same_movements
 from kineme.transfer.unsegmented import found_by_search, segmented_as_found
 
+REACH = 2.0
+"""Thresholds up to which a match with the next label is looked for."""
+SIMILAR = 0.6
+"""Cost up to which the repetitions of one person are the same movement."""
 LARGEST = 1e6
 """Threshold above which nothing more is found; no cost comes near it."""
 
@@ -52,7 +47,7 @@ def transfer_labels(
     """The same segments, with labels from the knowledge base and the margin as confidence.
 
     A recording without activities, as one that is too short to repeat anything, is searched for
-    all that is known, and cut into what is found there. Labels that are there already stay. An
+    every known primitive, and cut into what is found. Labels that are there already stay. An
     activity is called as most of its frames are. ``provenance["transfer"]`` holds the threshold
     and, for each primitive, the cost of its match (null: no label came from one).
 
@@ -110,27 +105,22 @@ def transfer_labels(
     unnamed = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
     if len(unnamed) and len(knowledge):
         unknown = _primitives(rows.select(unnamed), features, segmentation.fps)
-        found, names = costs_of(unknown, knowledge, REACH * threshold)
-        named = cheapest(found, names, threshold)
-        other = another_movement(named[0], named[2], same_movements(unknown, SIMILAR))
+        found, names = _costs_of(unknown, knowledge, REACH * threshold)
+        named = _cheapest(found, names, threshold)
+        other = _another_movement(named[0], named[2], same_movements(unknown, SIMILAR))
         named[0][other], named[1][other], named[2][other] = "", np.nan, np.nan
         labels[unnamed], margins[unnamed], costs[unnamed] = named
     if spread:
-        spread_in_clusters(labels, margins, rows.cluster, unnamed)
+        _spread_in_clusters(labels, margins, rows.cluster, unnamed)
     of_level = table.level == level
     all_labels, all_margins = table.label.astype(object), table.confidence.copy()
     all_labels[of_level], all_margins[of_level] = labels, margins
     if level == "primitive":
         activities = table.level == "activity"
-        all_labels[activities] = activity_labels(segmentation, labels)
-    return Segmentation(
-        table.with_columns(label=all_labels.astype(np.str_), confidence=all_margins),
-        segmentation.n_frames,
-        segmentation.fps,
-        _provenance(segmentation, labels[unnamed], costs, threshold, spread=spread),
-        segmentation.timings,
-        annotation=segmentation.annotation,
-    )
+        all_labels[activities] = _activity_labels(segmentation, labels)
+    table = table.with_columns(label=all_labels.astype(np.str_), confidence=all_margins)
+    provenance = _provenance(segmentation, labels[unnamed], costs, threshold, spread=spread)
+    return replace(segmentation, table=table, provenance=provenance, hierarchy=None)
 
 
 def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segmentation:
@@ -182,13 +172,86 @@ def _searched(
     *,
     spread: bool,
 ) -> Segmentation:
-    """What is known, found in a recording without activities; the same segments if nothing is."""
+    """Known primitives, found in a recording without activities; the same segments without any."""
     found = found_by_search(features, knowledge, threshold)
     result = segmented_as_found(segmentation, found) if found else segmentation
     labels = np.array([match.label for match in found], np.str_)
     costs = np.array([match.distance for match in found])
     provenance = _provenance(segmentation, labels, costs, threshold, spread=spread)
     return replace(result, provenance=provenance, hierarchy=None)
+
+
+def _costs_of(
+    unknown: Primitives, knowledge: KnowledgeBase, radius: float
+) -> tuple[Floats, NDArray[np.str_]]:
+    """Costs (primitives, names), and the names; without a match the radius."""
+    names, codes = np.unique(knowledge.labels, return_inverse=True)
+    costs = label_costs(unknown, knowledge.primitives(), codes, len(names), radius=radius)
+    return np.minimum(costs, radius), names
+
+
+def _cheapest(
+    costs: Floats, names: NDArray[np.str_], threshold: float
+) -> tuple[NDArray[Any], Floats, Floats]:
+    """Label, margin and cost of each row; empty and nan where nothing is within the threshold."""
+    best = costs.argmin(axis=1)
+    cost = costs[np.arange(len(costs)), best]
+    others = costs.copy()
+    others[np.arange(len(costs)), best] = np.inf
+    # With one label alone the radius stands for the next: matches that cost more were not searched.
+    following = np.minimum(others.min(axis=1), REACH * threshold)
+    margin = 1 - cost / np.maximum(following, 1e-12)
+    valid = cost <= threshold
+    return (
+        np.where(valid, names[best].astype(object), ""),
+        np.where(valid, margin, np.nan),
+        np.where(valid, cost, np.nan),
+    )
+
+
+def _another_movement(
+    labels: NDArray[Any], costs: Floats, movements: NDArray[np.int64]
+) -> NDArray[np.bool_]:
+    """Which rows are another movement than the cheapest match of their label in the recording.
+
+    Another movement keeps the label only where its match costs no more than one repetition of a
+    person costs by another.
+    """
+    other = np.zeros(len(labels), np.bool_)
+    for label in set(labels.tolist()) - {""}:
+        named = np.flatnonzero(labels == label)
+        first = named[costs[named].argmin()]
+        other[named] = (movements[named] != movements[first]) & (costs[named] > SIMILAR)
+    return other
+
+
+def _spread_in_clusters(
+    labels: NDArray[Any], margins: Floats, clusters: NDArray[np.int64], unnamed: NDArray[np.intp]
+) -> None:
+    """Give every cluster's members the label that most of them have; a person's label stays."""
+    for cluster in set(clusters[unnamed].tolist()) - {-1}:
+        named = Counter(label for label in labels[clusters == cluster] if label)
+        if not named:
+            continue
+        winner, votes = named.most_common(1)[0]
+        others = [row for row in unnamed if clusters[row] == cluster and labels[row] != winner]
+        labels[others] = winner
+        margins[others] = votes / named.total()
+
+
+def _activity_labels(segmentation: Segmentation, labels: NDArray[Any]) -> list[str]:
+    """The label of each activity: its own, else that of more than half of its frames."""
+    primitives = segmentation.primitives
+    names = []
+    for row in segmentation.activities:
+        inside = np.flatnonzero(primitives.activity == row.activity)
+        frames: Counter[str] = Counter()
+        for p in inside:
+            frames[labels[p]] += int(primitives.stop_frame[p] - primitives.start_frame[p])
+        name, most = frames.most_common(1)[0] if frames else ("", 0)
+        wide = most > (row.stop_frame - row.start_frame) / 2
+        names.append(row.label or (name if wide and row.kind == "activity" else ""))
+    return names
 
 
 def _checked(features: ArrayLike, segmentation: Segmentation) -> Floats:

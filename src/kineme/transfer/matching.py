@@ -2,8 +2,8 @@
 
 A primitive u matches a run L of labelled ones if all of u can be warped onto successive samples
 of L, at half to twice its speed (subsequence warping), and all of a primitive of L onto the run
-of u. The match costs the dearer of the two. With one of them alone, a part of a movement would
-pass for the whole.
+of u. The match costs the larger of the two. With one of them alone, a part of a movement would
+match the whole.
 
 A *run* is of primitives that touch and are of one kind. Cyclic movements may be cut at another
 phase, so a warping may lead from one primitive to the next of its run, but never into another.
@@ -71,19 +71,8 @@ def label_costs(
 ) -> Floats:
     """``costs[u, c]``: of the cheapest match of primitive u with one of label c; inf without.
 
-    Parameters
-    ----------
-    unknown, examples : Primitives
-        Features of both in the same unit.
-    codes : (known primitives,) array of int
-        The label of each, from 0, one for all of a run.
-    n_labels : int
-    radius : float
-        Dearer matches are none.
-
-    Returns
-    -------
-    (unknown primitives, n_labels) array
+    ``codes`` are the labels of the examples, from 0, one for all of a run; a match that costs more
+    than the radius is none.
     """
     costs = np.full((len(unknown), n_labels), np.inf)
     of_run = np.empty(int(examples.runs[-1]) + 1, np.int64)

@@ -1,4 +1,4 @@
-"""Labels for a recording in which nothing repeats itself: it is searched for all that is known.
+"""Labels for a recording in which nothing repeats itself, by a search for every known primitive.
 
 A recording that is too short has no activities, so there is nothing to name. Its features are
 searched for each labelled primitive (see `kineme.matching.search`); of matches that overlap, the
@@ -10,11 +10,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from kineme.matching import search
+from kineme.segments.editing.rows import with_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level, kind_of
+from kineme.segments.table import Level, Segment, kind_of
 from kineme.transfer.features import FPS
 from kineme.transfer.knowledge import KnowledgeBase
 
@@ -68,25 +69,23 @@ def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmen
         follows = bool(activities) and activities[-1][1:] == (start, label)
         activities.append((activities.pop()[0] if follows else start, stop, label))
     names = {label: number for number, label in enumerate(sorted({row[2] for row in activities}))}
-    columns: dict[str, list[object]] = {
-        name: [] for name in ("level", "kind", "start_frame", "stop_frame", "label", "cluster")
-    }
-    level: Level
-    for level, rows in (("activity", activities), ("primitive", primitives)):
-        for start, stop, label in _tiled(rows, segmentation.n_frames):
-            kind = kind_of(level, transition=not label)
-            values = (level, kind, start, stop, label, names.get(label, -1))
-            for column, value in zip(columns.values(), values, strict=True):
-                column.append(value)
-    arrays: dict[str, ArrayLike] = {name: np.array(column) for name, column in columns.items()}
-    return Segmentation.from_columns(
-        arrays,
-        n_frames=segmentation.n_frames,
-        fps=segmentation.fps,
-        provenance=segmentation.provenance,
-        timings=segmentation.timings,
-        annotation=segmentation.annotation,
-    )
+    levels: tuple[tuple[Level, list[Row]], ...]
+    levels = ("activity", activities), ("primitive", primitives)
+    rows = [
+        Segment(
+            level,
+            kind_of(level, transition=not label),
+            start,
+            stop,
+            start / segmentation.fps,
+            stop / segmentation.fps,
+            cluster=names.get(label, -1),
+            label=label,
+        )
+        for level, spans in levels
+        for start, stop, label in _tiled(spans, segmentation.n_frames)
+    ]
+    return with_rows(segmentation, rows, [])
 
 
 def _tiled(rows: list[Row], n_frames: int) -> list[Row]:

@@ -40,24 +40,8 @@ def share_by_samples(
 ) -> list[Segmentation]:
     """The same segments, in which equal cluster numbers are equal movements everywhere.
 
-    Parameters
-    ----------
-    samples : sequence of ChannelSamples
-        Of recordings of the same channels, see `channel_samples`.
-    segmentations : sequence of Segmentation
-        One for each.
-    n_clusters : int, optional
-        How many clusters to tell apart; by default `likely_number` says.
-
-    Returns
-    -------
-    list of Segmentation
-        Repetitions have the cluster of their activity, transitions none.
-
-    Raises
-    ------
-    ParameterError
-        Their channels differ.
+    Repetitions have the cluster of their activity, transitions none. Where no number of clusters is
+    given, `likely_number` tells it.
     """
     features = in_common_units(samples)
     typical = [_typical(*each) for each in zip(samples, features, segmentations, strict=True)]
@@ -77,18 +61,7 @@ def share_by_samples(
 
 
 def centres_of(points: Float32s, n_clusters: int) -> Float32s:
-    """The centres of the clusters of points: the best of `STARTS` runs of k-means.
-
-    Parameters
-    ----------
-    points : (points, dims) array
-    n_clusters : int
-
-    Returns
-    -------
-    (n_clusters, dims) array
-        Fewer where no so many points differ.
-    """
+    """The best centres of `STARTS` runs of k-means; fewer where no so many points differ."""
     from sklearn.cluster import KMeans
 
     count = min(n_clusters, len(np.unique(points, axis=0)))
@@ -112,14 +85,6 @@ def _typical(samples: ChannelSamples, features: Float32s, found: Segmentation) -
 
 def likely_number(points: Float32s) -> int:
     """How many clusters points have: one more must explain `WORTH` of their variance.
-
-    Parameters
-    ----------
-    points : (points, dims) array
-
-    Returns
-    -------
-    int
 
     Examples
     --------

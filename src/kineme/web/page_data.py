@@ -13,7 +13,7 @@ from kineme.features import Names
 from kineme.labels.json_table import SCHEMA
 from kineme.recordings import Motion, Signals
 from kineme.segments.editing import cluster_names, comments
-from kineme.segments.editing.marks import Mark, marked, span_of
+from kineme.segments.editing.annotating import Mark, marked, span_of
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import Matrix

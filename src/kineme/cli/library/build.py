@@ -97,7 +97,7 @@ def build(
             start_soon()  # what is imported next takes a while as well
         from kineme.library import Settings
         from kineme.library.building import build as build_library
-        from kineme.library.planning import known_sources
+        from kineme.library.planning import sources_after
         from kineme.library.storage.places import is_remote
 
         settings: Settings | None = None
@@ -109,7 +109,7 @@ def build(
                 request.effectors,
                 request.detail,
             )
-        sources = known_sources(into, files or (), remove or ())
+        sources = sources_after(into, files or (), remove or ())
         with progress(into, quiet=quiet) as stage:
             built = build_library(
                 files or (),

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kineme.errors import ReadError
-from kineme.library.storage.layout import BODIES, PIECES, TABLES
-from kineme.library.storage.pieces import read_windows
+from kineme.library.storage.analyses import read_windows
+from kineme.library.storage.layout import ANALYSES, BODIES, TABLES
 from kineme.library.storage.places import near, written
 from kineme.library.windows import LENGTHS, NUMBERS, Bytes, Ints, by_length, count
 
@@ -43,16 +43,7 @@ class Windows(NamedTuple):
 
 
 def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> None:
-    """Leave the index of a library beside its tables, where it is large enough to have one.
-
-    Parameters
-    ----------
-    folder : Path
-    named : str
-        The tables.
-    recordings : dict of str to list
-        The table of recordings by column.
-    """
+    """Leave an index beside the tables of that name, where the library is large enough."""
     samples = _indexed(recordings)
     rates = zip(samples.tolist(), recordings["features_fps"], strict=True)
     if sum(n / fps for n, fps in rates if n) < FROM_HOURS * 3600:
@@ -72,7 +63,7 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
         }
         firsts = dict.fromkeys(LENGTHS, 0)
         for row in np.flatnonzero(samples):
-            windows = read_windows(folder / PIECES, recordings["piece"][row])
+            windows = read_windows(folder / ANALYSES, recordings["piece"][row])
             for length, part in by_length(windows, int(samples[row])):
                 drafts[length][firsts[length] : firsts[length] + len(part)] = part
                 firsts[length] += len(part)
@@ -83,13 +74,7 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
 def open_index(
     folder: Path, named: str, recordings: dict[str, list[Any]], length: int
 ) -> Windows | None:
-    """The windows of one length, or None where the library has no index.
-
-    Raises
-    ------
-    ReadError
-        It is damaged.
-    """
+    """The windows of one length, or None where the library has no index."""
     path = _place(folder / TABLES / named, length)
     try:
         embedded: Bytes = np.load(near(path), mmap_mode="r", allow_pickle=False)

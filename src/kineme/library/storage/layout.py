@@ -26,9 +26,9 @@ if sys.platform != "win32":
 
 SCHEMA = "kineme.library/3"
 """Of the folder; a change that old readers would misunderstand gets the next number."""
-HEAD, EDITS, SEEN = "library.json", "edits.json", "seen.json"
+HEAD, EDITS, STATES = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"
-TABLES, PIECES = "tables", "pieces"
+TABLES, ANALYSES = "tables", "pieces"
 EMBEDDED = 32
 """Numbers in an embedding."""
 BODIES = "bodies"
@@ -48,22 +48,7 @@ EXTRA = "library"
 
 
 def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
-    """What ``library.json`` says.
-
-    Parameters
-    ----------
-    folder : path-like
-        Of the library.
-
-    Returns
-    -------
-    dict
-
-    Raises
-    ------
-    ReadError
-        There is no library, or one of another schema.
-    """
+    """What ``library.json`` says."""
     path = place(folder) / HEAD
     if not path.is_file():
         raise ReadError(folder, "is no library: kineme library build FOLDER --into LIB makes one")
@@ -113,20 +98,9 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
 
 @contextmanager
 def writer_lock(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
-    """The library, for one writer alone.
+    """The library, for one writer alone; WriteError where another one holds it.
 
-    Parameters
-    ----------
-    folder : Path
-    what : str
-        What the user is to do once the other writer is done.
-    name : str
-        Of the lock: that of builds, or that of edits.
-
-    Raises
-    ------
-    WriteError
-        Another process holds it, or the folder cannot be written.
+    ``what`` is what to do once that is done, ``name`` that of the lock: of builds, or of edits.
     """
     if is_remote(folder):  # nobody locks there
         yield
@@ -158,11 +132,6 @@ def arrow() -> tuple[Any, Any]:
 
     Read with ``use_threads=False``: a thread of theirs that lets go of bytes of Python while Python
     ends makes it abort, with all work done (https://github.com/apache/arrow/issues/34314).
-
-    Raises
-    ------
-    MissingDependencyError
-        They are not installed.
     """
     try:
         import pyarrow as pa

@@ -32,19 +32,6 @@ _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
 def place(given: str | PathLike[str], caller: str = "place") -> Path:
     """A path, or what behaves like one where a URL is given.
 
-    Parameters
-    ----------
-    given : path-like
-    caller : str
-        The public function that was given it.
-
-    Raises
-    ------
-    MissingDependencyError
-        universal_pathlib is not installed.
-    ParameterError
-        It is no path, or nothing that is installed reaches such a URL.
-
     Examples
     --------
     >>> place("file:///tmp/takes").name
@@ -98,11 +85,6 @@ def written(path: Path) -> Iterator[Path]:
     """A path of this machine to write to; what is there when the block ends becomes ``path``.
 
     Whole or not at all: as `kineme._files.atomic_write` here, and as one object elsewhere.
-
-    Raises
-    ------
-    WriteError
-        It cannot be written.
     """
     if not is_remote(path):
         with atomic_write(path) as draft:
@@ -111,9 +93,9 @@ def written(path: Path) -> Iterator[Path]:
     with TemporaryDirectory(prefix="kineme-") as home:
         draft = Path(home) / path.name
         yield draft
-        there: Any = path
+        remote: Any = path
         try:
-            there.fs.put_file(str(draft), there.path)
+            remote.fs.put_file(str(draft), remote.path)
         except Exception as error:
             reason = " ".join(str(error).split())[:200]
             raise WriteError(path, f"cannot be written: {reason}") from error
@@ -141,7 +123,7 @@ def remove_folder(folder: Path) -> None:
     import shutil
 
     if is_remote(folder):
-        there: Any = folder
-        there.fs.rm(there.path, recursive=True)
+        remote: Any = folder
+        remote.fs.rm(remote.path, recursive=True)
     else:
         shutil.rmtree(folder, ignore_errors=True)

@@ -24,7 +24,7 @@ from kineme.segments.table import COLUMNS, Column, kinds_of, present_names
 
 DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     "recordings": {
-        "recording": Column("its name in the library: the path in the folder that was given"),
+        "recording": Column("its name in the library: its path in its source"),
         "path": Column("where it was read from"),
         "vocabulary": Column("`bodies`, or which channels; empty where it is not searched"),
         "format": Column("of its file"),
@@ -34,11 +34,11 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
         "piece": Column("name of the files in `pieces/` that hold what is kept of it"),
         "features_fps": Column("samples of its features per second", float),
         "samples": Column("of its features; 0 where it is not searched", int),
-        "notes": Column("what had to be inferred and what is unsure, one a line"),
+        "notes": Column("what was inferred and what is uncertain, one a line"),
     },
     "segments": {
         "recording": Column("the recording it is of"),
-        "segment": Column("its row among those of the recording, from 0", int),
+        "segment": Column("its row in the table of the recording, from 0", int),
         **COLUMNS,
         "own_cluster": Column("its cluster in the recording alone", int),
         "action_label": Column("the name of `action`"),
@@ -48,8 +48,8 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
         "own_cluster": Column("the cluster in that recording", int),
         "cluster": Column("the cluster of the library", int),
         "label": Column("the name of that, or empty"),
-        "following": Column("the cluster it is next to but for its own; -1: none", int),
-        "confidence": Column("how much nearer it is to its own cluster, 0 to 1", float),
+        "following": Column("the nearest other cluster; -1: there is no other", int),
+        "confidence": Column("how much nearer its own cluster is than that one, 0 to 1", float),
         "spread": Column("mean distance to the other words of its cluster", float),
         "start_s": Column("where its typical segment starts", float),
         "stop_s": Column("where that stops", float),
@@ -57,8 +57,8 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     },
     "embeddings": {
         "recording": Column("the recording it is of"),
-        "segment": Column("its row among those of the recording, from 0", int),
-        "embedding": Column(f"{EMBEDDED} numbers: what is near is alike", float),
+        "segment": Column("its row in the table of the recording, from 0", int),
+        "embedding": Column(f"{EMBEDDED} numbers, near each other for similar segments", float),
     },
 }
 """The columns of each table, edits applied, and what is in them."""
@@ -108,17 +108,7 @@ def segments_of(table: Any) -> Any:
 
 
 def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
-    """Leave tables in the folder of a library; the name under which they lie there.
-
-    Parameters
-    ----------
-    folder : Path
-    tables : mapping of str to pyarrow.Table
-
-    Returns
-    -------
-    str
-    """
+    """Leave tables in the folder of a library; the name under which they lie there."""
     _, parquet = arrow()
     home = folder / TABLES
     if is_remote(home):
@@ -152,21 +142,7 @@ def _put(home: Path, tables: Mapping[str, Any]) -> str:
 
 
 def read_table(folder: Path, named: str, name: str) -> Any:
-    """One of the tables, a pyarrow.Table.
-
-    Parameters
-    ----------
-    folder : Path
-    named : str
-        The tables that the head of the library names.
-    name : str
-        Of the table.
-
-    Raises
-    ------
-    ReadError
-        It is gone or damaged.
-    """
+    """A table of those that the head of the library names, a pyarrow.Table."""
     pa, parquet = arrow()
     path = folder / TABLES / named / f"{name}.parquet"
     with reading(path):

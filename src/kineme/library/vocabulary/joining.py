@@ -28,7 +28,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +46,7 @@ Ints = NDArray[np.int64]
 Float32s = NDArray[np.float32]
 
 APART = 1e3
-"""In each feature of a sample between two contexts: no match reaches over it."""
+"""Value of each feature between two contexts: no match crosses it."""
 BLOCK = 100
 """Words that a task compares with as many others."""
 AT_ONCE = 200
@@ -122,17 +122,8 @@ class _Pairs:
     others: Sequence[Any]
 
 
-def two_way_distances(crowd: Crowd, executor: Executor, workers: int) -> Floats:
-    """``distances[a, b]``: the mean of a's example found in b's context, and b's in a's.
-
-    Parameters
-    ----------
-    crowd : Crowd
-    executor : Executor
-        Where words are compared.
-    workers : int
-        How many processes are worth to be started for it.
-    """
+def mutual_distances(crowd: Crowd, executor: Executor, workers: int) -> Floats:
+    """``distances[a, b]``: the mean of a's example found in b's context, and b's in a's."""
     n = len(crowd)
     blocks = [slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK)]
     tasks = [
@@ -150,13 +141,7 @@ def two_way_distances(crowd: Crowd, executor: Executor, workers: int) -> Floats:
 def results(
     executor: Executor, work: Callable[[Task], Outcome], tasks: Sequence[Task], workers: int
 ) -> Iterator[tuple[Task, Outcome]]:
-    """What comes of tasks that compare words, as they come.
-
-    Raises
-    ------
-    KinemeError
-        A process that worked on one of them died, and another one did, too.
-    """
+    """What comes of tasks that compare words, as they come; KinemeError where processes died."""
     for task, outcome in executor.completed(work, tasks, workers=workers):
         if outcome is None:
             raise KinemeError(
@@ -182,12 +167,7 @@ def _all_costs(words: Sequence[Word], contexts: Contexts) -> Floats:
 
 
 class Contexts:
-    """The contexts of several words, to look for examples in.
-
-    Parameters
-    ----------
-    words : sequence of Word
-    """
+    """The contexts of several words, to look for examples in."""
 
     def __init__(self, words: Sequence[Word]):
         gap = np.full((1, words[0].example.shape[1]), APART, np.float32)
@@ -205,8 +185,7 @@ class Contexts:
         return least
 
 
-@dataclass(frozen=True, eq=False)
-class Joined:
+class Joined(NamedTuple):
     """The cluster of each word, and how well it fits there.
 
     Attributes
@@ -231,29 +210,14 @@ class Joined:
 def joined(
     distances: Floats, recording: Ints, seconds: Floats, constants: VocabularyConstants
 ) -> Joined:
-    """The clusters of words.
-
-    Parameters
-    ----------
-    distances : (words, words) array
-        Of each two, by `two_way_distances`.
-    recording : (words,) array
-        Number of the recording that each is of.
-    seconds : (words,) array
-        Of all segments of each.
-    constants : VocabularyConstants
-
-    Returns
-    -------
-    Joined
-    """
+    """The clusters of words of these recordings, by `mutual_distances` and seconds of each."""
     n = len(distances)
     if n < 2:
         alone = np.zeros(n, np.int64)
         return Joined(alone, alone - 1, np.full(n, np.nan), np.zeros(n))
     distances = np.minimum(distances, constants.farthest)
     same = recording[:, None] == recording
-    distances[same] = np.maximum(distances[same], constants.told_apart)
+    distances[same] = np.maximum(distances[same], constants.same_recording)
     np.fill_diagonal(distances, 0.0)
     tree = linkage(squareform(distances, checks=False), "average")
     labels = fcluster(tree, constants.join, "distance").astype(np.int64) - 1
@@ -265,16 +229,19 @@ def joined(
 def _fitted(distances: Floats, labels: Ints) -> Joined:
     """Labels, and how well each word fits its own."""
     members = np.eye(int(labels.max()) + 1)[labels]
-    words = np.arange(len(labels))
     sums, sizes = distances @ members, members.sum(axis=0)
-    spread = sums[words, labels] / np.maximum(sizes[labels] - 1, 1)
-    if len(sizes) == 1:
+    spread = sums[np.arange(len(labels)), labels] / np.maximum(sizes[labels] - 1, 1)
+    return beside_others(labels, spread, sums / sizes)
+
+
+def beside_others(labels: Ints, spread: Floats, distances: Floats) -> Joined:
+    """Words with the next cluster of each, by their distances (words, clusters) from all."""
+    if distances.shape[1] == 1:
         return Joined(labels, labels - 1, np.full(len(labels), np.nan), spread)
-    means = sums / sizes
-    means[words, labels] = np.inf
-    nearest = means.min(axis=1)
-    confidence = np.clip(1 - spread / np.maximum(nearest, 1e-9), 0, 1)
-    return Joined(labels, means.argmin(axis=1), confidence, spread)
+    others = distances.copy()
+    others[np.arange(len(labels)), labels] = np.inf
+    confidence = np.clip(1 - spread / np.maximum(others.min(axis=1), 1e-9), 0, 1)
+    return Joined(labels, others.argmin(axis=1), confidence, spread)
 
 
 @dataclass(frozen=True, eq=False)
@@ -300,20 +267,8 @@ def clusters_in(
 ) -> Joined:
     """The clusters of words, however many.
 
-    Parameters
-    ----------
-    crowd : Crowd
-    constants : VocabularyConstants
-    executor : Executor
-        Where words are compared.
-    progress : callable
-        Called with a sentence on how far it is.
-
-    Returns
-    -------
-    Joined
-        As if each had been compared with each where there are no more than ``most``. Of more,
-        spread and confidence are those in the turn in which a word found its cluster.
+    Up to ``most`` are compared each with each. Of more, spread and confidence are those in the turn
+    in which a word found its cluster.
     """
     n = len(crowd)
     workers = n // PER_WORKER
@@ -345,7 +300,7 @@ def clusters_in(
 def _each_with_each(
     crowd: Crowd, constants: VocabularyConstants, executor: Executor, workers: int
 ) -> Joined:
-    distances = two_way_distances(crowd, executor, workers)
+    distances = mutual_distances(crowd, executor, workers)
     return joined(distances, crowd.recording, crowd.seconds, constants)
 
 
@@ -392,7 +347,7 @@ def _clusters_of(task: _Search) -> Joined:
         context = Contexts([word])
         costs = (forward + [context.costs_of(other)[0] for other in others]) / 2
         same = task.typical.words.recording[at] == crowd.recording[number]
-        costs[same] = np.maximum(costs[same], constants.told_apart)
+        costs[same] = np.maximum(costs[same], constants.same_recording)
         clusters, of = np.unique(labels[at], return_inverse=True)
         costs = np.minimum(costs, constants.farthest)
         means = np.bincount(of, costs) / np.bincount(of)
@@ -402,8 +357,8 @@ def _clusters_of(task: _Search) -> Joined:
             return -1, -1, np.nan, least
         if len(order) == 1:
             return cluster, -1, np.nan, least
-        sure = np.clip(1 - least / max(float(means[order[1]]), 1e-9), 0, 1)
-        return cluster, int(clusters[order[1]]), float(sure), least
+        confidence = np.clip(1 - least / max(float(means[order[1]]), 1e-9), 0, 1)
+        return cluster, int(clusters[order[1]]), float(confidence), least
 
     with threadpool_limits(1):  # sums do not depend on threads
         rows = map_threads(nearest, range(len(crowd)))

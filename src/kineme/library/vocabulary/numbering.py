@@ -4,8 +4,8 @@ A new cluster takes the number of the old one whose time it shares most, seconds
 recordings that both know; each number goes to one of them. All others get numbers that were never
 given.
 
-Who takes a recording out of a library and puts it back finds the numbers and names of its clusters
-again: these are kept by the content of the recording, whatever it is called when it comes back.
+A recording that is taken out of a library and put back gets the numbers and names of its clusters
+again: they are kept by its content, whatever its name is then.
 """
 
 from __future__ import annotations
@@ -28,24 +28,13 @@ Spans = tuple[Floats, Floats, Ints]
 """Starts and stops in seconds, and clusters, of the activities of a recording; apart."""
 REMOVED = "left.json"
 Removed = Mapping[str, Spans]
-"""Starts, stops and clusters of the activities of a recording, by the name of its piece."""
+"""Starts, stops and clusters of the activities of a recording, by the name of its analysis."""
 
 
 def lasting_numbers(
     old: Mapping[str, Spans], new: Mapping[str, Spans], *, following: int
 ) -> dict[int, int]:
     """The number of each new cluster.
-
-    Parameters
-    ----------
-    old, new : mapping of str to (starts, stops, clusters)
-        By recording, those of -1 in no cluster.
-    following : int
-        The first number that was never given.
-
-    Returns
-    -------
-    dict of int to int
 
     Examples
     --------
@@ -74,26 +63,20 @@ def lasting_numbers(
 
 
 def read_removed(folder: Path) -> dict[str, Spans]:
-    """What a library remembers of recordings that are not in it.
-
-    Raises
-    ------
-    ReadError
-        The file is damaged.
-    """
+    """The activities of recordings that were taken out, by key."""
     path = folder / REMOVED
     return {key: _spans(columns, path) for key, columns in read_json(path).items()}
 
 
 def write_removed(folder: Path, removed: Removed) -> None:
-    """Leave that for the next build."""
+    """Keep them for the next build."""
     content = {key: [column.tolist() for column in spans] for key, spans in removed.items()}
     if content or (folder / REMOVED).exists():
         write_json(folder / REMOVED, content)
 
 
 def removed_after(removed: Removed, before: Removed, present: Iterable[str]) -> dict[str, Spans]:
-    """Of recordings that were removed or there before those that are not present."""
+    """The activities of recordings that are not present any more, by key."""
     names = set(present)
     return {key: spans for key, spans in {**removed, **before}.items() if key not in names}
 

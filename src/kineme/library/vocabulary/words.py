@@ -1,4 +1,4 @@
-"""From pieces to the words of a vocabulary: which segment stands for a cluster."""
+"""From analyses to the words of a vocabulary: which segment stands for a cluster."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.library.settings import VOCABULARY, VocabularyConstants
-from kineme.library.storage.pieces import Piece, read_spans
+from kineme.library.storage.analyses import Analysis, read_spans
 from kineme.library.vocabulary.joining import Crowd, Word
 from kineme.segments.table import SegmentTable
 
@@ -28,7 +28,7 @@ class Place:
     ----------
     recording : int
         Its number among those of the library.
-    own_cluster : int
+    cluster : int
         The cluster in that recording.
     start_s, stop_s : float
         Its typical segment.
@@ -41,7 +41,7 @@ class Place:
     """
 
     recording: int
-    own_cluster: int
+    cluster: int
     start_s: float
     stop_s: float
     seconds: float
@@ -49,13 +49,13 @@ class Place:
     spans: NDArray[np.float64]
 
 
-def places_in(piece: Piece, recording: int) -> list[Place]:
+def places_in(analysis: Analysis, recording: int) -> list[Place]:
     """The words of a recording: one for each cluster that it has.
 
     The typical segment is the repetition of median length, or the activity where none was
     counted.
     """
-    table = piece.table
+    table = analysis.table
     active, finer, lasts = table.kind != "transition", table.level == "primitive", table.duration_s
     places = []
     for cluster in sorted(set(table.cluster[active].tolist()) - {-1}):
@@ -73,7 +73,7 @@ def places_in(piece: Piece, recording: int) -> list[Place]:
                 float(table.start_s[row]),
                 float(table.stop_s[row]),
                 round(float(lasts[longest].sum()), 6),
-                piece.embeddings[row],
+                analysis.embeddings[row],
                 np.column_stack([table.start_s[longest], table.stop_s[longest]]),
             )
         )
@@ -81,7 +81,7 @@ def places_in(piece: Piece, recording: int) -> list[Place]:
 
 
 class _Spans(NamedTuple):
-    """Where the features of a word lie in a piece: its example and its context, in samples."""
+    """Where the features of a word lie in an analysis: its example and its context, in samples."""
 
     key: str
     example: tuple[int, int]
@@ -89,24 +89,13 @@ class _Spans(NamedTuple):
 
 
 def crowd_of(
-    places: Sequence[Place], pieces: Sequence[Piece], folder: Path, keys: Sequence[str]
+    places: Sequence[Place], analyses: Sequence[Analysis], folder: Path, keys: Sequence[str]
 ) -> Crowd:
-    """The words at these places, drawn in an order that depends on each of them alone.
-
-    Parameters
-    ----------
-    places : sequence of Place
-    pieces : sequence of Piece
-        Of all recordings.
-    folder : Path
-        That holds them.
-    keys : sequence of str
-        Their names there.
-    """
-    names = [f"{keys[place.recording]} {place.own_cluster}" for place in places]
+    """The words at these places, drawn in an order that depends on each of them alone."""
+    names = [f"{keys[place.recording]} {place.cluster}" for place in places]
     drawn = b"".join(sha256(name.encode()).digest()[:8] for name in names)
     spans = [
-        _spans(place, pieces[place.recording], keys[place.recording], VOCABULARY)
+        _spans(place, analyses[place.recording], keys[place.recording], VOCABULARY)
         for place in places
     ]
     return Crowd(
@@ -124,8 +113,8 @@ def _word_at(folder: Path, spans: _Spans) -> Word:
     return Word(*read_spans(folder, spans.key, (spans.example, spans.context)))
 
 
-def _spans(place: Place, piece: Piece, key: str, constants: VocabularyConstants) -> _Spans:
-    fps, samples = piece.facts["features_fps"], piece.facts["samples"]
+def _spans(place: Place, analysis: Analysis, key: str, constants: VocabularyConstants) -> _Spans:
+    fps, samples = analysis.facts["features_fps"], analysis.facts["samples"]
 
     def between(start_s: float, stop_s: float) -> tuple[int, int]:
         first = min(round(start_s * fps), samples - 1)
@@ -133,7 +122,7 @@ def _spans(place: Place, piece: Piece, key: str, constants: VocabularyConstants)
 
     middle = (place.start_s + place.stop_s) / 2
     half = min(place.stop_s - place.start_s, constants.longest_example) / 2
-    start_s, stop_s = _around(piece.table, middle)
+    start_s, stop_s = _around(analysis.table, middle)
     reach = max(constants.longest_context, 2 * half) / 2
     first_s = max(min(start_s, middle - half), middle - reach)
     last_s = min(max(stop_s, middle + half), middle + reach)

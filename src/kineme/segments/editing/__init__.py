@@ -11,6 +11,7 @@ What a person says has no confidence: segments whose span, kind or cluster was
 changed lose theirs.
 """
 
+from kineme.segments.editing.annotating import check, comment, comments
 from kineme.segments.editing.borders import delete_border, merge, move_border, split
 from kineme.segments.editing.carrying import carried
 from kineme.segments.editing.clusters import (
@@ -20,8 +21,6 @@ from kineme.segments.editing.clusters import (
     set_kind,
     split_cluster,
 )
-from kineme.segments.editing.comments import comment, comments
-from kineme.segments.editing.marks import check
 from kineme.segments.editing.naming import cluster_names, name_cluster, name_segment
 
 __all__ = [

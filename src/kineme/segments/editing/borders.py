@@ -42,6 +42,15 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
     ------
     ParameterError
         There is no such border, or ``to`` is not between its neighbours.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> moved = move_border(found, "activity", 326, 330)
+    >>> moved.cuts()[0].item(), moved.cuts("primitive")[4].item()
+    (330, 330)
     """
     rows = list(segmentation.level(level))
     after = after_border(rows, level, frame)
@@ -81,6 +90,14 @@ def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
     ------
     ParameterError
         There is a border already, or no segment of that level.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> split(found, "activity", 200).activities[:2].label.tolist()
+    ['walk', 'walk']
     """
     rows = list(segmentation.level(level))
     if not any(row.start_frame < frame < row.stop_frame for row in rows):
@@ -111,15 +128,23 @@ def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Se
     ParameterError
         The span does not begin and end at borders, holds fewer than two segments, or
         primitives of several activities.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> len(found.primitives), len(merge(found, "primitive", 0, 126).primitives)
+    (38, 37)
     """
     rows = list(segmentation.level(level))
     chosen = [i for i, row in enumerate(rows) if start <= row.start_frame < stop]
-    whole = (
+    at_borders = (
         len(chosen) > 1
         and rows[chosen[0]].start_frame == start
         and rows[chosen[-1]].stop_frame == stop
     )
-    if not whole:
+    if not at_borders:
         raise ParameterError(
             f"frames {start} to {stop} are not two or more whole segments of level {level!r}"
         )
@@ -144,6 +169,14 @@ def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segme
     ------
     ParameterError
         There is no such border, or it is one of activities, too.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> delete_border(found, "activity", 326).activities[0].stop_frame
+    380
     """
     rows = list(segmentation.level(level))
     after = after_border(rows, level, frame)

@@ -1,6 +1,6 @@
 """A new segmentation of a recording that takes over what people did to the one before.
 
-Segments made by hand or checked (`kineme.segments.editing.marks`) are in it as they were;
+Segments made by hand or checked (`kineme.segments.editing.annotating`) are in it as they were;
 the new ones give way. Clusters are matched by the frames that they share: an old cluster is
 the new one that holds more than half of it, unless that has more of another. What matches keeps
 its number, and so its colour; other new clusters get numbers that the table so far has not. Names
@@ -10,6 +10,8 @@ it shares more than half of both their frames with. What finds no place is liste
 
 from __future__ import annotations
 
+import math
+from bisect import bisect_right
 from collections import Counter
 from dataclasses import dataclass, replace
 from itertools import count
@@ -19,13 +21,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.segments.annotation import Span
-from kineme.segments.editing.comments import comments, with_comments
-from kineme.segments.editing.imposing import imposed, in_the_middle, overlap
-from kineme.segments.editing.marks import Mark, marked, span_of, with_marks
+from kineme.segments.editing.annotating import (
+    Mark,
+    comments,
+    marked,
+    span_of,
+    with_comments,
+    with_marked,
+)
 from kineme.segments.editing.naming import cluster_names, name_cluster, with_cluster_names
-from kineme.segments.editing.rows import Rows, length, with_rows
+from kineme.segments.editing.rows import Rows, adopted, cut, cuts, joined, length, with_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level, Segment
+from kineme.segments.table import Level, Segment, SegmentTable
 
 
 @dataclass(frozen=True)
@@ -63,16 +70,25 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
     Returns
     -------
     Carried
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> anew = kineme.segment(kineme.read(kineme.bundled_recording()))
+    >>> "squat" in carried(found, anew).segmentation.activities.label.tolist()
+    True
     """
-    marks = {mark: marked(before, mark) for mark in get_args(Mark)}
-    fixed = [row for row in before if span_of(row) in set().union(*marks.values())]
+    flags = {mark: marked(before, mark) for mark in get_args(Mark)}
+    fixed = [row for row in before if span_of(row) in set().union(*flags.values())]
     if not len(found.primitives):
         fixed = [row for row in fixed if row.level == "activity"]
-    singles = {span_of(row) for row in _with_own_name(before)}
+    singles = {span_of(row) for row in _singly_named(before)}
     placed = [row if span_of(row) in singles else replace(row, label="") for row in fixed]
-    now = imposed(_numbered_like(before, found), placed)
-    for mark, spans in marks.items():
-        now = with_marks(now, mark, spans)
+    now = _imposed(_numbered_like(before, found), placed)
+    for mark, spans in flags.items():
+        now = with_marked(now, mark, spans)
     now = with_comments(now, comments(before))
     if fixed:
         corrections = before.annotation.corrections
@@ -82,10 +98,10 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
 
 def names_of(segmentation: Segmentation) -> int:
     """How many names there are: of clusters, and of segments that have their own."""
-    return len(cluster_names(segmentation)) + len(_with_own_name(segmentation))
+    return len(cluster_names(segmentation)) + len(_singly_named(segmentation))
 
 
-def _with_own_name(segmentation: Segmentation) -> Rows:
+def _singly_named(segmentation: Segmentation) -> Rows:
     names = cluster_names(segmentation)
     return [row for row in segmentation if row.label not in ("", names.get(row.cluster, ""))]
 
@@ -93,8 +109,8 @@ def _with_own_name(segmentation: Segmentation) -> Rows:
 def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
     """The new segments, with the old numbers of the clusters that match."""
     match = _matching_clusters(before, found)
-    taken = set(before.table.cluster.tolist())
-    free = (number for number in count() if number not in taken)
+    used = set(before.table.cluster.tolist())
+    free = (number for number in count() if number not in used)
     number = {-1: -1}
     for cluster in sorted(set(found.table.cluster.tolist()) - {-1}):
         number[cluster] = match[cluster] if cluster in match else next(free)
@@ -137,12 +153,12 @@ def _counts(pairs: NDArray[np.int64]) -> tuple[list[list[int]], list[int]]:
 def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
     """The new table with the names of the old one, and the names that found no place."""
     lost, new_names = [], dict[int, str]()
-    there = set(now.table.cluster.tolist())
-    names, singles = cluster_names(before), _with_own_name(before)
+    present = set(now.table.cluster.tolist())
+    names, singles = cluster_names(before), _singly_named(before)
     if not names and not singles:
         return Carried(now, fixed, 0, [])
     for cluster, name in names.items():
-        if cluster in there:
+        if cluster in present:
             new_names[cluster] = name
         else:
             lost.append(f"the name “{name}” of cluster {cluster}: no cluster matches it")
@@ -157,7 +173,7 @@ def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
         else:
             labels[span_of(twin)] = row.label
     rows = [replace(row, label=labels.get(span_of(row), row.label)) for row in now]
-    now = with_cluster_names(with_rows(now, rows, []), dict.fromkeys(there, "") | new_names)
+    now = with_cluster_names(with_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
     return Carried(now, fixed, len(names) + len(singles), lost)
 
 
@@ -166,5 +182,103 @@ def _twin(segmentation: Segmentation, row: Segment) -> Segment | None:
     rows = segmentation.level(row.level)
     if not len(rows):
         return None
-    other = in_the_middle(rows, row)
-    return other if 2 * overlap(row, other) > max(length(row), length(other)) else None
+    other = _in_the_middle(rows, row)
+    return other if 2 * _overlap(row, other) > max(length(row), length(other)) else None
+
+
+def _imposed(found: Segmentation, fixed: Rows) -> Segmentation:
+    """The segmentation with these segments in it as they are."""
+    by_level = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
+    activities = _sparing(list(found.activities), by_level["primitive"])
+    activities = _with_fixed(activities, by_level["activity"])
+    if not len(found.primitives):
+        return with_rows(found, activities, [])
+    primitives = _cut_at(activities, list(found.primitives))
+    for row in by_level["activity"]:
+        primitives = _inside(primitives, row, found)
+    primitives = _cut_at(activities, _with_fixed(primitives, by_level["primitive"]))
+    return with_rows(found, activities, primitives)
+
+
+def _cut_at(activities: Rows, primitives: Rows) -> Rows:
+    """The primitives, none of which crosses a border of activities."""
+    for border in cuts(activities):
+        primitives = cut(primitives, border)
+    return primitives
+
+
+def _sparing(activities: Rows, primitives: Rows) -> Rows:
+    """The activities, whose borders inside primitives that stay go to the nearer end of those."""
+    starts = [row.start_frame for row in primitives]
+
+    def moved(border: int) -> int:
+        at = bisect_right(starts, border) - 1
+        if at < 0 or border >= primitives[at].stop_frame:
+            return border
+        start, stop = _edges(primitives[at])
+        return start if border - start <= stop - border else stop
+
+    rows = [_spanning(row, moved(row.start_frame), moved(row.stop_frame)) for row in activities]
+    return [row for row in rows if row.start_frame < row.stop_frame]
+
+
+def _with_fixed(rows: Rows, fixed: Rows) -> Rows:
+    """The rows with others in their place; what is left of less than half of a row is joined on."""
+    edges = {_edges(one) for one in fixed}
+    for one in fixed:
+        start, stop = _edges(one)
+        before = [row for row in rows if row.start_frame < start]
+        after = [row for row in rows if row.stop_frame > stop]
+        if before and before[-1].stop_frame > start:
+            before = _shortened(before, -1, -2, (before[-1].start_frame, start), edges)
+        if after and after[0].start_frame < stop:
+            after = _shortened(after, 0, 1, (stop, after[0].stop_frame), edges)
+        rows = [*before, one, *after]
+    return rows
+
+
+def _shortened(
+    rows: Rows, at: int, beside: int, span: tuple[int, int], edges: set[tuple[int, int]]
+) -> Rows:
+    """A row with the frames that it keeps; they go to the row beside it if they are few."""
+    row, rows = rows[at], list(rows)
+    rows[at] = _spanning(row, *span)
+    few = 2 * length(rows[at]) < length(row) and len(rows) > 1
+    if few and _edges(rows[beside]) not in edges:
+        i, j, k = (k % len(rows) for k in (min(at, beside), max(at, beside), beside))
+        return joined(rows, min(i, j), max(i, j), k)
+    return rows
+
+
+def _inside(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
+    """The primitives of an activity that stays, called what it is where they were what it was."""
+    inside = [i for i, row in enumerate(primitives) if _overlap(row, activity)]
+    was = _in_the_middle(found.activities, activity)
+    if activity.kind == "transition" and was.kind != "transition":
+        one = replace(activity, level="primitive", label="")
+        return [*primitives[: inside[0]], one, *primitives[inside[-1] + 1 :]]
+    for i in inside:
+        primitives[i] = adopted(primitives[i], was, activity)
+    return primitives
+
+
+def _in_the_middle(rows: SegmentTable, row: Segment) -> Segment:
+    """The one of the rows of a level that holds the middle frame of another."""
+    middle = (row.start_frame + row.stop_frame - 1) // 2
+    return rows[int(np.searchsorted(rows.start_frame, middle, side="right")) - 1]
+
+
+def _overlap(row: Segment, other: Segment) -> int:
+    """Frames that both have."""
+    shared = min(row.stop_frame, other.stop_frame) - max(row.start_frame, other.start_frame)
+    return max(shared, 0)
+
+
+def _edges(row: Segment) -> tuple[int, int]:
+    return row.start_frame, row.stop_frame
+
+
+def _spanning(row: Segment, start: int, stop: int) -> Segment:
+    """The row with other frames; where it starts anew its border has no confidence."""
+    confidence = row.border_confidence if start == row.start_frame else math.nan
+    return replace(row, start_frame=start, stop_frame=stop, border_confidence=confidence)

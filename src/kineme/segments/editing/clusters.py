@@ -10,8 +10,8 @@ from typing import get_args
 from kineme.errors import ParameterError
 from kineme.segments.editing.naming import (
     changed,
-    known_names,
     members_of,
+    names_by_cluster,
     with_cluster_names,
 )
 from kineme.segments.editing.rows import as_movement, as_transition, joined, starting, with_rows
@@ -41,6 +41,15 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     ------
     ParameterError
         No segment starts there, or the cluster is neither there nor the next new one.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> again = set_cluster(found, "activity", 2494, 3)
+    >>> again.activities[-1].label, again.repetitions()[3]
+    ('jump', 8)
     """
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
     if not -1 <= cluster <= following:
@@ -75,6 +84,14 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
     ------
     ParameterError
         One of them has no segments, or they are the same.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> merge_clusters(found, 4, 0).repetitions()
+    {0: 15, 1: 4, 2: 5, 3: 4, 5: 4}
     """
     for each in (cluster, into):
         if not members_of(segmentation, each):
@@ -105,22 +122,32 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     ------
     ParameterError
         None of these is in the cluster, or all are.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> split_cluster(found, 0, [962, 1027]).repetitions()
+    {0: 7, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4, 6: 2}
     """
     chosen, rows = set(frames), members_of(segmentation, cluster)
     level: Level = "primitive" if any(row.level == "primitive" for row in rows) else "activity"
     members = [row for row in rows if row.level == level]
-    gone = [row for row in members if row.start_frame in chosen]
-    if not gone or len(gone) == len(members):
+    leavers = [row for row in members if row.start_frame in chosen]
+    if not leavers or len(leavers) == len(members):
         raise ParameterError(
-            f"{len(gone)} of {len(members)} segments of cluster {cluster} are chosen: "
+            f"{len(leavers)} of {len(members)} segments of cluster {cluster} are chosen: "
             "choose some of them, not all"
         )
     staying = {row.activity for row in members if row.start_frame not in chosen}
-    leaving = {row.activity for row in gone} - staying
-    moved: list[tuple[Level, Segment]] = [(row.level, row) for row in gone]
+    leaving = {row.activity for row in leavers} - staying
+    moved: list[tuple[Level, Segment]] = [(row.level, row) for row in leavers]
     if level == "primitive":
-        whole = enumerate(segmentation.activities)
-        moved += [("activity", row) for i, row in whole if i in leaving and row.cluster == cluster]
+        numbered = enumerate(segmentation.activities)
+        moved += [
+            ("activity", row) for i, row in numbered if i in leaving and row.cluster == cluster
+        ]
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
     return _moved_to(segmentation, moved, following)
 
@@ -142,12 +169,20 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
     ------
     ParameterError
         They are not the clusters of the table.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> order_clusters(found, [5, 4, 3, 2, 1, 0]).activities.cluster[-1].item()
+    0
     """
-    there = sorted(set(segmentation.table.cluster.tolist()) - {-1})
-    if sorted(order) != there:
-        raise ParameterError(f"name each cluster once: {', '.join(map(str, there))}")
+    present = sorted(set(segmentation.table.cluster.tolist()) - {-1})
+    if sorted(order) != present:
+        raise ParameterError(f"name each cluster once: {', '.join(map(str, present))}")
     new = {cluster: number for number, cluster in enumerate(order)} | {-1: -1}
-    names = known_names(segmentation)
+    names = names_by_cluster(segmentation)
     rows = [replace(row, cluster=new[row.cluster]) for row in segmentation]
     renamed = {new[cluster]: name for cluster, name in names.items()}
     return with_cluster_names(with_rows(segmentation, rows, []), renamed)
@@ -175,6 +210,14 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     ------
     ParameterError
         No segment starts there, or no such kind.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> set_kind(found, "activity", 2494, "transition").activities[-1].kind
+    'transition'
     """
     if kind not in get_args(Kind):
         raise ParameterError(f"kind must be {' or '.join(get_args(Kind))}, not {kind!r}")
@@ -202,7 +245,7 @@ def _moved_to(
     cluster: int,
 ) -> Segmentation:
     """The members in another cluster, called by its name unless they have their own."""
-    names = known_names(segmentation)
+    names = names_by_cluster(segmentation)
     moved = segmentation
     for inherits in (True, False):
         some = [

@@ -39,8 +39,16 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     ------
     ParameterError
         No segment starts there, or the label is more than a line of text.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> name_segment(found, "primitive", 61, "limp").primitives[:3].label.tolist()
+    ['walk', 'limp', 'walk']
     """
-    row, names = starting(segmentation, level, frame), known_names(segmentation)
+    row, names = starting(segmentation, level, frame), names_by_cluster(segmentation)
     label = label or names.get(row.cluster, "")
     named = changed(segmentation, [(level, row)], label=label)
     return named if row.cluster < 0 else with_cluster_names(named, {row.cluster: ""} | names)
@@ -64,10 +72,18 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
     ------
     ParameterError
         No segment is in that cluster, or the label is more than a line of text.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> name_cluster(found, 0, "stroll").activities[[0, 4]].label.tolist()
+    ['stroll', 'stroll']
     """
     if not members_of(segmentation, cluster):
         raise ParameterError(f"no segment is in cluster {cluster}")
-    names = known_names(segmentation)
+    names = names_by_cluster(segmentation)
     called = [
         (row.level, row)
         for row in members_of(segmentation, cluster)
@@ -95,7 +111,7 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
     >>> cluster_names(kineme.read_segments(bundled_truth(), fps=60))[0]
     'walk'
     """
-    return {cluster: name for cluster, name in known_names(segmentation).items() if name}
+    return {cluster: name for cluster, name in names_by_cluster(segmentation).items() if name}
 
 
 def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
@@ -111,13 +127,13 @@ def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> 
     -------
     Segmentation
     """
-    there = set(segmentation.table.cluster.tolist())
-    kept = {cluster: names[cluster] for cluster in sorted(names) if cluster in there}
+    present = set(segmentation.table.cluster.tolist())
+    kept = {cluster: names[cluster] for cluster in sorted(names) if cluster in present}
     annotation = replace(segmentation.annotation, cluster_names=kept)
     return replace(segmentation, annotation=annotation)
 
 
-def known_names(segmentation: Segmentation) -> dict[int, str]:
+def names_by_cluster(segmentation: Segmentation) -> dict[int, str]:
     """The names of clusters by number; empty for those that are said to have none."""
     entries = segmentation.annotation.cluster_names
     labels: dict[int, Counter[str]] = {}

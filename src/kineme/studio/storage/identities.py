@@ -17,7 +17,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import get_args
 
-from kineme.segments.editing.marks import span_of
+from kineme.segments.editing.annotating import span_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 

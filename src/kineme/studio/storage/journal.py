@@ -204,7 +204,7 @@ class Journal:
         self._unsaved[number] = table
         record = replace(
             self._record,
-            history=history.then(number),
+            history=history.followed_by(number),
             kept=tuple(dict.fromkeys([*self._record.kept, *before]))[-MOST_KEPT:],
             steps={**steps, number: step},
         )

@@ -161,6 +161,7 @@ def _alternatives(info: Any, aliases: dict[str, inspect.Type]) -> str:
 
 def _comment(text: str) -> str:
     """A docstring as a JSDoc comment, its markup as Markdown."""
+    text = re.split(r"\n\s*Examples\n", text)[0]  # they are of Python
     text = re.sub(r":\w+:`~?([\w.]+)`", r"`\1`", text.replace("``", "`"))
     lines = [line.strip() for line in text.strip().splitlines()]
     if len(lines) == 1:

@@ -1,8 +1,8 @@
-"""Pieces: what is kept of one recording, as it was found alone.
+"""Analyses: what is kept of one recording, as it was found alone.
 
 The segments with their embeddings are a Parquet file, whose metadata tell of the recording; its
-features, their windows for an index, and the moments of signals are plain arrays beside it. These
-are written first: where there is a Parquet file, the piece is whole.
+features, their windows for an index, and the samples of channels are plain arrays beside it. These
+are written first: where there is a Parquet file, the analysis is whole.
 """
 
 from __future__ import annotations
@@ -29,22 +29,21 @@ from kineme.library.windows import all_windows
 from kineme.segments.table import COLUMNS, SegmentTable
 
 METADATA = b"kineme.library"
-FEATURES, WINDOWS, MOMENTS = ".npy", ".windows.npy", ".moments.npy"
+FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
 LARGEST = 1e30
 """Sum of the squares of all features of a recording; no distance overflows below it."""
-LARGEST_MOMENT = 1e18
-"""Of any number in moments."""
+LARGEST_SAMPLE = 1e18
+"""Of any number in the samples of channels."""
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class Analysis:
     """What is kept of a recording.
 
     Attributes
     ----------
     facts : dict
-        ``format``, ``n_frames``, ``fps``, ``vocabulary``, ``features_fps``, ``samples``,
-        ``moments``, ``notes``.
+        Of the recording and its features; see `kineme.library.descriptions.analysis_of`.
     table : SegmentTable
         Its segments, with the clusters of this recording alone.
     embeddings : (segments, 32) array of float32
@@ -56,53 +55,47 @@ class Piece:
     embeddings: NDArray[np.float32]
 
 
-def write_piece(
+def write_analysis(
     folder: Path,
     key: str,
-    piece: Piece,
+    analysis: Analysis,
     features: NDArray[np.float32],
-    moments: NDArray[np.float32] | None = None,
+    channel_samples: NDArray[np.float32] | None = None,
 ) -> None:
-    """Leave a piece in a folder, with the features (samples, dims) and moments of its recording."""
+    """Leave an analysis in a folder, with features (samples, dims) and samples of channels."""
     pa, parquet = arrow()
     values = np.ascontiguousarray(features, np.float32)
     arrays: dict[str, NDArray[Any]] = {FEATURES: values}
-    if piece.facts["vocabulary"] == BODIES:
+    if analysis.facts["vocabulary"] == BODIES:
         arrays[WINDOWS] = all_windows(values)
-    if moments is not None:
-        arrays[MOMENTS] = moments
+    if channel_samples is not None:
+        arrays[SAMPLES] = channel_samples
     for suffix, array in arrays.items():
         buffer = BytesIO()  # into a file itself, numpy does not tell that the disk is full
         np.save(buffer, array, allow_pickle=False)
         with written(folder / f"{key}{suffix}") as draft:
             draft.write_bytes(buffer.getbuffer())
-    flat = as_column(piece.embeddings.ravel(), np.float32)
+    flat = as_column(analysis.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)
     columns = {
         name: as_column(column, COLUMNS[name].type)
-        for name, column in piece.table.columns().items()
+        for name, column in analysis.table.columns().items()
     }
     table = pa.table({**columns, "embedding": embeddings})
-    facts = json.dumps(piece.facts, sort_keys=True).encode()
+    facts = json.dumps(analysis.facts, sort_keys=True).encode()
     with written(folder / f"{key}.parquet") as draft:
         parquet.write_table(
             table.replace_schema_metadata({METADATA: facts}), draft, compression="zstd"
         )
 
 
-def has_piece(folder: Path, key: str) -> bool:
-    """Whether there is a whole piece of that name."""
+def has_analysis(folder: Path, key: str) -> bool:
+    """Whether there is a whole analysis of that name."""
     return (folder / f"{key}.parquet").is_file()
 
 
-def read_piece(folder: Path, key: str) -> Piece:
-    """The piece of that name.
-
-    Raises
-    ------
-    ReadError
-        It is gone or damaged.
-    """
+def read_analysis(folder: Path, key: str) -> Analysis:
+    """The analysis of that name."""
     pa, parquet = arrow()
     path = folder / f"{key}.parquet"
     with reading(path):
@@ -112,17 +105,11 @@ def read_piece(folder: Path, key: str) -> Piece:
         table = segments_of(table)
         columns = {name: _column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
-    return Piece(facts, SegmentTable(**columns), flat.reshape(-1, EMBEDDED))
+    return Analysis(facts, SegmentTable(**columns), flat.reshape(-1, EMBEDDED))
 
 
 def read_features(folder: Path, key: str) -> NDArray[np.float32]:
-    """The matching features in a piece, float32 (samples, dims).
-
-    Raises
-    ------
-    ReadError
-        They are gone, as after a build that took the recording out, or damaged.
-    """
+    """The matching features in an analysis, float32 (samples, dims)."""
     features: NDArray[np.float32] = _read_array(folder / f"{key}{FEATURES}", np.float32)
     return features
 
@@ -136,13 +123,7 @@ def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
 def read_parts(
     folder: Path, key: str, starts: Iterable[int], into: Iterable[NDArray[np.float32]]
 ) -> None:
-    """Fill arrays (samples, dims) with the features in a piece, each from a sample on.
-
-    Raises
-    ------
-    ReadError
-        They are gone or damaged.
-    """
+    """Fill arrays (samples, dims) with the features in an analysis, each from a sample on."""
     with _features(folder, key) as (file, start, _):
         _fill(file, start, starts, into)
 
@@ -150,36 +131,24 @@ def read_parts(
 def read_spans(
     folder: Path, key: str, spans: Sequence[tuple[int, int]]
 ) -> list[NDArray[np.float32]]:
-    """The features in a piece from some samples to others.
-
-    Raises
-    ------
-    ReadError
-        They are gone or damaged.
-    """
+    """The features in an analysis from some samples to others."""
     with _features(folder, key) as (file, start, dims):
         parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
         _fill(file, start, [first for first, _ in spans], parts)
     return parts
 
 
-def read_moments(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
-    """The moments in a piece, each of so many: its second, means and deviations of channels.
-
-    Raises
-    ------
-    ReadError
-        They are gone or damaged.
-    """
-    path = folder / f"{key}{MOMENTS}"
+def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
+    """The samples of channels in an analysis, one of each ``step``: second, means, deviations."""
+    path = folder / f"{key}{SAMPLES}"
     with _opening(path):
         rows: NDArray[np.float32] = np.load(near(path), mmap_mode="r", allow_pickle=False)
         rows = np.array(rows[min(step, len(rows)) // 2 :: step])  # recordings begin at rest
         if rows.ndim != 2 or rows.dtype != np.float32 or not len(rows) or rows.shape[1] % 2 == 0:
-            raise ValueError("not rows of moments")
+            raise ValueError("not samples of channels")
         deviations = rows[:, 1 + rows.shape[1] // 2 :]
-        if not ((np.abs(rows) <= LARGEST_MOMENT).all() and (deviations >= 0).all()):
-            raise ValueError("moments that no recording has")
+        if not ((np.abs(rows) <= LARGEST_SAMPLE).all() and (deviations >= 0).all()):
+            raise ValueError("samples that no recording has")
     return rows
 
 
@@ -225,7 +194,7 @@ def _check_sound(features: NDArray[np.float32]) -> None:
 
 @contextmanager
 def _features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
-    """A block that reads features of a piece: their file, where they begin in it, and dims."""
+    """A block that reads features of an analysis: their file, where they begin in it, and dims."""
     path = folder / f"{key}{FEATURES}"
     with _opening(path), near(path).open("rb", buffering=0) as file:
         yield file, *_header(file)
@@ -233,7 +202,7 @@ def _features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
 
 @contextmanager
 def _opening(path: Path) -> Iterator[None]:
-    """A block that reads an array of a piece, or ends in a ReadError."""
+    """A block that reads an array of an analysis, or ends in a ReadError."""
     try:
         yield
     except FileNotFoundError as error:

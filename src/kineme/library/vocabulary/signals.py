@@ -1,12 +1,12 @@
-"""One vocabulary of signals: clusters of the moments of all recordings, which words take.
+"""One vocabulary of signals: clusters of samples of channels of all recordings, which words take.
 
 Clusters of single recordings are not comparable between recordings: one that only walks tells fast
-from slow, one that walks and sits does not. So these are not joined. A sample of the moments of all
-recordings is clustered (`kineme.transfer.vocabulary`), in units of the whole library, and each word
-takes the cluster that the moments of its segments are nearest to in the mean. docs/sets.md tells
-how well that goes.
+from slow, one that walks and sits does not. So these are not joined. Some samples of all recordings
+are clustered (`kineme.transfer.vocabulary`), in units of the whole library, and each word takes the
+cluster that the samples of its segments are nearest to in the mean. docs/sets.md tells how well
+that goes.
 
-A task tells where the moments of some recordings lie; whoever works on it reads them there.
+A task tells where the samples of some recordings lie; whoever works on it reads them there.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.library.executors import Executor
-from kineme.library.storage.pieces import Piece, read_moments
-from kineme.library.vocabulary.joining import Joined, results
+from kineme.library.storage.analyses import Analysis, read_channel_samples
+from kineme.library.vocabulary.joining import Joined, beside_others, results
 from kineme.library.vocabulary.words import Place
 from kineme.transfer.channel_samples import Units
 
 Floats = NDArray[np.float64]
 Float32s = NDArray[np.float32]
 
-SAMPLE = 20_000
-"""Moments that are clustered; of more, as many at equal steps, one of each recording at least."""
+MOST = 20_000
+"""Samples that are clustered; of more, as many at equal steps, one of each recording at least."""
 AT_ONCE = 50
 """Recordings of a task."""
 PER_WORKER = 1000
@@ -46,40 +46,23 @@ class _Search:
     centres: Float32s
 
 
-def clusters_of_moments(
+def clusters_of_signals(
     places: Sequence[Place],
-    pieces: Sequence[Piece],
+    analyses: Sequence[Analysis],
     folder: Path,
     keys: Sequence[str],
     executor: Executor,
 ) -> Joined:
-    """The clusters of words of signals.
-
-    Parameters
-    ----------
-    places : sequence of Place
-        Of words of one vocabulary, recording by recording.
-    pieces : sequence of Piece
-        Of all recordings.
-    folder : Path
-        That holds them.
-    keys : sequence of str
-        Their names there.
-    executor : Executor
-        Where words are compared.
-
-    Returns
-    -------
-    Joined
-        Spread is the distance from the cluster's centre.
-    """
+    """The clusters of words of signals; spread is the distance from the centre of the cluster."""
     from kineme.transfer.vocabulary import centres_of, likely_number  # scikit-learn takes a second
 
     numbers = sorted({place.recording for place in places})
-    step = -(-sum(pieces[number].facts["moments"] for number in numbers) // SAMPLE)
+    step = -(-sum(analyses[number].facts["moments"] for number in numbers) // MOST)
     # By the digests of their contents: clusters are the same whatever the files are called.
-    drawn = sorted(numbers, key=lambda number: keys[number])
-    sample = np.concatenate([read_moments(folder, keys[number], step) for number in drawn])
+    ordered = sorted(numbers, key=lambda number: keys[number])
+    sample = np.concatenate(
+        [read_channel_samples(folder, keys[number], step) for number in ordered]
+    )
     units = Units.of(*_means_and_deviations(sample))
     points = units.features(*_means_and_deviations(sample))
     centres = centres_of(points, likely_number(points))
@@ -97,22 +80,22 @@ def clusters_of_moments(
 
 
 def _distances(task: _Search) -> Floats:
-    """How far the mean moment of each word is from each centre."""
+    """How far the mean sample of each word is from each centre."""
     return np.concatenate(
         [_of_recording(task, *each) for each in zip(task.keys, task.words, strict=True)]
     )
 
 
 def _of_recording(task: _Search, key: str, words: Sequence[Floats]) -> Floats:
-    moments = read_moments(task.folder, key)
-    features = task.units.features(*_means_and_deviations(moments)).astype(np.float64)
-    means = np.array([features[_inside(moments[:, 0], spans)].mean(axis=0) for spans in words])
+    samples = read_channel_samples(task.folder, key)
+    features = task.units.features(*_means_and_deviations(samples)).astype(np.float64)
+    means = np.array([features[_inside(samples[:, 0], spans)].mean(axis=0) for spans in words])
     distances: Floats = np.sqrt(((means[:, None] - task.centres) ** 2).sum(axis=2))
     return distances
 
 
 def _inside(seconds: Float32s, spans: Floats) -> NDArray[np.bool_]:
-    """The moments in spans; of a short one that before it."""
+    """The samples in spans; of a short one that before it."""
     inside = np.zeros(len(seconds), np.bool_)
     firsts = np.minimum(np.searchsorted(seconds, spans[:, 0]), len(seconds) - 1)
     stops = np.maximum(np.searchsorted(seconds, spans[:, 1]), firsts + 1)
@@ -121,10 +104,10 @@ def _inside(seconds: Float32s, spans: Floats) -> NDArray[np.bool_]:
     return inside
 
 
-def _means_and_deviations(moments: Float32s) -> tuple[Float32s, Float32s]:
+def _means_and_deviations(samples: Float32s) -> tuple[Float32s, Float32s]:
     """Means and deviations."""
-    n = moments.shape[1] // 2
-    return moments[:, 1 : 1 + n], moments[:, 1 + n :]
+    n = samples.shape[1] // 2
+    return samples[:, 1 : 1 + n], samples[:, 1 + n :]
 
 
 def _nearest_clusters(distances: Floats, seconds: Floats) -> Joined:
@@ -134,11 +117,4 @@ def _nearest_clusters(distances: Floats, seconds: Floats) -> Joined:
     lasts = np.round(np.bincount(distances.argmin(axis=1), seconds), 6)
     order = np.argsort(-lasts, kind="stable")
     distances = distances[:, order]
-    labels, words = distances.argmin(axis=1), np.arange(len(distances))
-    spread = distances[words, labels]
-    if len(clusters) == 1:
-        return Joined(labels, labels - 1, np.full(len(labels), np.nan), spread)
-    others = distances.copy()
-    others[words, labels] = np.inf
-    confidence = np.clip(1 - spread / np.maximum(others.min(axis=1), 1e-9), 0, 1)
-    return Joined(labels, others.argmin(axis=1), confidence, spread)
+    return beside_others(distances.argmin(axis=1), distances.min(axis=1), distances)

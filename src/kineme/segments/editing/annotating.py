@@ -1,0 +1,157 @@
+"""What people vouch for and say: entries of the `kineme.segments.annotation`.
+
+People vouch for segments that they made and for segments that they checked. A comment is on the
+segment that holds its frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import Any, Literal
+
+from kineme.segments.annotation import Comment, Span
+from kineme.segments.editing.rows import starting
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, Segment
+
+Mark = Literal["by_hand", "checked"]
+
+
+def check(
+    segmentation: Segmentation, level: Level, frames: Iterable[int], checked: bool
+) -> Segmentation:
+    """The segments that start at ``frames`` are checked, or not any more.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    frames : iterable of int
+        Where the segments start.
+    checked : bool
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        No segment starts at one of them.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> check(found, "activity", [380], checked=True).annotation.checked
+    (('activity', 380, 928),)
+    """
+    chosen = {span_of(starting(segmentation, level, frame)) for frame in frames}
+    before = marked(segmentation, "checked")
+    return with_marked(segmentation, "checked", before | chosen if checked else before - chosen)
+
+
+def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> Segmentation:
+    """The segment that starts at ``frame`` has this comment in place of any it had.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    frame : int
+        Where the segment starts.
+    text : str
+        Empty: it has none any more.
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        No segment starts there.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> comments(comment(found, "primitive", 61, "limps"))
+    [('primitive', 93, 'limps')]
+    """
+    row = starting(segmentation, level, frame)
+    kept = [each for each in comments(segmentation) if not _is_of(each, row)]
+    if text:
+        kept.append(_of(row, text))
+    return with_comments(segmentation, kept)
+
+
+def comments(segmentation: Segmentation) -> list[Comment]:
+    """Level, frame and text of each, in time order.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> comments(kineme.read_segments(bundled_truth()))
+    []
+    """
+    return sorted(segmentation.annotation.comments, key=lambda each: (each[1], each[0]))
+
+
+def span_of(row: Segment) -> Span:
+    """Level, first frame and one past the last frame."""
+    return row.level, row.start_frame, row.stop_frame
+
+
+def marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
+    """The segments that people vouch for in this sense."""
+    spans = {*getattr(segmentation.annotation, mark)}
+    return {span_of(row) for row in segmentation if span_of(row) in spans} if spans else set()
+
+
+def with_marked(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
+    """The same segments, of which people vouch for these and no others in this sense."""
+    entry: dict[str, Any] = {mark: tuple(sorted(set(spans)))}
+    return replace(segmentation, annotation=replace(segmentation.annotation, **entry))
+
+
+def noted(before: Segmentation, after: Segmentation) -> Segmentation:
+    """The segmentation after an edit, with what the edit made marked as made by hand."""
+    earlier = {(span_of(row), row.kind, row.cluster) for row in before}
+    made = {span_of(row) for row in after if (span_of(row), row.kind, row.cluster) not in earlier}
+    return with_marked(after, "by_hand", made | marked(after, "by_hand"))
+
+
+def in_rows(segmentation: Segmentation) -> list[str]:
+    """The comments on each row, in their order; empty where there is none."""
+    entries = comments(segmentation)
+    return ["; ".join(each[2] for each in entries if _is_of(each, row)) for row in segmentation]
+
+
+def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
+    """The same segments with these comments, one for each row; as they are where they say that."""
+    if list(texts) == in_rows(segmentation):
+        return segmentation
+    entries = [_of(row, text) for row, text in zip(segmentation, texts, strict=True) if text]
+    return with_comments(segmentation, entries)
+
+
+def with_comments(segmentation: Segmentation, entries: list[Comment]) -> Segmentation:
+    """The same segments with these comments and no others."""
+    annotation = replace(segmentation.annotation, comments=tuple(entries))
+    return replace(segmentation, annotation=annotation)
+
+
+def _of(row: Segment, text: str) -> Comment:
+    """A comment on a segment, at its middle frame."""
+    return row.level, (row.start_frame + row.stop_frame) // 2, text
+
+
+def _is_of(entry: Comment, row: Segment) -> bool:
+    """Whether a comment is on a segment."""
+    level, frame, _ = entry
+    return level == row.level and row.start_frame <= frame < row.stop_frame
