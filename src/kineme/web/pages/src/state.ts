@@ -39,7 +39,7 @@ export const UNMARKED: Marks = { start_s: null, stop_s: null };
 export interface Levels {
   all: readonly number[];
   detail: number;
-  choose(detail: number): void;
+  choose: (detail: number) => void;
 }
 
 export class State {

@@ -66,7 +66,8 @@ function Value({ of }: { of: unknown }): JSX.Element {
     );
   if (Array.isArray(of)) return <>{of.map((each) => String(each)).join(", ")}</>;
   if (of === null) return <>none</>;
-  return <>{typeof of === "number" ? rounded(of) : String(of)}</>;
+  if (typeof of === "string") return <>{of}</>;
+  return <>{typeof of === "number" ? rounded(of) : JSON.stringify(of)}</>;
 }
 
 function Sentences({ title, of }: { title: string; of: readonly string[] }): JSX.Element | null {

@@ -45,7 +45,7 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
       () => undefined,
     );
     return () => void (asked = false);
-  }, [data]);
+  }, [data, came]);
   const known = pieces.value;
   if (!known) return <div class="channels" aria-busy="true" />;
   const ends = endsOfShown(store);

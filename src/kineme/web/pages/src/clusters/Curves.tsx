@@ -25,10 +25,10 @@ const FEW = 12; // members looked at to choose a joint
 
 export function Curves({ store }: { store: Store }): JSX.Element {
   const chosen = useSignal<Partial<Track>>({});
-  const shown = useMemo(() => computed(() => contentOf(store, chosen.value)), [store]);
+  const shown = useMemo(() => computed(() => contentOf(store, chosen.value)), [store, chosen]);
   const member = useMemo(
     () => computed(() => (shown.value ? memberAt(store, shown.value) : -1)),
-    [store],
+    [store, shown],
   );
   const content = shown.value;
   if (!content) return <Missing store={store} />;

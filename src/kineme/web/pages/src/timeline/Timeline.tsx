@@ -22,7 +22,7 @@ export function Timeline({ store }: { store: Store }): JSX.Element {
         () => lanes.current,
         (next) => void (drag.value = next),
       ),
-    [store],
+    [store, drag],
   );
   useEffect(() => {
     const onKey = (event: KeyboardEvent): void => {

@@ -13,7 +13,7 @@ interface Props {
 
 export function CompareDialog({ session, close }: Props): JSX.Element {
   const busy = useSignal("");
-  useEffect(() => void session.refresh(), []); // there may be new files
+  useEffect(() => void session.refresh(), [session]); // there may be new files
   const { presets = [], annotations = [] } = session.state.value ?? {};
   const compare = async (name: string, request: CompareRequest): Promise<void> => {
     busy.value = name;

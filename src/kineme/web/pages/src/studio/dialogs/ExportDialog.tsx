@@ -23,7 +23,7 @@ export function ExportDialog({ session, close }: Props): JSX.Element {
   const level = useSignal<Level | "">("");
   const all = useSignal(false);
   const busy = useSignal("");
-  useEffect(() => void session.refresh(), []);
+  useEffect(() => void session.refresh(), [session]);
   const recordings = session.state.value?.recordings ?? [];
   const done = recordings.filter((each) => session.list.isChecked(each)).length;
   const write = async (format: string): Promise<void> => {

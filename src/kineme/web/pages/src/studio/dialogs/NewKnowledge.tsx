@@ -10,7 +10,7 @@ export function NewKnowledge({ session }: { session: Session }): JSX.Element {
   const left = useSignal<ReadonlySet<string>>(new Set());
   const name = useSignal("moves");
   const busy = useSignal(false);
-  useEffect(() => void session.refresh(), []); // names given since the page was opened
+  useEffect(() => void session.refresh(), [session]); // names given since the page was opened
   const make = async (event: Event): Promise<void> => {
     event.preventDefault();
     busy.value = true;

@@ -16,7 +16,7 @@ export function TransferDialog({ session, close }: Props): JSX.Element {
   const chosen = useSignal("");
   const base = chosen.value || (bases[0]?.id ?? "");
   const threshold = useSignal("");
-  useEffect(() => void session.refresh(), []); // there may be new files
+  useEffect(() => void session.refresh(), [session]); // there may be new files
   const spread = useSignal(true);
   const transfer = (event: Event): void => {
     event.preventDefault();

@@ -22,7 +22,7 @@ export function VersionsDialog({ session, close }: Props): JSX.Element {
       .versions(edited.id)
       .then((found) => (versions.value = found))
       .catch((error: unknown) => session.bulletin.problem(explain(error), "versions"));
-  }, [edited]);
+  }, [edited, session, versions]);
   const fps = edited?.confirmed.value.fps ?? 1;
   const look = async (version: Version): Promise<void> => {
     try {

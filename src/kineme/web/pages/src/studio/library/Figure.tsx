@@ -1,7 +1,7 @@
 /** A small figure of a span: read when it comes into view, a strip, or one that plays. */
 import { useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useCallback, useEffect, useRef } from "preact/hooks";
 import { clusterColor, onPage } from "../../colors";
 import type { Span } from "../../messages";
 import { unpackMotion } from "../../motion";
@@ -54,17 +54,19 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
   const sketch = useSignal<Sketch | null>(null);
   const failure = useSignal("");
   const visible = useRef(false);
-  const strip = playing === undefined;
   const { recording, start_s, stop_s } = span;
 
-  const draw = (share: number): void => {
-    const shown = sketch.peek();
-    const pen = canvas.current && shown && sheet(canvas.current);
-    if (!pen) return;
-    const color = onPage(clusterColor(cluster), theme.peek());
-    if (shown.flat) drawPoses(pen, shown.flat, strip ? POSES : [share], color);
-    else drawCurves(pen, shown.curves, playing ? share : null, color);
-  };
+  const draw = useCallback(
+    (share: number): void => {
+      const shown = sketch.peek();
+      const pen = canvas.current && shown && sheet(canvas.current);
+      if (!pen) return;
+      const color = onPage(clusterColor(cluster), theme.peek());
+      if (shown.flat) drawPoses(pen, shown.flat, playing === undefined ? POSES : [share], color);
+      else drawCurves(pen, shown.curves, playing ? share : null, color);
+    },
+    [sketch, cluster, playing],
+  );
 
   useEffect(() => {
     sketch.value = null;
@@ -79,14 +81,17 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
         .catch((error: unknown) => here && (failure.value = explain(error)));
     });
     seen.observe(canvas.current!);
-    const sized = new ResizeObserver(() => draw(0.5));
-    sized.observe(canvas.current!);
     return () => {
       here = false;
       seen.disconnect();
-      sized.disconnect();
     };
-  }, [recording, start_s, stop_s]);
+  }, [sketches, recording, start_s, stop_s, sketch, failure]);
+
+  useEffect(() => {
+    const sized = new ResizeObserver(() => draw(0.5));
+    sized.observe(canvas.current!);
+    return () => sized.disconnect();
+  }, [draw]);
 
   useSignalEffect(() => {
     if (sketch.value && theme.value) draw(0.5);
@@ -107,7 +112,7 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
     };
     picture = requestAnimationFrame(next);
     return () => cancelAnimationFrame(picture);
-  }, [playing, cluster]);
+  }, [playing, draw, sketch, start_s, stop_s]);
 
   return (
     <span class="figure" data-drawn={sketch.value !== null}>

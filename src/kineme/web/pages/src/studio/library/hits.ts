@@ -41,7 +41,7 @@ export function asJson(hits: readonly LibraryHit[], said: Said): string {
 }
 
 export function asCsv(hits: readonly LibraryHit[], said: Said): string {
-  const cell = (value: unknown): string => {
+  const cell = (value: string | number | boolean | null | undefined): string => {
     const text = String(value ?? "");
     return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
   };

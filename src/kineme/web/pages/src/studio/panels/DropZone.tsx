@@ -37,7 +37,7 @@ export function DropZone({ session, uploads }: Props): JSX.Element | null {
       removeEventListener("dragleave", onLeave);
       removeEventListener("drop", onDrop);
     };
-  }, [uploads]);
+  }, [uploads, over]);
   if (!over.value) return null;
   return (
     <div class="drop-zone" aria-hidden="true">

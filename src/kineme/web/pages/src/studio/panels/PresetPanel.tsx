@@ -4,7 +4,7 @@
  */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useCallback, useEffect, useRef } from "preact/hooks";
 import type { Parameter, PresetChoice, Segments } from "../../messages";
 import type { EditedRecording } from "../editing/editedRecording";
 import { DetailSlider } from "../../layout/DetailSlider";
@@ -53,19 +53,22 @@ function Presets({ session, edited, presets, fallback, details }: Props): JSX.El
   const { preset, values, detail } = draft.value ?? proposal?.choice ?? used;
   const choice = presets.find((each) => each.name === preset)!;
 
-  const again = (next: Choice, pause: number): void => {
-    draft.value = next;
-    window.clearTimeout(timer.current);
-    timer.current = window.setTimeout(() => {
-      void session.beside.propose(next, keep.value).then(() => {
-        if (draft.value === next) draft.value = null;
-      });
-    }, pause);
-  };
+  const again = useCallback(
+    (next: Choice, pause: number): void => {
+      draft.value = next;
+      window.clearTimeout(timer.current);
+      timer.current = window.setTimeout(() => {
+        void session.beside.propose(next, keep.value).then(() => {
+          if (draft.value === next) draft.value = null;
+        });
+      }, pause);
+    },
+    [session, draft, keep],
+  );
   useEffect(() => () => window.clearTimeout(timer.current), []);
   useEffect(() => {
-    if (proposal && proposal.revision !== revision) again(proposal.choice, 0); // of another table
-  }, [revision]);
+    if (proposal && proposal.revision !== revision) again(draft.peek() ?? proposal.choice, 0); // of another table
+  }, [proposal, revision, again, draft]);
   const change = (parameter: Parameter, value: number): void => {
     const { minimum, maximum } = parameter;
     if (!Number.isFinite(value)) return;
@@ -78,7 +81,7 @@ function Presets({ session, edited, presets, fallback, details }: Props): JSX.El
     choose: (next: number) => again({ preset, values, detail: next }, PAUSE),
   };
   useEffect(() => void (session.store.levels.value = levels));
-  useEffect(() => () => void (session.store.levels.value = null), []);
+  useEffect(() => () => void (session.store.levels.value = null), [session]);
   return (
     <section class="preset-panel" aria-label="Segmentation" aria-busy={busy}>
       <div class="panel-head">

@@ -14,20 +14,27 @@ export function ReadingPanel({ session }: { session: Session }): JSX.Element | n
   const busy = useSignal(false);
   const id = unread?.id ?? recording?.id;
   const reading = (!unread && recording?.reading) || {};
-  const said = (name: string): string => String(reading[name] ?? "");
+  const said = (name: string): string => {
+    const value = reading[name];
+    return typeof value === "string" || typeof value === "number" ? String(value) : "";
+  };
+  const person = said("person");
   useEffect(() => {
     people.value = unread?.people ?? [];
-    if (!unread && id && said("person"))
+    if (!unread && id && person)
       void session.api.people(id).then(
         (found) => (people.value = found),
         () => undefined,
       );
-  }, [id, unread]);
+  }, [id, unread, person, people, session]);
   if (!id) return null;
   const read = async (event: TargetedEvent<HTMLFormElement, Event>): Promise<void> => {
     event.preventDefault();
     const form = new FormData(event.currentTarget);
-    const text = (name: string): string => String(form.get(name) ?? "").trim();
+    const text = (name: string): string => {
+      const value = form.get(name);
+      return typeof value === "string" ? value.trim() : "";
+    };
     busy.value = true;
     await session.readAs(id, {
       person: text("person"),
@@ -51,17 +58,12 @@ export function ReadingPanel({ session }: { session: Session }): JSX.Element | n
             title="Person"
             none={unread ? "choose one" : "the only one"}
             values={people.value}
-            value={said("person")}
+            value={person}
           />
         ) : (
           <label class="field" title="Which of several people, by name or number">
             <span>Person</span>
-            <input
-              type="text"
-              name="person"
-              placeholder="the only one"
-              defaultValue={said("person")}
-            />
+            <input type="text" name="person" placeholder="the only one" defaultValue={person} />
           </label>
         )}
         <label class="field">

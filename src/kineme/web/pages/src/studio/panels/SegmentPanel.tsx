@@ -50,8 +50,8 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
         placeholder={called ? `called “${called}” by its cluster` : "no name"}
         value={own}
         names={namesOf(session)}
-        focus={editor.naming.value === "segment"}
-        onDone={() => (editor.naming.value = null)}
+        naming="segment"
+        editor={editor}
         onName={(label) => editor.name(segment, label)}
       />
       <label class="check">
@@ -86,8 +86,8 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
           placeholder="no name"
           value={called}
           names={namesOf(session)}
-          focus={editor.naming.value === "cluster"}
-          onDone={() => (editor.naming.value = null)}
+          naming="cluster"
+          editor={editor}
           onName={(label) => editor.nameCluster(segment.cluster, label)}
         />
       )}
@@ -141,8 +141,9 @@ interface NameProps {
   value: string;
   /** Names in use, offered while one types. */
   names: string[];
-  focus: boolean;
-  onDone: () => void;
+  /** Which name it is, as the editor says when one wants to type it. */
+  naming: "segment" | "cluster";
+  editor: Editor;
   onName: (label: string) => void;
 }
 
@@ -151,17 +152,18 @@ function NameField({
   placeholder,
   value,
   names,
-  focus,
-  onDone,
+  naming,
+  editor,
   onName,
 }: NameProps): JSX.Element {
   const field = useRef<HTMLInputElement>(null);
+  const focus = editor.naming.value === naming;
   useLayoutEffect(() => {
     if (!focus) return;
     field.current?.focus();
     field.current?.select();
-    onDone();
-  }, [focus]);
+    editor.naming.value = null;
+  }, [focus, editor]);
   const list = `names-${title.replaceAll(" ", "-")}`;
   return (
     <label class="field">

@@ -43,7 +43,7 @@ export function SegmentTable({ session, editor }: Props): JSX.Element {
         const table = store.recording.value?.segmentation;
         return table ? rowsOf(table, filter.value, ...order.value) : [];
       }),
-    [store],
+    [store, filter, order],
   );
   // What is chosen on the timeline is chosen here, too.
   useSignalEffect(() => {
