@@ -51,6 +51,7 @@ def create_app(
     library: ShownLibrary | None = None,
     static: Path = STATIC,
     limit: int = LIMIT,
+    development: bool = False,
 ) -> Guard:
     """The studio of some recordings, as an ASGI application.
 
@@ -69,6 +70,8 @@ def create_app(
         The built page.
     limit : int
         Bytes of an upload.
+    development : bool
+        Whether pages of the development server may ask, too.
 
     Returns
     -------
@@ -101,7 +104,7 @@ def create_app(
             Exception: _failed,
         },
     )
-    return Guard(app, token=token, port=port)
+    return Guard(app, token=token, port=port, development=development)
 
 
 def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> list[Route]:

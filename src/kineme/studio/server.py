@@ -17,7 +17,7 @@ import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.http.events import Hub
-from kineme.studio.http.security import HeadersInTime, new_token
+from kineme.studio.http.security import DEVELOPMENT, HeadersInTime, new_token
 
 if TYPE_CHECKING:
     from kineme.studio.library import ShownLibrary
@@ -57,6 +57,7 @@ def serve(
     browser: bool,
     announce: Callable[[str], None],
     library: ShownLibrary | None = None,
+    development: bool = False,
 ) -> None:
     """Serve until Ctrl+C.
 
@@ -76,16 +77,22 @@ def serve(
         Called with the address.
     library : ShownLibrary, optional
         Whose recordings are shown, in place of those of the folder.
+    development : bool
+        For pages that are served from their sources: the address is theirs, and the port, which
+        they have to know, the first.
 
     Raises
     ------
     ParameterError
         The port is in use, or not one.
     """
+    if development and port is None:
+        port = PORT
     with listening(port) as opened, suppress(KeyboardInterrupt):
         number = opened.getsockname()[1]
         token = new_token()
-        address = f"http://{HOST}:{number}/?token={token}"
+        origin = DEVELOPMENT if development else f"http://{HOST}:{number}"
+        address = f"{origin}/?token={token}"
         announce(address)
         if browser:
             threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
@@ -100,7 +107,14 @@ def serve(
         recordings = OpenRecordings(folder, hub.tell, options)
         forget_drafts(folder.root)
         config = uvicorn.Config(
-            create_app(recordings, token=token, port=number, hub=hub, library=library),
+            create_app(
+                recordings,
+                token=token,
+                port=number,
+                hub=hub,
+                library=library,
+                development=development,
+            ),
             log_level=logging.ERROR,
             access_log=False,  # addresses hold the token
             server_header=False,

@@ -2,6 +2,7 @@
 import type { JSX } from "preact";
 import { theme, toggleTheme } from "../theme";
 import { IconButton } from "../transport/icons";
+import { pageAddress } from "./server/address";
 import type { Session } from "./session";
 
 export type DialogName = "versions" | "transfer" | "compare" | "export" | "help";
@@ -18,7 +19,7 @@ export function Header({ session, show }: Props): JSX.Element {
   return (
     <>
       <h1>kineme</h1>
-      {session.state.value?.of_library && <a href={`?token=${session.api.token}`}>Library</a>}
+      {session.state.value?.of_library && <a href={pageAddress(session.api.token)}>Library</a>}
       <span class="folder quiet" title={session.state.value?.folder}>
         {recording?.name ?? session.state.value?.folder}
       </span>

@@ -14,13 +14,13 @@ import { Review } from "./review/review";
 import { Session } from "./session";
 import { exposeStudio } from "./snapshot";
 import { Front, Studio } from "./Studio";
-import { pageToken } from "./server/token";
+import { tokenInAddress } from "./server/address";
 import { announceTab } from "./editing/unsent";
 import { Uploads } from "./server/uploads";
 
 function start(): void {
   const store = new Store();
-  const session = new Session(new Api(pageToken()), store);
+  const session = new Session(new Api(tokenInAddress()), store);
   const editor = new Editor(session);
   const front = new Front();
   const review = new Review(session, editor);

@@ -14,7 +14,7 @@ import { type Api, explain, Refused, RETRY, Unreachable } from "./server/api";
 import { Beside } from "./editing/beside";
 import { notRead } from "./server/answers";
 import { EditedRecording } from "./editing/editedRecording";
-import { fromAddress, momentInAddress, toAddress } from "./server/address";
+import { openInAddress, openToAddress, secondsInAddress } from "./server/address";
 import { ServerData } from "./server/serverData";
 import { shareToken } from "./server/token";
 import { Bulletin } from "./news";
@@ -108,7 +108,7 @@ export class Session {
     this.opening.value = id;
     this.unread.value = null;
     try {
-      const opened = await this.fetch(id);
+      const opened = await this.opened(id);
       if (this.opening.value !== id) return; // another one has been chosen since
       if (!beside) store.playhead.value = 0;
       store.add(opened);
@@ -193,14 +193,14 @@ export class Session {
     addEventListener("focus", () => void this.refresh()); // files may have come meanwhile
     const { recordings } = this.state.value!;
     const known = new Set(recordings.map((each) => each.id));
-    const before = fromAddress().filter((id) => known.has(id));
+    const before = openInAddress().filter((id) => known.has(id));
     const first = before.length || known.size > 1 ? before : known;
     for (const id of first) await this.open(id, { beside: true });
-    if (momentInAddress()) this.store.seek(momentInAddress());
-    effect(() => toAddress(this.store.opened.value));
+    if (secondsInAddress()) this.store.seek(secondsInAddress());
+    effect(() => openToAddress(this.store.opened.value));
   }
 
-  private async fetch(id: string): Promise<OpenRecording> {
+  private async opened(id: string): Promise<OpenRecording> {
     const data = new ServerData(this.api, id);
     const edited =
       this.recordings.value.find((each) => each.id === id) ??
