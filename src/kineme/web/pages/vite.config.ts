@@ -39,7 +39,7 @@ export default defineConfig(({ mode }) => {
         output: { ...names, codeSplitting: false },
       },
     },
-    test: { include: ["tests/**/*.test.ts"] },
+    test: { include: ["tests/**/*.test.{ts,tsx}"] },
   };
 });
 

@@ -2,6 +2,7 @@
 import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { useCalm } from "../canvas/calm";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
@@ -15,12 +16,12 @@ import { boxOf, drawChannels, type Row } from "./drawing";
 import { Pieces } from "./pieces";
 
 interface Props {
-  store: Store;
   /** Whether times are written above. */
   ruler?: boolean;
 }
 
-export function Channels({ store, ruler = false }: Props): JSX.Element | null {
+export function Channels({ ruler = false }: Props): JSX.Element | null {
+  const store = useStore();
   const data = store.active.value?.data;
   const came = useSignal<Pieces | null>(null);
   // Those of the recording before are never asked for what is shown of this one.
@@ -84,7 +85,7 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
           <Line share={toPixel(store.range.value, 1, store.playhead.value)} />
         </div>
       )}
-      <Values store={store} rows={rows} pieces={known} ruler={ruler} />
+      <Values rows={rows} pieces={known} ruler={ruler} />
       <ChannelChoice list={known.list} ends={ends} />
     </div>
   );
@@ -96,13 +97,9 @@ function endsOfShown(store: Store): string[] {
 }
 
 /** What each curve is at the playhead. */
-function Values(props: {
-  store: Store;
-  rows: readonly Row[];
-  pieces: Pieces;
-  ruler: boolean;
-}): JSX.Element {
-  const { store, rows, pieces, ruler } = props;
+function Values(props: { rows: readonly Row[]; pieces: Pieces; ruler: boolean }): JSX.Element {
+  const store = useStore();
+  const { rows, pieces, ruler } = props;
   const frame = useCalm(store.frame, store.playing);
   void pieces.arrived.value;
   return (

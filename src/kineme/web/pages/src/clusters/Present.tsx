@@ -1,13 +1,14 @@
 /** The primitive under the playhead, and the way to the others of its cluster. */
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
-import type { Store } from "../store";
 import { IconButton } from "../transport/icons";
 import { surenessOf } from "../sureness";
 import { clock } from "../view";
 
-export function Present({ store }: { store: Store }): JSX.Element | null {
+export function Present(): JSX.Element | null {
+  const store = useStore();
   const segment = store.present.value;
   if (!segment) return null;
   const table = store.recording.value?.segmentation;

@@ -1,8 +1,10 @@
 /** How fine the segments are: coarser to the left, finer to the right. */
 import type { JSX } from "preact";
-import { positionOf, type Store } from "../store";
+import { useStore } from "../context";
+import { positionOf } from "../store";
 
-export function DetailSlider({ store }: { store: Store }): JSX.Element | null {
+export function DetailSlider(): JSX.Element | null {
+  const store = useStore();
   const levels = store.levels.value;
   if (!levels || levels.all.length < 2) return null;
   const { all, detail, choose } = levels;

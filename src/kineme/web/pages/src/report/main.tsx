@@ -2,6 +2,7 @@
 import { batch } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
+import { StoreProvider } from "../context";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
 import { startPrinting } from "./printing";
@@ -21,7 +22,12 @@ async function start(): Promise<void> {
   startPlayer(store);
   startKeys(store);
   startPrinting();
-  render(<Report store={store} />, document.getElementById("page")!);
+  render(
+    <StoreProvider value={store}>
+      <Report />
+    </StoreProvider>,
+    document.getElementById("page")!,
+  );
   await loadMotion(opened);
 }
 

@@ -1,10 +1,11 @@
 /** What needs attention, across the page; and the news of the moment. */
 import type { JSX } from "preact";
+import { useStudio } from "./context";
 import type { EditedRecording } from "./editing/editedRecording";
 import { inWords } from "./editing/words";
-import type { Session } from "./session";
 
-export function Notices({ session }: { session: Session }): JSX.Element {
+export function Notices(): JSX.Element {
+  const { session } = useStudio();
   const { bulletin, trouble, unsent } = session;
   const news = bulletin.news.value;
   return (

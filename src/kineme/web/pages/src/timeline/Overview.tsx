@@ -1,12 +1,14 @@
 /** The whole recording in a strip, and the part that the lanes show; drag to move it, or to scrub. */
 import { useRef } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
 import { cssColor } from "../theme";
 import type { Store } from "../store";
 import { toPixel } from "../view";
 
-export function Overview({ store }: { store: Store }): JSX.Element {
+export function Overview(): JSX.Element {
+  const store = useStore();
   const dragging = useRef(false);
   const moveTo = (event: PointerEvent): void => {
     const { left, width } = (event.currentTarget as Element).getBoundingClientRect();

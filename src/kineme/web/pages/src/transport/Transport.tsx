@@ -1,20 +1,20 @@
 /** Play, step, loop, speed, and where in the recording we are. */
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { useCalm } from "../canvas/calm";
 import { togglePlay } from "../player";
-import type { Store } from "../store";
 import { clock } from "../view";
 import { IconButton } from "./icons";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 interface Props {
-  store: Store;
   /** Whether there are curves to show below the timeline. */
   curves?: boolean;
 }
 
-export function Transport({ store, curves = false }: Props): JSX.Element {
+export function Transport({ curves = false }: Props): JSX.Element {
+  const store = useStore();
   const { playing, loop, speed } = store;
   return (
     <div class="transport" role="toolbar" aria-label="Playing">
@@ -58,7 +58,7 @@ export function Transport({ store, curves = false }: Props): JSX.Element {
           </option>
         ))}
       </select>
-      <Clock store={store} />
+      <Clock />
       {curves && (
         <button
           type="button"
@@ -85,7 +85,8 @@ export function Transport({ store, curves = false }: Props): JSX.Element {
 }
 
 /** Time and frame, and a slider over the whole recording. */
-function Clock({ store }: { store: Store }): JSX.Element {
+function Clock(): JSX.Element {
+  const store = useStore();
   const { duration } = store;
   const playhead = useCalm(store.playhead, store.playing);
   const frame = store.frameAt(playhead.value);

@@ -2,16 +2,16 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
+import { useStudio } from "../context";
 import { Dialog } from "./Dialog";
 import { NewKnowledge } from "./NewKnowledge";
-import type { Session } from "../session";
 
 interface Props {
-  session: Session;
   close: () => void;
 }
 
-export function TransferDialog({ session, close }: Props): JSX.Element {
+export function TransferDialog({ close }: Props): JSX.Element {
+  const { session } = useStudio();
   const bases = session.state.value?.knowledge_bases ?? [];
   const chosen = useSignal("");
   const base = chosen.value || (bases[0]?.id ?? "");
@@ -79,7 +79,7 @@ export function TransferDialog({ session, close }: Props): JSX.Element {
           </p>
         </form>
       )}
-      <NewKnowledge session={session} />
+      <NewKnowledge />
     </Dialog>
   );
 }

@@ -2,18 +2,18 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
+import { useStudio } from "../context";
 import type { Version } from "../../messages";
 import { counted, inWords } from "../editing/words";
 import { explain } from "../server/api";
-import type { Session } from "../session";
 import { Dialog } from "./Dialog";
 
 interface Props {
-  session: Session;
   close: () => void;
 }
 
-export function VersionsDialog({ session, close }: Props): JSX.Element {
+export function VersionsDialog({ close }: Props): JSX.Element {
+  const { session } = useStudio();
   const versions = useSignal<Version[] | null>(null);
   const edited = session.edited.value;
   useEffect(() => {

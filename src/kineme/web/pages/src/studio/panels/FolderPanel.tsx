@@ -1,19 +1,14 @@
 /** The recordings of the folder: search, open, show beside, add. */
 import type { JSX } from "preact";
+import { useStudio } from "../context";
 import type { Listing } from "../../messages";
 import type { Order, Status } from "../recordingList";
-import type { Session } from "../session";
-import type { Uploads } from "../server/uploads";
 
 const SIGNS: Record<Status, string> = { new: "", corrected: "✎", labelled: "◐", checked: "✓" };
 const TAIL = 12; // letters at the end of a name that are always seen
 
-interface Props {
-  session: Session;
-  uploads: Uploads;
-}
-
-export function FolderPanel({ session, uploads }: Props): JSX.Element {
+export function FolderPanel(): JSX.Element {
+  const { session, uploads } = useStudio();
   const { search, wanted } = session.list;
   const all = session.state.value?.recordings ?? [];
   const found = session.list.listed.value;
@@ -78,7 +73,7 @@ export function FolderPanel({ session, uploads }: Props): JSX.Element {
       )}
       <ul class="recordings">
         {found.map((listing) => (
-          <Row key={listing.id} session={session} listing={listing} />
+          <Row key={listing.id} listing={listing} />
         ))}
       </ul>
       {uploads.running.value.map(({ name, share }) => (
@@ -92,7 +87,8 @@ export function FolderPanel({ session, uploads }: Props): JSX.Element {
   );
 }
 
-function Row({ session, listing }: { session: Session; listing: Listing }): JSX.Element {
+function Row({ listing }: { listing: Listing }): JSX.Element {
+  const { session } = useStudio();
   const { id, name } = listing;
   const { store } = session;
   const open = store.opened.value.find((each) => each.recording.value.id === id)?.recording.value;

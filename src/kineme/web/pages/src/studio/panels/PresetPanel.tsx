@@ -5,19 +5,20 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useCallback, useEffect, useRef } from "preact/hooks";
+import { useStudio } from "../context";
 import type { Parameter, PresetChoice, Segments } from "../../messages";
 import type { EditedRecording } from "../editing/editedRecording";
 import { DetailSlider } from "../../layout/DetailSlider";
 import type { Choice } from "../editing/beside";
 import { ParameterSlider } from "./ParameterSlider";
 import { Proposed } from "./Proposed";
-import type { Session } from "../session";
 
 const PAUSE = 120; // milliseconds without a change before the server is asked
 
 type Values = Record<string, number>;
 
-export function PresetPanel({ session }: { session: Session }): JSX.Element | null {
+export function PresetPanel(): JSX.Element | null {
+  const { session } = useStudio();
   const state = session.state.value;
   const edited = session.edited.value;
   if (!state || !edited) return null;
@@ -25,7 +26,7 @@ export function PresetPanel({ session }: { session: Session }): JSX.Element | nu
   return (
     <Presets
       key={edited.id}
-      session={session}
+
       edited={edited}
       presets={signals ? state.presets.map(ofSignals) : state.presets}
       fallback={state.default_preset}
@@ -35,14 +36,14 @@ export function PresetPanel({ session }: { session: Session }): JSX.Element | nu
 }
 
 interface Props {
-  session: Session;
   edited: EditedRecording;
   presets: PresetChoice[];
   fallback: string;
   details: number[];
 }
 
-function Presets({ session, edited, presets, fallback, details }: Props): JSX.Element {
+function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
+  const { session } = useStudio();
   const draft = useSignal<Choice | null>(null);
   const keep = useSignal(true);
   const timer = useRef(0);
@@ -113,7 +114,7 @@ function Presets({ session, edited, presets, fallback, details }: Props): JSX.El
             </option>
           ))}
         </select>
-        <DetailSlider store={session.store} />
+        <DetailSlider />
         {choice.parameters.map((parameter) => (
           <ParameterSlider
             key={`${preset}.${parameter.name}`}
@@ -125,7 +126,6 @@ function Presets({ session, edited, presets, fallback, details }: Props): JSX.El
       </div>
       {proposal && (
         <Proposed
-          session={session}
           proposal={proposal}
           keep={keep.value}
           setKeep={(wanted) => {

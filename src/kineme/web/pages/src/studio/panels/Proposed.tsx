@@ -1,16 +1,16 @@
 /** What a segmentation that is shown would do to the table, and the choice to make it. */
 import type { JSX } from "preact";
+import { useStudio } from "../context";
 import type { Proposal } from "../editing/beside";
 import { counted } from "../editing/words";
-import type { Session } from "../session";
 
 export function Proposed(props: {
-  session: Session;
   proposal: Proposal;
   keep: boolean;
   setKeep: (keep: boolean) => void;
 }): JSX.Element {
-  const { session, proposal, keep, setKeep } = props;
+  const { session } = useStudio();
+  const { proposal, keep, setKeep } = props;
   const { preview } = proposal;
   const own = `${counted(preview.corrections, "correction")}, ${counted(preview.names, "name")}`;
   const some = preview.corrections + preview.names > 0;

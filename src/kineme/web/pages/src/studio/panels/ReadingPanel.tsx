@@ -2,12 +2,13 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import type { JSX, TargetedEvent } from "preact";
-import type { Session } from "../session";
+import { useStudio } from "../context";
 
 const UNITS = ["m", "cm", "mm", "inch", "cmu"];
 const AXES = ["x", "y", "z", "-x", "-y", "-z"];
 
-export function ReadingPanel({ session }: { session: Session }): JSX.Element | null {
+export function ReadingPanel(): JSX.Element | null {
+  const { session } = useStudio();
   const { value: recording } = session.store.recording;
   const { value: unread } = session.unread;
   const people = useSignal<readonly string[]>([]);

@@ -1,24 +1,19 @@
 /** The segment one works on: its times, name and cluster, and the name of the cluster. */
 import type { JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
+import { useStudio } from "../context";
 import { clusterColor, NO_COLOR } from "../../colors";
 import type { Kind, Segment } from "../../messages";
 import { NameInput } from "../../layout/NameInput";
 import { durationOf, nameOf } from "../../segments";
 import { surenessOf } from "../../sureness";
-import type { Editor } from "../editing/editor";
 import { counted } from "../editing/words";
-import type { Review } from "../review/review";
 import type { Session } from "../session";
 import { Comment } from "./Comment";
 import { Vocabulary } from "./Vocabulary";
 
-interface Props {
-  session: Session;
-  editor: Editor;
-}
-
-export function SegmentPanel({ session, editor, review }: Props & { review: Review }): JSX.Element {
+export function SegmentPanel(): JSX.Element {
+  const { session, editor, review } = useStudio();
   const segment = editor.segment.value;
   if (!segment) return <p class="hint quiet">Open a recording to see its segments.</p>;
   const { store } = session;
@@ -51,7 +46,7 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
         value={own}
         names={namesOf(session)}
         naming="segment"
-        editor={editor}
+
         onName={(label) => editor.name(segment, label)}
       />
       <label class="check">
@@ -76,7 +71,7 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
         <label class="field">
           <span>Cluster</span>
           <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
-          <ClusterChoice session={session} editor={editor} segment={segment} />
+          <ClusterChoice segment={segment} />
         </label>
       </div>
       {segment.cluster >= 0 && (
@@ -87,18 +82,18 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
           value={called}
           names={namesOf(session)}
           naming="cluster"
-          editor={editor}
+
           onName={(label) => editor.nameCluster(segment.cluster, label)}
         />
       )}
-      <Comment key={`${segment.level} ${segment.start_frame}`} {...{ session, editor, segment }} />
-      <Vocabulary session={session} editor={editor} />
+      <Comment key={`${segment.level} ${segment.start_frame}`} segment={segment} />
+      <Vocabulary />
     </div>
   );
 }
 
-function ClusterChoice(props: Props & { segment: Segment }): JSX.Element {
-  const { session, editor, segment } = props;
+function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
+  const { session, editor } = useStudio();
   const rows = session.store.recording.value?.segmentation.segments ?? [];
   const next = rows.reduce((most, row) => Math.max(most, row.cluster), -1) + 1;
   const known = new Set([-1, next, ...rows.map((row) => row.cluster)]);
@@ -143,19 +138,11 @@ interface NameProps {
   names: string[];
   /** Which name it is, as the editor says when one wants to type it. */
   naming: "segment" | "cluster";
-  editor: Editor;
   onName: (label: string) => void;
 }
 
-function NameField({
-  title,
-  placeholder,
-  value,
-  names,
-  naming,
-  editor,
-  onName,
-}: NameProps): JSX.Element {
+function NameField({ title, placeholder, value, names, naming, onName }: NameProps): JSX.Element {
+  const { editor } = useStudio();
   const field = useRef<HTMLInputElement>(null);
   const focus = editor.naming.value === naming;
   useLayoutEffect(() => {

@@ -2,34 +2,27 @@
 import { useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStudio } from "../context";
 import { explain } from "../server/api";
-import type { Session } from "../session";
 
 const APART = 0.12; // seconds that picture and figure may be apart while they play
 
-export function Video({ session }: { session: Session }): JSX.Element | null {
+export function Video(): JSX.Element | null {
+  const { session } = useStudio();
   const recording = session.store.recording.value;
   const video = recording?.video;
   if (!video) return null;
-  return (
-    <Player
-      key={recording.id}
-      session={session}
-      id={recording.id}
-      name={video.name}
-      offset={video.offset_s}
-    />
-  );
+  return <Player key={recording.id} id={recording.id} name={video.name} offset={video.offset_s} />;
 }
 
 interface Props {
-  session: Session;
   id: string;
   name: string;
   offset: number;
 }
 
-function Player({ session, id, name, offset }: Props): JSX.Element {
+function Player({ id, name, offset }: Props): JSX.Element {
+  const { session } = useStudio();
   const { store, api } = session;
   const element = useRef<HTMLVideoElement>(null);
   const start = useRef(offset);

@@ -5,11 +5,10 @@
 import { computed, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useMemo, useRef } from "preact/hooks";
+import { useStore } from "../../context";
 import { NO_COLOR } from "../../colors";
 import { durationOf, nameOf } from "../../segments";
 import { clock } from "../../view";
-import type { Editor } from "../editing/editor";
-import type { Session } from "../session";
 import { between, EVERYTHING, type Filter, type Order, type Row, rowsOf } from "./rows";
 import { Actions } from "./Actions";
 import { TableFilter } from "./TableFilter";
@@ -23,13 +22,8 @@ const COLUMNS: readonly (readonly [Order, string])[] = [
   ["sure", "Sure"],
 ];
 
-interface Props {
-  session: Session;
-  editor: Editor;
-}
-
-export function SegmentTable({ session, editor }: Props): JSX.Element {
-  const { store } = session;
+export function SegmentTable(): JSX.Element {
+  const store = useStore();
   const filter = useSignal<Filter>(EVERYTHING);
   const order = useSignal<[Order, boolean]>(["start", false]);
   const chosen = useSignal<ReadonlySet<number>>(new Set());
@@ -89,7 +83,7 @@ export function SegmentTable({ session, editor }: Props): JSX.Element {
   return (
     <div class="segment-table">
       <TableFilter filter={filter} />
-      <Actions session={session} editor={editor} rows={many} />
+      <Actions rows={many} />
       <div class="table-head" role="presentation">
         {COLUMNS.map(([id, title]) => (
           <button
