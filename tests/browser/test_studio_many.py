@@ -66,19 +66,19 @@ def test_the_queue_shows_the_least_sure_first_and_a_new_segmentation_leaves_what
     assert marked(saved_table(take), "checked") == {span}
 
 
-def test_a_segment_is_as_sure_in_the_queue_as_in_its_panel_and_in_the_table(page):
+def test_a_segment_has_one_confidence_in_queue_panel_and_table(page):
     page.locator("#tab-review").click()
     page.keyboard.press("j")
     Screen(page).wait("k.selected")
-    sure = page.locator(".doubts [aria-current=true] .number:last-child").inner_text()
-    assert re.findall(r"\d+ %", page.locator(".why").inner_text()) == [sure]
+    shown = page.locator(".doubts [aria-current=true] .number:last-child").inner_text()
+    assert re.findall(r"\d+ %", page.locator(".why").inner_text()) == [shown]
     page.locator("#tab-segment").click()
     panel = page.locator(".segment-panel").inner_text()
-    assert re.findall(r"\d+ %|score", panel) == [sure]
+    assert re.findall(r"\d+ %|score", panel) == [shown]
     page.locator("#tab-table").click()
     chosen = page.locator(".table-rows [aria-selected=true]")
-    assert chosen.locator("[role=gridcell]").last.inner_text() == sure
-    page.get_by_label("Less sure than").fill(str(int(sure[:-2]) / 100 - 0.01))
+    assert chosen.locator("[role=gridcell]").last.inner_text() == shown
+    page.get_by_label("Confidence below").fill(str(int(shown[:-2]) / 100 - 0.01))
     page.get_by_text("0 segments").wait_for()
 
 

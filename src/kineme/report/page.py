@@ -124,7 +124,7 @@ def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
     if data.motion is not None:
         return None
     head, curves = curves_of(recording, data.fps)
-    return {"list": head, "pieces": {place: _base64(data) for place, data in curves.items()}}
+    return {"list": head, "tiles": {place: _base64(data) for place, data in curves.items()}}
 
 
 def _name(segmentation: Segmentation) -> str:

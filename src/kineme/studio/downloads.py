@@ -61,10 +61,10 @@ def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tu
     table = opened.table
     if not rows or not all(0 <= row < len(table) for row in rows):
         raise ParameterError("choose the segments to write: some of these are not in the table")
-    wanted = [table.table[row] for row in rows]
+    segments = [table.table[row] for row in rows]
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
         write_clips(
-            [(opened.loaded.recording, wanted)], Path(folder) / _stem_of(opened), loops=loops
+            [(opened.loaded.recording, segments)], Path(folder) / _stem_of(opened), loops=loops
         )
         return _one_file(Path(folder), _stem_of(opened))
 

@@ -1,7 +1,7 @@
 """What there is to open: the files of a folder, each known to the page by an id.
 
 An id says nothing and is good for nothing but to find one of the files that
-are listed at that moment, so that no request can name any other. How far each
+are listed then, so that no request can name any other. How far each
 recording is, its table tells; the recording is not opened for it.
 """
 
@@ -20,7 +20,7 @@ from kineme.segments.editing.marks import marked
 from kineme.studio.reading import stamp_of
 from kineme.studio.storage.tables import usual_table, usual_tables
 
-MOST_KNOWN = 10_000
+MOST_COUNTS = 10_000
 """Tables whose counts stay in memory."""
 
 
@@ -108,7 +108,7 @@ def progress(recording: Path) -> Progress | None:
         return None
 
 
-@lru_cache(MOST_KNOWN)
+@lru_cache(MOST_COUNTS)
 def _counts(path: Path, *_: int) -> Progress | None:
     """Of the file as it was at that time; a file that is no table counts for none."""
     try:

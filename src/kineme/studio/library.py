@@ -328,11 +328,11 @@ def _modified(path: Path) -> int:
 
 
 def _recording(name: str, path: Path, vocabulary: str, lasts: float) -> LibraryRecording:
-    there = path.is_file()
+    exists = path.is_file()
     return LibraryRecording(
         recording=name,
-        id=file_id(path) if there else "",
-        status=_status(path) if there else "gone",
+        id=file_id(path) if exists else "",
+        status=_status(path) if exists else "gone",
         vocabulary=vocabulary,
         duration_s=lasts,
     )

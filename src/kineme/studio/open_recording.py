@@ -207,9 +207,9 @@ class OpenRecording:
             self._table, self.revision = change.table, self.revision + 1
             return self._edited(notes)
 
-    def preview(self, wanted: PreviewRequest) -> Preview:
+    def preview(self, request: PreviewRequest) -> Preview:
         """What segmenting again would make of the table, which stays as it is."""
-        return preview_of(self.table, self.loaded, wanted)
+        return preview_of(self.table, self.loaded, request)
 
     def versions(self) -> list[Version]:
         """The tables that were replaced, the latest first."""
@@ -304,19 +304,19 @@ class FirstSegments:
         return self._found.result()
 
 
-def preview_of(before: Segmentation, loaded: LoadedRecording, wanted: PreviewRequest) -> Preview:
+def preview_of(before: Segmentation, loaded: LoadedRecording, request: PreviewRequest) -> Preview:
     """What segmenting again would make of a table."""
     from kineme.web.page_data import segments_message
 
-    detail = DEFAULT_DETAIL if wanted.detail is UNSET else wanted.detail
-    found = loaded.segment(wanted.preset, wanted.parameters, detail)
+    detail = DEFAULT_DETAIL if request.detail is UNSET else request.detail
+    found = loaded.segment(request.preset, request.parameters, detail)
     result = editing.carried(before, found)
     lost = [f"{result.corrections} corrections and {result.names} names"]
     return Preview(
-        segmentation=segments_message(result.segmentation if wanted.keep else found),
+        segmentation=segments_message(result.segmentation if request.keep else found),
         corrections=result.corrections,
         names=result.names,
-        lost=result.lost if wanted.keep else lost,
+        lost=result.lost if request.keep else lost,
         details=list(found.hierarchy.details) if found.hierarchy else [DEFAULT_DETAIL],
         detail=found.hierarchy.detail if found.hierarchy else DEFAULT_DETAIL,
     )

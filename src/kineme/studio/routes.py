@@ -217,9 +217,9 @@ class PictureApi:
         self._recordings = recordings
 
     async def motion(self, request: Request) -> Response:
-        wanted = number_in(request.query_params.get("poses", ""))
+        n_samples = number_in(request.query_params.get("poses", ""))
         name, poses = request.path_params["id"], self._recordings.poses
-        return Response(await run_in_threadpool(poses, name, wanted), media_type=BINARY)
+        return Response(await run_in_threadpool(poses, name, n_samples), media_type=BINARY)
 
     async def tile(self, request: Request) -> Response:
         place = [number_in(request.path_params[name]) for name in ("level", "row", "column")]
@@ -239,16 +239,16 @@ class PictureApi:
 
         return MessageResponse(await run_in_threadpool(work))
 
-    async def piece(self, request: Request) -> Response:
+    async def curve_tile(self, request: Request) -> Response:
         place = [number_in(request.path_params[name]) for name in ("curve", "level", "number")]
 
         def work() -> bytes | None:
             loaded = self._loaded(request)
-            return loaded.curves().piece(loaded.source, *place)
+            return loaded.curves().tile(loaded.source, *place)
 
         found = await run_in_threadpool(work)
         if found is None:
-            raise UnknownError("there is no such piece of a curve")
+            raise UnknownError("the curve has no such tile")
         return Response(found, media_type=BINARY)
 
     def routes(self, one: str) -> list[Route]:
@@ -257,7 +257,7 @@ class PictureApi:
             Route(f"{one}/motion", self.motion),
             Route(f"{one}/matrix/{{level}}/{{row}}/{{column}}", self.tile),
             Route(f"{one}/curves", self.curves),
-            Route(f"{one}/curves/{{curve}}/{{level}}/{{number}}", self.piece),
+            Route(f"{one}/curves/{{curve}}/{{level}}/{{number}}", self.curve_tile),
         ]
 
     def _loaded(self, request: Request) -> LoadedRecording:
@@ -388,10 +388,10 @@ class FolderApi:
 
 def _level(request: Request) -> Level | None:
     """The level that an address names, if it names one."""
-    wanted = request.query_params.get("level") or None
-    if wanted not in (None, *get_args(Level)):
+    level = request.query_params.get("level") or None
+    if level not in (None, *get_args(Level)):
         raise ParameterError(f"level must be {' or '.join(get_args(Level))}")
-    return cast(Level | None, wanted)
+    return cast(Level | None, level)
 
 
 def _size(path: Path) -> int:

@@ -164,8 +164,8 @@ def listening(port: int | None) -> socket.socket:
             reason = error.strerror
             continue
         return opened
-    which = f"{PORT} to {PORT + TRIES - 1} are" if port is None else f"{port} is"
-    raise ParameterError(f"port {which} not free ({reason}): name another with --port")
+    ports = f"{PORT} to {PORT + TRIES - 1} are" if port is None else f"{port} is"
+    raise ParameterError(f"port {ports} not free ({reason}): name another with --port")
 
 
 def make_ready(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> None:

@@ -139,21 +139,22 @@ def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float],
     data : bytes
         The compressed columns.
     """
-    seen = np.asarray(np.isfinite(positions).all(axis=2))
-    everywhere = bool(seen.all())
-    points = positions.reshape(-1, 3) if everywhere else positions[seen]  # without a copy of hours
+    visible = np.asarray(np.isfinite(positions).all(axis=2))
+    everywhere = bool(visible.all())
+    # All of them without a copy, which would be of hours.
+    points = positions.reshape(-1, 3) if everywhere else positions[visible]
     if not len(points):
         points = np.zeros((1, 3))
     low, high = points.min(axis=0), points.max(axis=0)
     origin = (low + high) / 2
-    step = max(share * _extent(positions, seen), float((high - low).max()) / 65000) or 1.0
+    step = max(share * _extent(positions, visible), float((high - low).max()) / 65000) or 1.0
     numbers = np.full(positions.shape, MISSING, np.int16)
     if everywhere:
         for first in range(0, len(positions), BLOCK):
             span = slice(first, first + BLOCK)
             numbers[span] = np.rint((positions[span] - origin) / step)
     else:
-        numbers[seen] = np.rint((points[: seen.sum()] - origin) / step)
+        numbers[visible] = np.rint((points[: visible.sum()] - origin) / step)
     columns = np.ascontiguousarray(numbers.reshape(len(numbers), -1).T)
     columns[:, 1:] -= columns[:, :-1].copy()
     x, y, z = origin.tolist()
@@ -189,12 +190,12 @@ def bones(motion: Motion) -> list[tuple[int, int]]:
     return of_bodies or pairs
 
 
-def _extent(positions: Floats, seen: NDArray[np.bool_]) -> float:
+def _extent(positions: Floats, visible: NDArray[np.bool_]) -> float:
     """Largest extent of the median pose along an axis, in metres."""
-    whole = np.flatnonzero(seen.all(axis=1))
-    if not len(whole):
+    complete = np.flatnonzero(visible.all(axis=1))
+    if not len(complete):
         return 0.0
-    few = positions[whole[:: max(1, len(whole) // 1000)]]
+    few = positions[complete[:: max(1, len(complete) // 1000)]]
     return float(np.median(np.ptp(few, axis=1).max(axis=1)))
 
 

@@ -19,7 +19,7 @@ LARGEST = 2**53
 """Whole numbers up to here are the same in the page and in Python."""
 
 Text = Annotated[str, Meta(max_length=LONGEST_TEXT)]
-Whole = Annotated[int, Meta(ge=-LARGEST, le=LARGEST)]
+Integer = Annotated[int, Meta(ge=-LARGEST, le=LARGEST)]
 Number = Annotated[float, Meta(ge=-LARGEST, le=LARGEST)]
 
 
@@ -35,44 +35,44 @@ class MoveBorder(EditBase, frozen=True, kw_only=True, tag="move_border"):
     """The border at ``frame`` of a level goes to ``to``."""
 
     level: Level
-    frame: Whole
-    to: Whole
+    frame: Integer
+    to: Integer
 
 
 class Split(EditBase, frozen=True, kw_only=True, tag="split"):
     """A new border at ``frame``."""
 
     level: Level
-    frame: Whole
+    frame: Integer
 
 
 class Merge(EditBase, frozen=True, kw_only=True, tag="merge"):
     """The segments of ``[start_frame, stop_frame)`` become one."""
 
     level: Level
-    start_frame: Whole
-    stop_frame: Whole
+    start_frame: Integer
+    stop_frame: Integer
 
 
 class DeleteBorder(EditBase, frozen=True, kw_only=True, tag="delete_border"):
     """The two segments that meet at ``frame`` become one, like the longer of them."""
 
     level: Level
-    frame: Whole
+    frame: Integer
 
 
 class NameSegment(EditBase, frozen=True, kw_only=True, tag="name_segment"):
     """The segment that starts at ``frame`` gets a label; an empty one takes it away."""
 
     level: Level
-    frame: Whole
+    frame: Integer
     label: Text
 
 
 class NameCluster(EditBase, frozen=True, kw_only=True, tag="name_cluster"):
     """All segments of a cluster, of both levels, get a label."""
 
-    cluster: Whole
+    cluster: Integer
     label: Text
 
 
@@ -80,8 +80,8 @@ class SetCluster(EditBase, frozen=True, kw_only=True, tag="set_cluster"):
     """The segment that starts at ``frame`` joins a cluster; -1: none."""
 
     level: Level
-    frame: Whole
-    cluster: Whole
+    frame: Integer
+    cluster: Integer
 
 
 class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
@@ -91,7 +91,7 @@ class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
     """
 
     level: Level
-    frame: Whole
+    frame: Integer
     to: Kind
 
 
@@ -110,28 +110,28 @@ class SegmentAgain(EditBase, frozen=True, kw_only=True, tag="segment"):
 class MergeClusters(EditBase, frozen=True, kw_only=True, tag="merge_clusters"):
     """The segments of a cluster are in another one, ``into``, from then on."""
 
-    cluster: Whole
-    into: Whole
+    cluster: Integer
+    into: Integer
 
 
 class SplitCluster(EditBase, frozen=True, kw_only=True, tag="split_cluster"):
     """The primitives of a cluster that start at ``frames`` are a new cluster."""
 
-    cluster: Whole
-    frames: list[Whole]
+    cluster: Integer
+    frames: list[Integer]
 
 
 class OrderClusters(EditBase, frozen=True, kw_only=True, tag="order_clusters"):
     """The clusters are numbered in this order."""
 
-    order: list[Whole]
+    order: list[Integer]
 
 
 class Remark(EditBase, frozen=True, kw_only=True, tag="comment"):
     """The segment that starts at ``frame`` has a comment; an empty one takes it away."""
 
     level: Level
-    frame: Whole
+    frame: Integer
     text: Annotated[str, Meta(max_length=LONGEST_COMMENT)]
 
 
@@ -139,7 +139,7 @@ class Check(EditBase, frozen=True, kw_only=True, tag="check"):
     """The segments that start at ``frames`` are checked, or not any more."""
 
     level: Level
-    frames: list[Whole]
+    frames: list[Integer]
     checked: bool
 
 
@@ -152,7 +152,7 @@ class TakeLabels(EditBase, frozen=True, kw_only=True, tag="take_labels"):
 class Restore(EditBase, frozen=True, kw_only=True, tag="restore"):
     """A table that was replaced is the present one again."""
 
-    version: Whole
+    version: Integer
 
 
 class Transfer(EditBase, frozen=True, kw_only=True, tag="transfer"):

@@ -33,7 +33,7 @@ RATE = 10.0  # cells per second: what can still be told apart on a screen
 MOST_CELLS = 36_000  # an hour; longer recordings get fewer cells per second
 OFFSETS = (-0.2, -0.1, 0.0, 0.1, 0.2)  # seconds, as in the preset kineme
 MOST_BYTES = 9_000_000  # of the tiles in a report, see display.MOST_BYTES
-WHOLE = 24  # tiles a side up to which a report holds all of a level
+MOST_TILES = 24  # tiles a side up to which a report holds all of a level
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +107,7 @@ class Matrix:
             How far from the diagonal they reach, in cells; None if none was left out.
         """
         sides = [ceil(len(features) / TILE) for features in self.levels]
-        coarse = [level for level, side in enumerate(sides) if side <= WHOLE]
+        coarse = [level for level, side in enumerate(sides) if side <= MOST_TILES]
         places = [
             (level, row, column)
             for level in reversed(coarse)
@@ -152,10 +152,10 @@ def pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
     middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
     stacked = np.concatenate([_at(values, middles + offset, fps) for offset in OFFSETS], axis=1)
     stacked /= np.sqrt(len(OFFSETS))
-    seen = np.asarray(np.isfinite(stacked).all(axis=1))
-    total = np.where(seen[:, None], stacked, 0.0)
-    squares, counts = total**2, seen.astype(float)[:, None]
-    levels = [np.where(seen[:, None], total, np.nan).astype(np.float32)]
+    visible = np.asarray(np.isfinite(stacked).all(axis=1))
+    total = np.where(visible[:, None], stacked, 0.0)
+    squares, counts = total**2, visible.astype(float)[:, None]
+    levels = [np.where(visible[:, None], total, np.nan).astype(np.float32)]
     while len(total) > TILE:
         total, squares, counts = (_in_pairs(sums) for sums in (total, squares, counts))
         # 0 / 0: where nothing was seen there is nothing to compare.

@@ -96,7 +96,7 @@ class CurveList(Struct, frozen=True, kw_only=True):
 
     curves: list[Curve]
     factor: int
-    piece: int
+    tile: int
     levels: int
 
 

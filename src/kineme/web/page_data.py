@@ -188,10 +188,10 @@ def segments_message(segmentation: Segmentation) -> Segments:
 
 def _levels(segmentation: Segmentation) -> list[TableAtDetail]:
     """The tables at all details; none where there is one, or where they would fill the page."""
-    known = segmentation.hierarchy
-    if known is None or sum(map(len, known.tables)) > MOST_ROWS:
+    hierarchy = segmentation.hierarchy
+    if hierarchy is None or sum(map(len, hierarchy.tables)) > MOST_ROWS:
         return []
-    tables = zip(known.details, known.tables, strict=True)
+    tables = zip(hierarchy.details, hierarchy.tables, strict=True)
     return [TableAtDetail(detail=detail, segments=list(table)) for detail, table in tables]
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from msgspec import UNSET, UnsetType
 
-from kineme.web.edits import Edit, Number, Request, Text, Whole
+from kineme.web.edits import Edit, Integer, Number, Request, Text
 
 
 class EditRequest(Request, frozen=True, kw_only=True):
@@ -16,7 +16,7 @@ class EditRequest(Request, frozen=True, kw_only=True):
     ``name`` is the edit's own: one that is sent again, for want of an answer, is made once.
     """
 
-    revision: Whole
+    revision: Integer
     edit: Edit
     name: Text | UnsetType = UNSET
 
@@ -46,7 +46,7 @@ class KnowledgeRequest(Request, frozen=True, kw_only=True):
 class ClipsRequest(Request, frozen=True, kw_only=True):
     """Segments by their rows in the table, as motion files; with ``loops`` made to close."""
 
-    rows: list[Whole]
+    rows: list[Integer]
     loops: bool
 
 

@@ -123,7 +123,7 @@ export interface Curve {
 export interface CurveList {
   curves: Curve[];
   factor: number;
-  piece: number;
+  tile: number;
   levels: number;
 }
 

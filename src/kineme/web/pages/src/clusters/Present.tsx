@@ -4,7 +4,7 @@ import { useStore } from "../context";
 import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
 import { IconButton } from "../transport/icons";
-import { surenessOf } from "../sureness";
+import { confidenceOf } from "../confidence";
 import { clock } from "../view";
 
 export function Present(): JSX.Element | null {
@@ -12,7 +12,7 @@ export function Present(): JSX.Element | null {
   const segment = store.present.value;
   if (!segment) return null;
   const table = store.recording.value?.segmentation;
-  const sureness = table && surenessOf(table).get(segment);
+  const confidence = table && confidenceOf(table).get(segment);
   const cluster = store.clusters.value.find((each) => each.id === segment.cluster);
   const members = cluster?.members ?? [];
   const at = members.indexOf(segment);
@@ -38,7 +38,7 @@ export function Present(): JSX.Element | null {
       </p>
       <p class="quiet number">
         {clock(segment.start_s, 2)} to {clock(segment.stop_s, 2)} · {durationOf(segment).toFixed(2)}{" "}
-        s{sureness?.text && <span title={sureness.why}> · {sureness.text}</span>}
+        s{confidence?.text && <span title={confidence.why}> · {confidence.text}</span>}
       </p>
     </section>
   );

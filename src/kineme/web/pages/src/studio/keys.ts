@@ -13,7 +13,7 @@ export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
   ["N", "Name the segment; Enter takes the name, Escape leaves it"],
   ["Shift + N", "Name its cluster"],
   ["1 … 9", "Name the segment with a label of the folder (see Segment)"],
-  ["J", "Next to look at: where the result is least sure"],
+  ["J", "Next to look at: where confidence is lowest"],
   ["K", "The segment is checked: mark it, and go to the next to look at"],
   ["Shift + K", "Mark the segment as checked, or take the mark away"],
   ["Page Down, Page Up", "The next recording of the list, or the one before"],

@@ -46,7 +46,7 @@ export function Timeline(): JSX.Element {
             void [given(), store.range.value, store.selected.value, store.hovered.value];
             void [store.loop.value, drag.value, store.target.value, store.border.value];
             void [
-              store.marks.value,
+              store.bounds.value,
               store.labelColors.value,
               store.edits.value,
               store.recording.value,

@@ -105,8 +105,8 @@ function Clock(): JSX.Element {
           max={Math.max((store.recording.value?.n_frames ?? 1) - 1, 0)}
           value={frame}
           onChange={(event) => {
-            const wanted = event.currentTarget.valueAsNumber;
-            if (Number.isFinite(wanted)) store.seek(Math.round(wanted) / store.fps.value);
+            const number = event.currentTarget.valueAsNumber;
+            if (Number.isFinite(number)) store.seek(Math.round(number) / store.fps.value);
           }}
           onKeyDown={(event) => event.key === "Enter" && event.currentTarget.blur()}
         />

@@ -22,7 +22,7 @@ const open = (component = <ReviewPanel />): Promise<Page> =>
 const listed = (page: Page): string[] =>
   page.queryAllByRole("listitem").map((each) => each.textContent);
 
-test("what is least sure is the first to be looked at", async () => {
+test("what has the lowest confidence is the first to be looked at", async () => {
   const page = await open();
   expect(listed(page)).toEqual([
     expect.stringContaining("squat"),

@@ -268,7 +268,7 @@ describe("when the server is gone", () => {
     server.up = true;
     await edited.resume();
     expect(edited.unsent()).toEqual([]);
-    expect(edited.held.value).toBeNull();
+    expect(edited.blocked.value).toBeNull();
     expect(server.got).toEqual([MOVE]);
   });
 
@@ -327,13 +327,13 @@ describe("when somebody else changes the table", () => {
     await server.edit("take", { revision: 0, edit: MOVE });
     edited.edit(SPLIT);
     await settled();
-    expect(edited.held.value).toBe("The table has changed.");
+    expect(edited.blocked.value).toBe("The table has changed.");
     expect(edited.unsent()).toHaveLength(1);
     expect(starts(edited.confirmed.value.segmentation)).toEqual([0, 40, 60]);
     edited.retry();
     await settled();
     expect(starts(server.now.segmentation)).toEqual([0, 40, 45, 60]);
-    expect(edited.held.value).toBeNull();
+    expect(edited.blocked.value).toBeNull();
   });
 
   it("it is made on what it was made on, wherever somebody has put that", async () => {
@@ -409,7 +409,7 @@ describe("when somebody else changes the table", () => {
     server.now = { ...server.now, revision: 7 };
     edited.edit(SPLIT);
     await settled();
-    expect(edited.held.value).toBeNull();
+    expect(edited.blocked.value).toBeNull();
     expect(server.got).toEqual([SPLIT]);
   });
 });

@@ -16,21 +16,21 @@ const MOST_KEPT = 600;
 
 /** The sketches of a page, each asked for once. */
 export class Sketches {
-  private readonly known = new Map<string, Promise<Sketch>>();
+  private readonly kept = new Map<string, Promise<Sketch>>();
 
   constructor(private readonly api: LibraryApi) {}
 
   of(span: Span): Promise<Sketch> {
     const key = JSON.stringify([span.recording, span.start_s, span.stop_s]);
-    const known = this.known.get(key) ?? this.ask(span);
-    this.known.delete(key);
-    this.known.set(key, known); // the last one is the newest
-    known.catch(() => this.known.delete(key));
-    for (const old of this.known.keys()) {
-      if (this.known.size <= MOST_KEPT) break;
-      this.known.delete(old);
+    const kept = this.kept.get(key) ?? this.ask(span);
+    this.kept.delete(key);
+    this.kept.set(key, kept); // the last one is the newest
+    kept.catch(() => this.kept.delete(key));
+    for (const old of this.kept.keys()) {
+      if (this.kept.size <= MOST_KEPT) break;
+      this.kept.delete(old);
     }
-    return known;
+    return kept;
   }
 
   private async ask(span: Span): Promise<Sketch> {
@@ -72,7 +72,7 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
     sketch.value = null;
     failure.value = "";
     let here = true;
-    const seen = new IntersectionObserver((entries) => {
+    const inView = new IntersectionObserver((entries) => {
       visible.current = entries.at(-1)!.isIntersecting;
       if (!visible.current || sketch.peek()) return;
       sketches
@@ -80,10 +80,10 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
         .then((found) => here && (sketch.value = found))
         .catch((error: unknown) => here && (failure.value = explain(error)));
     });
-    seen.observe(canvas.current!);
+    inView.observe(canvas.current!);
     return () => {
       here = false;
-      seen.disconnect();
+      inView.disconnect();
     };
   }, [sketches, recording, start_s, stop_s, sketch, failure]);
 

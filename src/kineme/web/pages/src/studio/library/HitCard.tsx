@@ -11,7 +11,7 @@ const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
 export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): JSX.Element {
   const looked = useSignal(false);
-  const right = page.judged.value.get(keyOf(hit))?.right;
+  const right = page.verdicts.value.get(keyOf(hit))?.right;
   const front = page.hits.value[page.inFront.value] === hit;
   const { recording, start_s, stop_s, cluster, label, name } = hit;
   const id = page.state.value?.recordings.find((each) => each.recording === recording)?.id;

@@ -12,8 +12,8 @@ const FIRST = 3;
 export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
   const filter = useSignal("");
   const { recordings = [], failed = {} } = page.state.value ?? {};
-  const wanted = filter.value.trim().toLowerCase();
-  const found = recordings.filter((each) => each.recording.toLowerCase().includes(wanted));
+  const text = filter.value.trim().toLowerCase();
+  const found = recordings.filter((each) => each.recording.toLowerCase().includes(text));
   return (
     <>
       <div class="tools">

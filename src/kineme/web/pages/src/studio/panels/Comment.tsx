@@ -9,8 +9,8 @@ interface Props {
 
 export function Comment({ segment }: Props): JSX.Element {
   const { session, editor } = useStudio();
-  const said = session.store.recording.value?.segmentation.comments ?? [];
-  const text = said
+  const comments = session.store.recording.value?.segmentation.comments ?? [];
+  const text = comments
     .filter(({ level, frame }) => level === segment.level && isIn(frame, segment))
     .map((each) => each.text)
     .join("\n");

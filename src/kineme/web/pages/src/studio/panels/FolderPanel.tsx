@@ -9,7 +9,7 @@ const TAIL = 12; // letters at the end of a name that are always seen
 
 export function FolderPanel(): JSX.Element {
   const { session, uploads } = useStudio();
-  const { search, wanted } = session.list;
+  const { search, status } = session.list;
   const all = session.state.value?.recordings ?? [];
   const found = session.list.listed.value;
   const done = all.filter((each) => session.list.statusOf(each) === "checked").length;
@@ -46,8 +46,8 @@ export function FolderPanel(): JSX.Element {
           />
           <select
             aria-label="Show recordings that are"
-            value={wanted.value}
-            onChange={(event) => (wanted.value = event.currentTarget.value as Status | "")}
+            value={status.value}
+            onChange={(event) => (status.value = event.currentTarget.value as Status | "")}
           >
             <option value="">all</option>
             <option value="new">new</option>
@@ -96,7 +96,7 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
   const status = session.list.statusOf(listing);
   const checked = open?.segmentation.checked.length ?? listing.checked;
   const segments = open?.segmentation.segments.length ?? listing.segments;
-  const said = [
+  const facts = [
     megabytes(listing.bytes),
     status,
     ...(status === "corrected" ? [`${checked} of ${segments} segments checked`] : []),
@@ -112,7 +112,7 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
         class="recording"
         aria-current={current ? "true" : undefined}
         aria-busy={opening}
-        title={`${name}: ${said.join(", ")}`}
+        title={`${name}: ${facts.join(", ")}`}
         onClick={() => void session.open(id, { beside: shown })}
       >
         <MiddleShortened name={name} />

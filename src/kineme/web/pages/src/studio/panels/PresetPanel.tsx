@@ -128,8 +128,8 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
         <Proposed
           proposal={proposal}
           keep={keep.value}
-          setKeep={(wanted) => {
-            keep.value = wanted;
+          setKeep={(keeps) => {
+            keep.value = keeps;
             again(proposal.choice, 0);
           }}
         />

@@ -12,7 +12,7 @@ export function Proposed(props: {
   const { session } = useStudio();
   const { proposal, keep, setKeep } = props;
   const { preview } = proposal;
-  const own = `${counted(preview.corrections, "correction")}, ${counted(preview.names, "name")}`;
+  const counts = `${counted(preview.corrections, "correction")}, ${counted(preview.names, "name")}`;
   const some = preview.corrections + preview.names > 0;
   return (
     <div class="proposed" role="group" aria-label="Preview">
@@ -24,7 +24,7 @@ export function Proposed(props: {
               checked={keep}
               onChange={(event) => setKeep(event.currentTarget.checked)}
             />
-            Take over {own}
+            Take over {counts}
           </label>
         )}
         {some && keep && preview.lost.length > 0 && (
@@ -51,7 +51,7 @@ export function Proposed(props: {
           disabled={keep !== proposal.keep}
           onClick={() => session.beside.apply()}
         >
-          {some ? (keep ? "Apply" : `Apply: replaces ${own}`) : "Apply"}
+          {some ? (keep ? "Apply" : `Apply: replaces ${counts}`) : "Apply"}
         </button>
       </p>
     </div>

@@ -15,11 +15,11 @@ export function ReadingPanel(): JSX.Element | null {
   const busy = useSignal(false);
   const id = unread?.id ?? recording?.id;
   const reading = (!unread && recording?.reading) || {};
-  const said = (name: string): string => {
+  const option = (name: string): string => {
     const value = reading[name];
     return typeof value === "string" || typeof value === "number" ? String(value) : "";
   };
-  const person = said("person");
+  const person = option("person");
   useEffect(() => {
     people.value = unread?.people ?? [];
     if (!unread && id && person)
@@ -75,12 +75,12 @@ export function ReadingPanel(): JSX.Element | null {
             min="0"
             step="any"
             placeholder="as the file says"
-            defaultValue={said("fps")}
+            defaultValue={option("fps")}
           />
         </label>
         <div class="pair">
-          <Choice name="unit" title="Unit" values={UNITS} value={said("unit")} />
-          <Choice name="up" title="Up" values={AXES} value={said("up")} />
+          <Choice name="unit" title="Unit" values={UNITS} value={option("unit")} />
+          <Choice name="up" title="Up" values={AXES} value={option("up")} />
         </div>
         <p class="actions">
           <button

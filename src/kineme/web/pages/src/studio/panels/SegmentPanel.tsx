@@ -6,7 +6,7 @@ import { clusterColor, NO_COLOR } from "../../colors";
 import type { Kind, Segment } from "../../messages";
 import { NameInput } from "../../layout/NameInput";
 import { durationOf, nameOf } from "../../segments";
-import { surenessOf } from "../../sureness";
+import { confidenceOf } from "../../confidence";
 import { counted } from "../editing/words";
 import type { Session } from "../session";
 import { Comment } from "./Comment";
@@ -18,10 +18,10 @@ export function SegmentPanel(): JSX.Element {
   if (!segment) return <p class="hint quiet">Open a recording to see its segments.</p>;
   const { store } = session;
   const called = store.recording.value?.segmentation.cluster_names[segment.cluster] ?? "";
-  const own = segment.label !== called ? segment.label : "";
+  const label = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
   const table = store.recording.value?.segmentation;
-  const sureness = table && surenessOf(table).get(segment);
+  const confidence = table && confidenceOf(table).get(segment);
   return (
     <div class="segment-panel">
       <p class="times number">
@@ -36,14 +36,14 @@ export function SegmentPanel(): JSX.Element {
         <br />
         <span class="quiet">
           frames {segment.start_frame} – {segment.stop_frame}
-          {sureness?.text && <span title={sureness.why}>, {sureness.text}</span>}
+          {confidence?.text && <span title={confidence.why}>, {confidence.text}</span>}
         </span>
       </p>
       <NameField
-        key={`segment ${segment.level} ${segment.start_frame} ${own}`}
+        key={`segment ${segment.level} ${segment.start_frame} ${label}`}
         title="Name of its own"
         placeholder={called ? `called “${called}” by its cluster` : "no name"}
-        value={own}
+        value={label}
         names={namesOf(session)}
         naming="segment"
 
@@ -96,7 +96,7 @@ function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
   const { session, editor } = useStudio();
   const rows = session.store.recording.value?.segmentation.segments ?? [];
   const next = rows.reduce((most, row) => Math.max(most, row.cluster), -1) + 1;
-  const known = new Set([-1, next, ...rows.map((row) => row.cluster)]);
+  const clusters = new Set([-1, next, ...rows.map((row) => row.cluster)]);
   const title = (id: number): string => {
     const label = session.store.recording.value?.segmentation.cluster_names[id];
     if (id < 0) return "none";
@@ -109,7 +109,7 @@ function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
       value={segment.cluster}
       onChange={(event) => editor.setCluster(segment, Number(event.currentTarget.value))}
     >
-      {[...known]
+      {[...clusters]
         .sort((a, b) => a - b)
         .map((id) => (
           <option key={id} value={id}>
@@ -125,9 +125,9 @@ function bulkOf(session: Session, cluster: number): string {
   const table = session.store.recording.value?.segmentation;
   const called = table?.cluster_names[cluster] ?? "";
   const members = table?.segments.filter((row) => row.cluster === cluster) ?? [];
-  const own = members.filter((row) => row.label && row.label !== called).length;
-  const all = counted(members.length - own, "segment");
-  return own ? `${all}; ${own} with their own name` : all;
+  const named = members.filter((row) => row.label && row.label !== called).length;
+  const all = counted(members.length - named, "segment");
+  return named ? `${all}; ${named} with their own name` : all;
 }
 
 interface NameProps {

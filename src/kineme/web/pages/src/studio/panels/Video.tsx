@@ -29,13 +29,13 @@ function Player({ id, name, offset }: Props): JSX.Element {
   const follow = (): void => {
     const shown = element.current;
     if (!shown) return;
-    const wanted = Math.max(store.playhead.value + start.current, 0);
+    const target = Math.max(store.playhead.value + start.current, 0);
     const playing = store.playing.value;
     if (shown.readyState === 0) return;
     shown.playbackRate = Math.min(Math.max(store.speed.value, 0.0625), 16);
-    if (Math.abs(shown.currentTime - wanted) > (playing ? APART * store.speed.value : 1e-3))
-      shown.currentTime = wanted;
-    if (playing && shown.paused && wanted < shown.duration)
+    if (Math.abs(shown.currentTime - target) > (playing ? APART * store.speed.value : 1e-3))
+      shown.currentTime = target;
+    if (playing && shown.paused && target < shown.duration)
       void shown.play().catch(() => undefined);
     if (!playing && !shown.paused) shown.pause();
   };

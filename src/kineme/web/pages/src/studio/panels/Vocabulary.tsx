@@ -48,9 +48,9 @@ export function Vocabulary(): JSX.Element {
       <form
         onSubmit={(event) => {
           event.preventDefault();
-          const wanted = name.value.trim();
+          const label = name.value.trim();
           name.value = "";
-          if (wanted) void keep([...labels, wanted]);
+          if (label) void keep([...labels, label]);
         }}
       >
         <input

@@ -37,7 +37,7 @@ export function ReviewPanel(): JSX.Element {
         {present
           ? present.why
           : doubts.length
-            ? "“Next” goes to where the result is least sure."
+            ? "“Next” goes to where confidence is lowest."
             : "Every segment of this recording is checked."}
       </p>
       <ol class="doubts">

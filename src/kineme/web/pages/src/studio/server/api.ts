@@ -76,7 +76,7 @@ export class Api {
   }
 
   /** Part of a curve; null where the server has none. */
-  piece(id: string, curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
+  curveTile(id: string, curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
     const path = "/api/recordings/{id}/curves/{curve}/{level}/{number}";
     const asked = this.ask(addressOf(path, { id, curve, level, number }));
     return orNull(asked.then((answer) => unbroken(answer.arrayBuffer())));
@@ -214,7 +214,7 @@ export class Api {
       }),
     );
     if (answer.ok) return answer;
-    const said = parsed(await unbroken(answer.text()));
-    throw new Refused(answer.status, sentence(said, answer.status), said);
+    const failure = parsed(await unbroken(answer.text()));
+    throw new Refused(answer.status, sentence(failure, answer.status), failure);
   }
 }

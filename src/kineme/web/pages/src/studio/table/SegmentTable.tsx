@@ -19,7 +19,7 @@ const COLUMNS: readonly (readonly [Order, string])[] = [
   ["start", "Start"],
   ["duration", "Length"],
   ["name", "Name"],
-  ["sure", "Sure"],
+  ["confidence", "Confidence"],
 ];
 
 export function SegmentTable(): JSX.Element {
@@ -143,7 +143,7 @@ function TableRow(props: {
   go: (at: number, many: "one" | "range" | "more") => void;
 }): JSX.Element {
   const { row, at, color, chosen, go } = props;
-  const { segment, checked, sureness } = row;
+  const { segment, checked, confidence: confidence } = row;
   return (
     <div
       role="row"
@@ -168,7 +168,7 @@ function TableRow(props: {
         {checked ? (
           <span title="checked">✓</span>
         ) : (
-          <span title={sureness.why}>{sureness.short}</span>
+          <span title={confidence.why}>{confidence.short}</span>
         )}
       </span>
     </div>
