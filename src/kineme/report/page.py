@@ -89,22 +89,8 @@ def filled(
 ) -> str:
     """The template with the data in place of its comments.
 
-    Parameters
-    ----------
-    template : str
-        The page as it was built.
-    message : Recording
-    binary : bytes
-        The poses, see `kineme.web.display`.
-    tiles : dict
-        PNGs by "level/row/column".
-    curves : dict, optional
-        ``list`` and ``curves`` of the curves over time, where there are any.
-
-    Returns
-    -------
-    str
-        The page.
+    Tiles are PNGs by "level/row/column"; ``curves`` has ``list`` and ``tiles``, where there are
+    any.
     """
     pictures = {place: _base64(tile) for place, tile in tiles.items()}
     parts = {

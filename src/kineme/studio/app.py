@@ -55,27 +55,9 @@ def create_app(
 ) -> Guard:
     """The studio of some recordings, as an ASGI application.
 
-    Parameters
-    ----------
-    recordings : OpenRecordings
-    token : str
-        What requests must carry.
-    port : int
-        The server's own.
-    hub : Hub
-        Where news of the recordings go through.
-    library : ShownLibrary, optional
-        That the recordings are of; its page is shown where none of them is named.
-    static : Path
-        The built page.
-    limit : int
-        Bytes of an upload.
-    development : bool
-        Whether pages of the development server may ask, too.
-
-    Returns
-    -------
-    Guard
+    Where there is a ``library``, its page is shown when no recording is named. ``static`` has the
+    built pages, ``limit`` is in bytes of an upload; pages of the development server may ask in
+    ``development``.
     """
 
     def page(request: Request) -> Response:

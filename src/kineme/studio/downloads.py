@@ -26,13 +26,7 @@ from kineme.web.page_data import Shown
 def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str, bytes]:
     """Name and bytes of what is downloaded of a recording.
 
-    Parameters
-    ----------
-    opened : OpenRecording
-    kind : str
-        A label format, or one of `kineme.studio.choices`: motion files, a page.
-    level : {"activity", "primitive"}, optional
-        Of the segments.
+    ``kind`` is a label format, or one of `kineme.studio.choices`: motion files, a page.
     """
     loaded, stem = opened.loaded, _stem_of(opened)
     if kind == CLIPS:
@@ -72,29 +66,9 @@ def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tu
 def table_file(
     segmentation: Segmentation, stem: str, name: str, level: Level | None
 ) -> tuple[str, bytes]:
-    """The segments in a label format.
+    """Name and bytes of the segments in a label format; a ZIP where that is several files.
 
-    Parameters
-    ----------
-    segmentation : Segmentation
-    stem : str
-        Of the recording's file.
-    name : str
-        Of the format.
-    level : {"activity", "primitive"}, optional
-        Of the segments to write, in formats that do not always hold both.
-
-    Returns
-    -------
-    name : str
-        Of the file.
-    content : bytes
-        A ZIP where the format is several files.
-
-    Raises
-    ------
-    ParameterError
-        No such format.
+    ``level`` is for formats that do not always hold both.
     """
     label_format = label_formats().get(name)
     if label_format is None or label_format.write is None:

@@ -30,15 +30,7 @@ def file_id(path: Path) -> str:
 
 
 class Folder:
-    """A folder, or some files of it.
-
-    Parameters
-    ----------
-    root : Path
-        Where uploads go and where labels are looked for.
-    files : iterable of Path, optional
-        The recordings to list; by default all that lie in the folder.
-    """
+    """A folder, to which uploads go; or some files of it, which alone are listed then."""
 
     of_library = False
 
@@ -90,17 +82,7 @@ class Progress:
 
 
 def progress(recording: Path) -> Progress | None:
-    """How far a recording is, as its table says.
-
-    Parameters
-    ----------
-    recording : Path
-
-    Returns
-    -------
-    Progress or None
-        None where it has no table, or one that cannot be read.
-    """
+    """How far a recording is; None where it has no table, or one that cannot be read."""
     path = usual_table(recording)
     try:
         return _counts(path, *stamp_of(path)) if path else None

@@ -33,14 +33,7 @@ CHANNELS, POINTS = 6, 120
 
 
 class LibraryApi:
-    """The addresses under ``/api/library``.
-
-    Parameters
-    ----------
-    shown : ShownLibrary
-    recordings : OpenRecordings
-        Those of the library.
-    """
+    """The addresses under ``/api/library``."""
 
     def __init__(self, shown: ShownLibrary, recordings: OpenRecordings):
         self._shown, self._recordings, self._figures = shown, recordings, Figures()
@@ -93,19 +86,8 @@ class Figures:
     def figure(self, library: Library, name: str, start_s: float, stop_s: float) -> LibraryFigure:
         """What is drawn of a span.
 
-        Parameters
-        ----------
-        library : Library
-        name : str
-            Of a recording of it.
-        start_s, stop_s : float
-
-        Raises
-        ------
-        ParameterError
-            There is no such recording, or nothing in the span.
-        ReadError
-            Its file is gone.
+        ParameterError where there is no such recording or nothing in the span, ReadError where the
+        file is gone.
         """
         if not 0 <= start_s < stop_s:
             raise ParameterError("a figure is of a span from one second to a later one")

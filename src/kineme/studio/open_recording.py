@@ -57,25 +57,10 @@ class ConflictError(Exception):
 
 
 class OpenRecording:
-    """A recording with its table, which edits change.
+    """A recording with its table, which edits change; ReadError where it cannot be read.
 
-    Parameters
-    ----------
-    name : str
-        The id of the recording.
-    path : Path
-        Its file.
-    cache : RecordingCache
-        Where it is read from.
-    others : set of Path
-        Files that hold the tables of other recordings.
-    revision : int
-        Of the table, to begin with.
-
-    Raises
-    ------
-    ReadError
-        The recording cannot be read.
+    ``others`` are files that hold the tables of other recordings; ``revision`` is that of the table
+    to begin with.
     """
 
     def __init__(
@@ -134,14 +119,7 @@ class OpenRecording:
             return self._table
 
     def message(self) -> tuple[Recording, bool]:
-        """All that a page shows.
-
-        Returns
-        -------
-        message : Recording
-        anew : bool
-            Whether the table was read again for it, because another program had changed the file.
-        """
+        """All that a page shows, and whether another program has changed the table meanwhile."""
         from kineme.web.page_data import recording_message
 
         with self._lock:
@@ -163,29 +141,11 @@ class OpenRecording:
             return message, anew
 
     def edit(self, revision: int, edit: Edit, files: Surroundings, *, name: str = "") -> Edited:
-        """The table after an edit, which is on the disk.
+        """The table after an edit of that revision, which is on the disk.
 
-        Parameters
-        ----------
-        revision : int
-            Of the table that the edit was made on.
-        edit : Edit
-        files : Surroundings
-            Where knowledge bases and label files are.
-        name : str
-            Of the edit: one that has been made is not made again.
-
-        Returns
-        -------
-        Edited
-
-        Raises
-        ------
-        ConflictError
-            The revision is not the present one, or the file is not the one that was last read or
-            written here.
-        KinemeError
-            The edit cannot be made, or its result cannot be saved.
+        An edit whose name has been made is not made again. ConflictError where the table is of
+        another revision, or the file not the one last read or written here; KinemeError where the
+        edit cannot be made or saved.
         """
         if self.finding and revision == self.revision:
             raise ParameterError(STILL_FINDING)
@@ -276,13 +236,7 @@ class OpenRecording:
 
 
 class FirstSegments:
-    """Segments that a thread is finding.
-
-    Parameters
-    ----------
-    find : callable
-        Gives a table and notes for people.
-    """
+    """Segments, and notes for people, that a thread is finding."""
 
     def __init__(self, find: Callable[[], Found]):
         self._found: Future[Found] = Future()

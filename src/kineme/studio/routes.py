@@ -56,16 +56,7 @@ BINARY = "application/octet-stream"
 
 
 class Api:
-    """The addresses under ``/api``.
-
-    Parameters
-    ----------
-    recordings : OpenRecordings
-    hub : Hub
-        Where news go to the pages.
-    limit : int
-        Bytes of an upload.
-    """
+    """The addresses under ``/api``; uploads have at most ``limit`` bytes."""
 
     def __init__(self, recordings: OpenRecordings, hub: Hub, *, limit: int = LIMIT):
         self._recordings, self._hub, self._limit = recordings, hub, limit
@@ -206,12 +197,7 @@ class Api:
 
 
 class PictureApi:
-    """The addresses of what is drawn.
-
-    Parameters
-    ----------
-    recordings : OpenRecordings
-    """
+    """The addresses of what is drawn."""
 
     def __init__(self, recordings: OpenRecordings):
         self._recordings = recordings
@@ -265,12 +251,7 @@ class PictureApi:
 
 
 class FolderApi:
-    """The addresses of the folder as a whole.
-
-    Parameters
-    ----------
-    recordings : OpenRecordings
-    """
+    """The addresses of the folder as a whole."""
 
     def __init__(self, recordings: OpenRecordings):
         self._recordings = recordings

@@ -59,32 +59,11 @@ def serve(
     library: ShownLibrary | None = None,
     development: bool = False,
 ) -> None:
-    """Serve until Ctrl+C.
+    """Serve a folder, or some files of it, or a library, until Ctrl+C.
 
-    Parameters
-    ----------
-    root : Path
-        The folder.
-    files : iterable of Path, optional
-        The recordings of it to list; all by default.
-    options : ReadingOptions
-        What the recordings do not say themselves.
-    port : int or None
-        To listen on; None for the first free one from 8750, 0 for any.
-    browser : bool
-        Open the address in the browser.
-    announce : callable
-        Called with the address.
-    library : ShownLibrary, optional
-        Whose recordings are shown, in place of those of the folder.
-    development : bool
-        For pages that are served from their sources: the address is theirs, and the port, which
-        they have to know, the first.
-
-    Raises
-    ------
-    ParameterError
-        The port is in use, or not one.
+    The port is as `listening` takes it; ``announce`` is called with the address. In ``development``
+    that is one of pages that are served from their sources, and the port, which they have to know,
+    the first.
     """
     if development and port is None:
         port = PORT
@@ -134,21 +113,9 @@ def serve(
 
 
 def listening(port: int | None) -> socket.socket:
-    """A socket of this machine alone.
+    """A socket of this machine alone; ParameterError where the port is in use, or not one.
 
-    Parameters
-    ----------
-    port : int or None
-        To listen on; None for the first free one from 8750, 0 for any.
-
-    Returns
-    -------
-    socket
-
-    Raises
-    ------
-    ParameterError
-        The port is in use, or not one.
+    None is the first free port from 8750, 0 any.
     """
     if port is not None and not 0 <= port < 2**16:
         raise ParameterError(f"the port is a number from 0 to 65535, not {port}")

@@ -33,12 +33,8 @@ MOST_IN_MEMORY = 24
 class Curves:
     """The curves of a recording; those looked at last stay in memory.
 
-    Parameters
-    ----------
-    recording : Motion or Signals
-    analog : Signals, optional
-        Channels beside a motion, at a rate of their own: of each frame the least and the
-        greatest value are drawn.
+    ``analog`` are channels beside a motion, at a rate of their own: of each frame the least and the
+    greatest value are drawn.
     """
 
     def __init__(self, recording: Motion | Signals, analog: Signals | None = None):
@@ -68,18 +64,8 @@ class Curves:
     ) -> bytes | None:
         """Some pairs of a curve; None where there are none.
 
-        Parameters
-        ----------
-        read : callable
-            Gives the recording, where the curve is not in memory; with True its analog channels.
-        curve : int
-            Its place in the list.
-        level, number : int
-            Each from 0.
-
-        Returns
-        -------
-        bytes or None
+        ``read`` gives the recording where the curve is not in memory; with True, its analog
+        channels.
         """
         if not 0 <= curve < len(self._drawn):
             return None
@@ -99,22 +85,10 @@ class Curves:
 def curves_of(
     recording: Motion | Signals | ArrayLike, fps: float, most_bytes: int = MOST_BYTES
 ) -> tuple[CurveList, dict[str, bytes]]:
-    """The curves of signals as a page has them that cannot ask for them.
+    """The curves of signals, with tiles by "curve/level/number", for a page that cannot ask.
 
-    Parameters
-    ----------
-    recording : Motion, Signals or array_like
-        Arrays are (frames, channels).
-    fps : float
-        Frames per second of an array.
-    most_bytes : int
-        Length of all tiles together; finer levels are left out where they are longer.
-
-    Returns
-    -------
-    head : CurveList
-    tiles : dict
-        By "curve/level/number".
+    ``fps`` is that of an array (frames, channels). Finer levels are left out where all together
+    would be longer than ``most_bytes``.
     """
     if not isinstance(recording, Motion | Signals):
         recording = Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
@@ -133,17 +107,9 @@ def curves_of(
 
 
 def levels_of(values: Floats) -> list[Pairs]:
-    """Least and greatest values of ever more frames.
+    """Least and greatest values (bins, 2) of ever more frames; the last has `TILE` bins at most.
 
-    Parameters
-    ----------
-    values : (frames,) or (frames, 2) array
-        nan where nothing was seen; two are the least and the greatest of a frame.
-
-    Returns
-    -------
-    list of (bins, 2) array
-        The last has at most `TILE` bins.
+    Values are nan where nothing was seen; two are the least and the greatest of a frame.
 
     Examples
     --------

@@ -28,16 +28,6 @@ MOST_CHANNELS = 16
 def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matrix:
     """The matrix of a motion; of the distances between its points where it has no known body.
 
-    Parameters
-    ----------
-    motion : Motion
-    effectors : mapping, optional
-        Joints that stand for head, hands and feet where names do not tell.
-
-    Returns
-    -------
-    Matrix
-
     Examples
     --------
     >>> import kineme
@@ -59,23 +49,9 @@ def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matri
 
 
 def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
-    """The matrix of any signal.
+    """The matrix of any signal (frames, channels) or (frames,); nan for what was not seen.
 
-    Parameters
-    ----------
-    values : array_like
-        (frames, channels), or (frames,); nan for what was not seen.
-    fps : float
-        Frames per second.
-
-    Returns
-    -------
-    Matrix
-
-    Raises
-    ------
-    ParameterError
-        No frames, no channels, no numbers, or a frame rate that is not positive.
+    ParameterError for what is no such signal, or a frame rate that is not positive.
 
     Examples
     --------

@@ -96,25 +96,9 @@ async def body(request: Request) -> bytes:
 class Upload:
     """A file on its way in; leaving the block removes what was not given its name.
 
-    Parameters
-    ----------
-    root : Path
-        The folder.
-    name : str
-        As the page sends it.
-    length : int or None
-        Bytes, where the page announces how many.
-    limit : int
-        Bytes.
-
-    Raises
-    ------
-    ParameterError
-        A name that no file the studio opens has.
-    TooLargeError
-        The length announced is over the limit, or there is no room for it.
-    WriteError
-        The folder cannot be written to.
+    ``length`` is what the page announces. Refused are names that no file the studio opens has
+    (ParameterError), what is too long or has no room (TooLargeError), and what cannot be written
+    (WriteError).
     """
 
     def __init__(self, root: Path, name: str, *, length: int | None = None, limit: int = LIMIT):
@@ -157,13 +141,7 @@ class Upload:
             raise TooLargeError(f"{self.name} cannot be written: {error.strerror}") from error
 
     def finish(self) -> Path:
-        """Give the file its name.
-
-        Returns
-        -------
-        Path
-            Of the file; of the same one if it is there already.
-        """
+        """The path under which the file is there now, or was before."""
         self._file.close()
         for path in _free_names(self._root / self.name):
             if path.is_file() and self._is_in(path):

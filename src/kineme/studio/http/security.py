@@ -55,18 +55,7 @@ def new_token() -> str:
 
 
 class Guard:
-    """An application behind these rules.
-
-    Parameters
-    ----------
-    app : ASGIApp
-    token : str
-        What requests must carry.
-    port : int
-        The server's own.
-    development : bool
-        Whether pages of the development server may ask, too.
-    """
+    """An application behind these rules; in ``development`` its server may ask, too."""
 
     def __init__(self, app: ASGIApp, *, token: str, port: int, development: bool = False):
         self._app = app

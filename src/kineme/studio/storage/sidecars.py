@@ -59,15 +59,7 @@ def read_options(recording: Path, general: ReadOptions) -> ReadOptions:
 
 
 def keep_options(recording: Path, options: dict[str, Any]) -> None:
-    """Keep what people say of how a recording is read.
-
-    Raises
-    ------
-    ParameterError
-        A value that an option does not take.
-    WriteError
-        It cannot be written.
-    """
+    """Keep what people say of how a recording is read; ParameterError for a wrong value."""
     given = {name: value for name, value in options.items() if name in OPTIONS and value}
     ReadOptions(**given)
     write_file(_sidecar(recording, "reading"), json.dumps(given).encode())
@@ -114,13 +106,7 @@ def notes_on_labels(root: Path) -> list[str]:
 
 
 def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
-    """Keep these labels, each once, for the folder.
-
-    Raises
-    ------
-    WriteError
-        They cannot be written.
-    """
+    """Keep these labels, each once, for the folder."""
     unique = list(dict.fromkeys(label.strip() for label in labels if label.strip()))
     write_file(root / FOLDER / LABELS, json.dumps(unique, ensure_ascii=False, indent=1).encode())
     return unique
@@ -129,20 +115,7 @@ def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
 def read_sidecar(path: Path, shape: type[Content], otherwise: Content) -> tuple[Content, list[str]]:
     """What a side file holds, and what people should know of it.
 
-    Parameters
-    ----------
-    path : Path
-        It need not be there.
-    shape : type
-        Of what it holds.
-    otherwise : object
-        What counts where there is none, or none that can be read.
-
-    Returns
-    -------
-    content : object
-    notes : list of str
-        That a damaged file was left alone, and why.
+    ``otherwise`` counts where there is none, or a damaged one, which is left alone.
     """
     try:
         return loaded(path, shape), []
@@ -155,10 +128,7 @@ def read_sidecar(path: Path, shape: type[Content], otherwise: Content) -> tuple[
 def write_file(path: Path, content: bytes) -> None:
     """Have a file of ``.kineme`` on the disk, whole or not at all, with the folders around it.
 
-    Raises
-    ------
-    WriteError
-        It cannot be written; it, ``.kineme`` or a folder between is a link.
+    WriteError where it cannot be; it, ``.kineme`` or a folder between is a link.
     """
     _make_folder(path.parent)
     with atomic_write(path) as draft:
