@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import threading
 import uuid
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from concurrent.futures import Future, wait
 from pathlib import Path
 
@@ -29,11 +29,9 @@ from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.loading import LoadedRecording, digest_in
 from kineme.studio.reading import RecordingCache
-from kineme.studio.storage.journal import Change, Journal, Step
+from kineme.studio.storage.journal import Change, Journal
 from kineme.studio.storage.sidecars import (
-    notes_on_labels,
-    notes_on_reading,
-    notes_on_video,
+    notes_on_sidecars,
     options_of,
     video_message,
 )
@@ -136,7 +134,12 @@ class OpenRecording:
                 video=video_message(self.path),
                 reading=options_of(self.path),
                 finding=self.finding,
-                warnings=[*shown.warnings, *self._notes, *self._side_notes()],
+                warnings=[
+                    *shown.warnings,
+                    *self._notes,
+                    *self._journal.notes,
+                    *notes_on_sidecars(self.path),
+                ],
             )
             return message, anew
 
@@ -169,22 +172,45 @@ class OpenRecording:
 
     def preview(self, request: PreviewRequest) -> Preview:
         """What segmenting again would make of the table, which stays as it is."""
-        return preview_of(self.table, self.loaded, request)
+        from kineme.web.page_data import segments_message
+
+        detail = DEFAULT_DETAIL if request.detail is UNSET else request.detail
+        found = self.loaded.segment(request.preset, request.parameters, detail)
+        result = editing.carried(self.table, found)
+        lost = [f"{result.corrections} corrections and {result.names} names"]
+        return Preview(
+            segmentation=segments_message(result.segmentation if request.keep else found),
+            corrections=result.corrections,
+            names=result.names,
+            lost=result.lost if request.keep else lost,
+            details=list(found.hierarchy.details) if found.hierarchy else [DEFAULT_DETAIL],
+            detail=found.hierarchy.detail if found.hierarchy else DEFAULT_DETAIL,
+        )
 
     def versions(self) -> list[Version]:
         """The tables that were replaced, the latest first."""
         with self._lock:
             steps = self._journal.versions()
             tables = {number: self._journal.table(number) for number in steps}
-        return versions_of(steps, tables)
+        return [
+            Version(
+                number=number,
+                at=step.at,
+                edit=step.edit,
+                segments=len(tables[number]),
+                corrections=tables[number].annotation.corrections,
+                names=names_of(tables[number]),
+            )
+            for number, step in steps.items()
+        ]
 
     def version(self, number: int) -> Comparison:
         """A table that was replaced, to lay beside the present one."""
         from kineme.web.page_data import segments_message
 
         with self._lock:
-            at = self._journal.versions()[number].at if number in self._journal.versions() else ""
             table = self._version(number)
+            at = self._journal.versions()[number].at
         return Comparison(name=at, segmentation=segments_message(table), scores={})
 
     def _after(self, edit: Edit, files: Surroundings, name: str) -> tuple[Change, list[str]]:
@@ -223,12 +249,6 @@ class OpenRecording:
             notes=notes,
         )
 
-    def _side_notes(self) -> list[str]:
-        """What people should know of the files of ``.kineme``: those that were left alone."""
-        path = self.path
-        files = [*notes_on_reading(path), *notes_on_video(path), *notes_on_labels(path.parent)]
-        return [*self._journal.notes, *files]
-
     @property
     def _saved(self) -> str:
         """The name of the table's file, empty as long as there is none."""
@@ -256,36 +276,3 @@ class FirstSegments:
     def result(self) -> Found:
         """Table and notes, as soon as they are there; whatever finding them raised."""
         return self._found.result()
-
-
-def preview_of(before: Segmentation, loaded: LoadedRecording, request: PreviewRequest) -> Preview:
-    """What segmenting again would make of a table."""
-    from kineme.web.page_data import segments_message
-
-    detail = DEFAULT_DETAIL if request.detail is UNSET else request.detail
-    found = loaded.segment(request.preset, request.parameters, detail)
-    result = editing.carried(before, found)
-    lost = [f"{result.corrections} corrections and {result.names} names"]
-    return Preview(
-        segmentation=segments_message(result.segmentation if request.keep else found),
-        corrections=result.corrections,
-        names=result.names,
-        lost=result.lost if request.keep else lost,
-        details=list(found.hierarchy.details) if found.hierarchy else [DEFAULT_DETAIL],
-        detail=found.hierarchy.detail if found.hierarchy else DEFAULT_DETAIL,
-    )
-
-
-def versions_of(steps: Mapping[int, Step], tables: Mapping[int, Segmentation]) -> list[Version]:
-    """Tables that were replaced, by their numbers, in the same order."""
-    return [
-        Version(
-            number=number,
-            at=step.at,
-            edit=step.edit,
-            segments=len(tables[number]),
-            corrections=tables[number].annotation.corrections,
-            names=names_of(tables[number]),
-        )
-        for number, step in steps.items()
-    ]

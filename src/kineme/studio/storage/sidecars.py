@@ -48,11 +48,6 @@ def options_of(recording: Path) -> dict[str, Any]:
     return _reading(recording)[0]
 
 
-def notes_on_reading(recording: Path) -> list[str]:
-    """That what was said of a recording cannot be read, where it cannot."""
-    return _reading(recording)[1]
-
-
 def read_options(recording: Path, general: ReadOptions) -> ReadOptions:
     """How a recording is read: as people said of it, else as of all."""
     return replace(general, **options_of(recording))
@@ -85,11 +80,6 @@ def offset_of(recording: Path) -> float:
     return _video(recording)[0].offset_s
 
 
-def notes_on_video(recording: Path) -> list[str]:
-    """That the offset of a video cannot be read, where it cannot."""
-    return _video(recording)[1]
-
-
 def set_offset(recording: Path, seconds: float) -> None:
     """Keep the offset of the video; WriteError where it cannot be written."""
     write_file(_sidecar(recording, "video"), json.dumps({"offset_s": seconds}).encode())
@@ -100,16 +90,17 @@ def shared_labels(root: Path) -> list[str]:
     return _labels(root)[0]
 
 
-def notes_on_labels(root: Path) -> list[str]:
-    """That the labels of a folder cannot be read, where they cannot."""
-    return _labels(root)[1]
-
-
 def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
     """Keep these labels, each once, for the folder."""
     unique = list(dict.fromkeys(label.strip() for label in labels if label.strip()))
     write_file(root / FOLDER / LABELS, json.dumps(unique, ensure_ascii=False, indent=1).encode())
     return unique
+
+
+def notes_on_sidecars(recording: Path) -> list[str]:
+    """Which of the files of a recording and its folder cannot be read, and why."""
+    found = (_reading(recording), _video(recording), _labels(recording.parent))
+    return [note for _, notes in found for note in notes]
 
 
 def read_sidecar(path: Path, shape: type[Content], otherwise: Content) -> tuple[Content, list[str]]:
