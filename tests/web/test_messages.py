@@ -12,9 +12,8 @@ import pytest
 
 import kineme
 from kineme.errors import ParameterError
-from kineme.web.edits import MoveBorder
 from kineme.web.encoding import from_json, to_json
-from kineme.web.requests import EditRequest
+from kineme.web.requests import EditRequest, MoveBorder
 
 Side = Literal["left", "right"]
 

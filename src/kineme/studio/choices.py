@@ -21,8 +21,8 @@ from kineme.methods.levels import DETAILS
 from kineme.methods.presets import DEFAULT
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
-from kineme.web.edits import SegmentAgain
-from kineme.web.folder_messages import ExportFormat, Parameter, PresetChoice
+from kineme.web.messages import ExportFormat, Parameter, PresetChoice
+from kineme.web.requests import SegmentAgain
 
 CLIPS, REPORT = "motions", "report"
 """What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""

@@ -16,8 +16,8 @@ from kineme.segments.editing.marks import noted
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.loading import LoadedRecording
-from kineme.web import edits as sent
-from kineme.web.edits import Edit
+from kineme.web import requests as sent
+from kineme.web.requests import Edit
 
 BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
     sent.MoveBorder: editing.move_border,

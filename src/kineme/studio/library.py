@@ -33,7 +33,6 @@ from kineme.studio.folder import Folder, file_id, progress
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.reading import ReadingOptions, stamp_of
 from kineme.studio.storage.tables import usual_table
-from kineme.web.edits import NameSegment
 from kineme.web.library_messages import (
     CallCluster,
     CallHits,
@@ -48,7 +47,7 @@ from kineme.web.library_messages import (
     SearchRequest,
     Span,
 )
-from kineme.web.requests import EditRequest
+from kineme.web.requests import EditRequest, NameSegment
 
 SAME = 1 / 3
 """Seconds in common over those in either from which a hit shows a segment: half of each, where

@@ -36,9 +36,8 @@ from kineme.studio.storage.sidecars import (
     video_message,
 )
 from kineme.studio.storage.tables import ChangedOnDiskError, saved_table
-from kineme.web.edits import Edit, Redo, Undo
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
-from kineme.web.requests import PreviewRequest
+from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 
 Found = tuple[Segmentation, list[str]]
 SOON = 3.0

@@ -37,8 +37,17 @@ from kineme.studio.http.events import Hub
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels, video_of
-from kineme.web.folder_messages import FileChoice, Listing, State
-from kineme.web.messages import Comparison, CurveList, Edited, Preview, Recording, Versions
+from kineme.web.messages import (
+    Comparison,
+    CurveList,
+    Edited,
+    FileChoice,
+    Listing,
+    Preview,
+    Recording,
+    State,
+    Versions,
+)
 from kineme.web.requests import (
     ClipsRequest,
     CompareRequest,

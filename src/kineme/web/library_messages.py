@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
-from kineme.web.edits import EditBase, Integer, Request, Text
 from kineme.web.messages import MotionHead
+from kineme.web.requests import EditBase, Integer, Request, Text
 
 MOST_EXAMPLES = 500
 """Examples, or counter-examples, of one search."""

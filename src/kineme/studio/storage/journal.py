@@ -31,7 +31,7 @@ from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.identities import Identities
 from kineme.studio.storage.sidecars import FOLDER, read_sidecar, write_file
-from kineme.web.edits import Edit
+from kineme.web.requests import Edit
 
 MOST_KEPT = 200
 MOST_NAMES = 200

@@ -21,8 +21,8 @@ from kineme._files import atomic_write, refuse_link
 from kineme._json import loaded
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
-from kineme.web.edits import LARGEST
 from kineme.web.messages import Video
+from kineme.web.requests import LARGEST
 
 FOLDER = ".kineme"
 OPTIONS = ("person", "fps", "unit", "up")
