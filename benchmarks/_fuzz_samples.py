@@ -31,9 +31,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.journal import Journal
 from kineme.studio.storage.sidecars import (
     keep_options,
-    notes_on_labels,
-    notes_on_reading,
-    notes_on_video,
+    notes_on_sidecars,
     options_of,
     set_offset,
     share_labels,
@@ -219,7 +217,7 @@ def _build_library(root: Path) -> object:
 
 def _read_beside(root: Path) -> object:
     take = root / TAKE
-    said = (notes_on_reading(take), notes_on_video(take), notes_on_labels(take.parent))
+    said = notes_on_sidecars(take)
     found = kineme.read(take, **options_of(take))
     return found, video_message(take), shared_labels(take.parent), said
 

@@ -64,23 +64,23 @@ def test_the_queue_shows_the_least_sure_first_and_a_new_segmentation_leaves_what
     assert marked(saved_table(take), "checked") == {span}
 
 
-def test_a_segment_is_as_sure_in_the_queue_as_in_its_panel_and_in_the_table(page):
+def test_a_segment_has_one_confidence_in_queue_panel_and_table(page):
     page.locator("#tab-review").click()
     page.keyboard.press("j")
     Screen(page).wait("k.selected")
-    sure = page.locator(".doubts [aria-current=true] .number:last-child").inner_text()
+    shown = page.locator(".doubts [aria-current=true] .number:last-child").inner_text()
 
     def said(place: str, words: str) -> list[str]:
         return re.findall(words, page.locator(place).inner_text())
 
-    until(page, lambda: said(".why", r"\d+ %") == [sure], f"why: {sure}")
+    until(page, lambda: said(".why", r"\d+ %") == [shown], f"why: {shown}")
     page.locator("#tab-segment").click()
-    until(page, lambda: said(".segment-panel", r"\d+ %|score") == [sure], f"panel: {sure}")
+    until(page, lambda: said(".segment-panel", r"\d+ %|score") == [shown], f"panel: {shown}")
     page.locator("#tab-table").click()
     chosen = page.locator(".table-rows [aria-selected=true]")
     cell = chosen.locator("[role=gridcell]").last
-    until(page, lambda: cell.inner_text() == sure, f"table: {sure}")
-    page.get_by_label("Less sure than").fill(str(int(sure[:-2]) / 100 - 0.01))
+    until(page, lambda: cell.inner_text() == shown, f"table: {shown}")
+    page.get_by_label("Confidence below").fill(str(int(shown[:-2]) / 100 - 0.01))
     page.get_by_text("0 segments").wait_for()
 
 

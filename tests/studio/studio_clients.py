@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -31,10 +32,14 @@ class Studio:
         return self.client.get(address, **options)
 
     def recording(self) -> dict[str, Any]:
-        answer = self.get(f"/api/recordings/{self.id}")
-        assert answer.status_code == 200, answer.text
-        message: dict[str, Any] = answer.json()
-        return message
+        """The recording with its segments, which a busy machine may find later."""
+        while True:
+            answer = self.get(f"/api/recordings/{self.id}")
+            assert answer.status_code == 200, answer.text
+            message: dict[str, Any] = answer.json()
+            if not message.get("finding"):
+                return message
+            time.sleep(0.1)
 
     def edit(self, revision: int, kind: str, **rest: Any) -> Answer:
         sent = {"revision": revision, "edit": {"kind": kind, **rest}}

@@ -19,9 +19,8 @@ from kineme.studio.folder import Folder
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.reading import RecordingCache
-from kineme.web.edits import Split
 from kineme.web.encoding import to_json
-from kineme.web.requests import EditRequest
+from kineme.web.requests import EditRequest, Split
 
 
 def held_back(monkeypatch: pytest.MonkeyPatch) -> threading.Event:

@@ -13,7 +13,7 @@ from studio_clients import PORT, TOKEN
 
 from kineme.errors import ParameterError
 from kineme.studio.http.bodies import LONGEST, safe_name
-from kineme.studio.http.security import HEADERS
+from kineme.studio.http.security import DEVELOPMENT, HEADERS
 from kineme.web.encoding import from_json, to_json
 from kineme.web.requests import EditRequest
 
@@ -89,6 +89,15 @@ def test_its_own_page_is_not(studio) -> None:
     for host in ("127.0.0.1", "localhost"):
         own = {"origin": f"http://{host}:{PORT}", "sec-fetch-site": "same-origin"}
         assert studio.get("/api/state", headers=own).status_code == 200
+
+
+def test_the_development_server_asks_where_it_is_allowed_to(make_studio) -> None:
+    headers = {"origin": DEVELOPMENT, "sec-fetch-site": "same-origin"}
+    for allowed in (True, False):
+        studio = make_studio(development=allowed)
+        assert studio.get("/api/state", headers=headers).status_code == (200 if allowed else 403)
+        studio.client.headers.pop("x-kineme-token")
+        assert studio.get("/api/state", headers=headers).status_code == 403
 
 
 def test_every_answer_carries_the_headers_that_keep_it_here(studio) -> None:

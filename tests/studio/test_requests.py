@@ -27,7 +27,7 @@ from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.http.events import Hub
 from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.transfer import KnowledgeBase
-from kineme.web import folder_messages, messages
+from kineme.web import messages
 from kineme.web.encoding import to_json
 
 
@@ -71,7 +71,7 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
     assert not any(file["corrected"] for file in state["recordings"])
     assert state["default_preset"] == state["presets"][0]["name"]
     assert {".bvh", ".c3d", ".npz"} <= set(state["suffixes"])
-    assert conforms(folder_messages.State, state)
+    assert conforms(messages.State, state)
 
 
 def test_names_that_are_not_unicode_are_listed(studio, folder: Path) -> None:

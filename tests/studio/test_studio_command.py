@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import socket
 from pathlib import Path
 
+import httpx2 as httpx
 from typer.testing import CliRunner
 
 import kineme
 from kineme.cli.app import app
+from kineme.studio.http.security import DEVELOPMENT
 
 
 def refused(*arguments: object) -> str:
@@ -39,3 +42,13 @@ def test_what_no_file_could_mean_is_said_at_once(folder: Path) -> None:
     done = CliRunner().invoke(app, ["studio", "--no-browser", str(folder), "--unit", "feet"])
     assert done.exit_code == 2
     assert "feet" in done.stderr
+
+
+def test_pages_from_their_sources_may_ask_where_it_is_allowed(start) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    studio = start("--dev", "--port", str(port))
+    assert studio.address == f"{DEVELOPMENT}/"
+    headers = {"x-kineme-token": studio.token, "origin": DEVELOPMENT}
+    answer = httpx.get(f"http://127.0.0.1:{port}/api/state", headers=headers)
+    assert answer.status_code == 200

@@ -6,7 +6,7 @@ import numpy as np
 
 import kineme
 from kineme.recordings import Signals
-from kineme.web.curves import FACTOR, PIECE, Curves, curves_of, level_sizes, levels_of
+from kineme.web.curves import FACTOR, TILE, Curves, curves_of, level_sizes, levels_of
 
 
 def test_no_peak_is_lost_at_any_level() -> None:
@@ -27,10 +27,10 @@ def test_curves_of_a_body() -> None:
     curves = Curves(motion)
     heads = curves.head().curves
     height = next(i for i, each in enumerate(heads) if each.group == "height")
-    piece = np.frombuffer(curves.piece(lambda _: motion, height, 0, 0), "<f4").reshape(-1, 2)
-    assert np.allclose(piece[:, 0], motion.positions[:PIECE, 0, 1], atol=1e-5)
+    tile = np.frombuffer(curves.tile(lambda _: motion, height, 0, 0), "<f4").reshape(-1, 2)
+    assert np.allclose(tile[:, 0], motion.positions[:TILE, 0, 1], atol=1e-5)
     assert {each.group for each in heads} >= {"height", "speed", "flexion angle"}
-    assert curves.piece(lambda _: motion, len(heads), 0, 0) is None
+    assert curves.tile(lambda _: motion, len(heads), 0, 0) is None
 
 
 def test_a_report_has_the_channels_of_signals() -> None:

@@ -12,9 +12,8 @@ import pytest
 
 import kineme
 from kineme.errors import ParameterError
-from kineme.web.edits import MoveBorder
 from kineme.web.encoding import from_json, to_json
-from kineme.web.requests import EditRequest
+from kineme.web.requests import EditRequest, MoveBorder
 
 Side = Literal["left", "right"]
 
@@ -45,8 +44,8 @@ def maker() -> ModuleType:
 
 
 def test_typescript_is_up_to_date(maker: ModuleType) -> None:
-    made = (PAGES / "src" / "messages.ts").read_text(encoding="utf-8")
-    assert made == maker.messages_typescript(), "run src/kineme/web/pages/make_messages.py"
+    for path, made in maker.made().items():
+        assert path.read_text(encoding="utf-8") == made, f"run {PAGES / 'make_messages.py'}"
 
 
 def test_what_becomes_of_each_kind_of_type(maker: ModuleType) -> None:

@@ -40,6 +40,10 @@ def studio(
             show_default="--browser",
         ),
     ] = True,
+    dev: Annotated[
+        bool,
+        typer.Option("--dev", hidden=True, help="For `npm run dev`: pages from their sources."),
+    ] = False,
     effectors: Effectors = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
@@ -72,7 +76,7 @@ def studio(
 
         serve(
             root, recordings, options=options, port=port, browser=browser, announce=announce,
-            library=library,
+            library=library, development=dev,
         )  # fmt: skip
     failures.exit()
 

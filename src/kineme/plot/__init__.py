@@ -1,7 +1,6 @@
 """Pictures of segmentations, each on Axes of matplotlib that are given or made."""
 
-from kineme.plot.matrix import plot_matrix, similarity_image
-from kineme.plot.segmentation import plot_segmentation
+from kineme.plot.matrix import plot_matrix, plot_segmentation, similarity_image
 from kineme.plot.strips import plot_strip
 from kineme.plot.timeline import compare, plot_timeline
 

@@ -13,17 +13,23 @@ Source: Vögele, Krüger and Klein 2014, figure 2, and figure 1 of its supplemen
 
 from __future__ import annotations
 
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from kineme._checks import check_type
+from kineme._checks import check_path, check_type
 from kineme._colors import NO_CLUSTER, cluster_color, label_colors
+from kineme._files import atomic_write
+from kineme.errors import WriteError
 from kineme.segmentation.spans import in_time
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
@@ -33,6 +39,7 @@ if TYPE_CHECKING:
     from kineme.graph import NeighborGraph
     from kineme.methods.base import Found
 
+SUFFIXES = (".png", ".pdf", ".svg")
 PIXELS = 1600
 ENTRIES_AT_ONCE = 1 << 20
 INK = "#1B1F2A"
@@ -78,7 +85,7 @@ def plot_matrix(
     'seconds'
     """
     check_type(segmentation, Segmentation, "plot_matrix", "kineme.segment gives one")
-    graph = graph_of(graph, "plot_matrix")
+    graph = _graph_of(graph, "plot_matrix")
     axes = new_axes(9.4, 8.2) if ax is None else ax
     seconds = segmentation.n_frames / segmentation.fps
     bar = 0.022 * seconds
@@ -111,6 +118,55 @@ def plot_matrix(
         alignment="left",
     )
     return axes
+
+
+def plot_segmentation(
+    segmentation: Segmentation,
+    graph: NeighborGraph | Found,
+    path: str | PathLike[str],
+    *,
+    title: str | None = None,
+) -> None:
+    """Write the picture that `plot_matrix` draws as PNG, PDF or SVG, by suffix.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    graph : NeighborGraph or Found
+        As for `plot_matrix`.
+    path : path-like
+        Where to write it.
+    title : str, optional
+        A line above it; by default the name of the recording.
+
+    Raises
+    ------
+    ParameterError
+        Something else than a segmentation, its graph and a path.
+    WriteError
+        Another suffix, or the file cannot be written.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> segments, found = kineme.segment_and_found(motion)
+    >>> kineme.plot_segmentation(segments, found, "segments.png")
+    """
+    check_type(segmentation, Segmentation, "plot_segmentation", "kineme.segment gives one")
+    graph = _graph_of(graph, "plot_segmentation")
+    check_path(path, "plot_segmentation")
+    if Path(path).suffix.lower() not in SUFFIXES:
+        raise WriteError(path, f"pictures are written as {', '.join(SUFFIXES)}")
+    figure = Figure(figsize=(9.4, 8.2))
+    FigureCanvasAgg(figure)
+    axes = figure.add_axes((0.085, 0.075, 0.74, 0.86))
+    plot_matrix(segmentation, graph, ax=axes)
+    axes.set_title(
+        _title(segmentation) if title is None else title, loc="left", fontsize=10, pad=10
+    )
+    with atomic_write(path) as draft:
+        figure.savefig(draft, dpi=200)
 
 
 def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.float32]:
@@ -220,7 +276,7 @@ def _legend(segmentation: Segmentation) -> list[Patch]:
     return handles
 
 
-def graph_of(graph: Any, caller: str) -> NeighborGraph:
+def _graph_of(graph: Any, caller: str) -> NeighborGraph:
     """The neighbour graph given, or that of what a method found; else ParameterError."""
     from kineme.graph import NeighborGraph  # compiled code
 
@@ -228,3 +284,10 @@ def graph_of(graph: Any, caller: str) -> NeighborGraph:
     check_type(given, NeighborGraph, caller, "kineme.neighbor_graph gives one")
     found: NeighborGraph = given
     return found
+
+
+def _title(segmentation: Segmentation) -> str:
+    source = segmentation.provenance.get("input", {}).get("path") or "recording"
+    preset = segmentation.provenance.get("preset")
+    parts = [Path(source).name, segmentation.describe(), *([preset] if preset else [])]
+    return "  ·  ".join(parts)

@@ -123,16 +123,7 @@ def compare(
 def matched_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
     """For each cluster of one table that of another with which it shares most time, one to one.
 
-    Parameters
-    ----------
-    first, other : SegmentTable
-        Of one level each.
-
-    Returns
-    -------
-    dict of int to int
-        Clusters of ``other`` by their number; those that share no time with a free
-        cluster are numbered on after those of ``first``.
+    Those that share no time with a free cluster are numbered on after those of ``first``.
     """
     first_clusters, other_clusters = (
         np.unique(table.cluster[table.cluster >= 0]) for table in (first, other)

@@ -89,22 +89,8 @@ def filled(
 ) -> str:
     """The template with the data in place of its comments.
 
-    Parameters
-    ----------
-    template : str
-        The page as it was built.
-    message : Recording
-    binary : bytes
-        The poses, see `kineme.web.display`.
-    tiles : dict
-        PNGs by "level/row/column".
-    curves : dict, optional
-        ``list`` and ``curves`` of the curves over time, where there are any.
-
-    Returns
-    -------
-    str
-        The page.
+    Tiles are PNGs by "level/row/column"; ``curves`` has ``list`` and ``tiles``, where there are
+    any.
     """
     pictures = {place: _base64(tile) for place, tile in tiles.items()}
     parts = {
@@ -124,7 +110,7 @@ def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
     if data.motion is not None:
         return None
     head, curves = curves_of(recording, data.fps)
-    return {"list": head, "pieces": {place: _base64(data) for place, data in curves.items()}}
+    return {"list": head, "tiles": {place: _base64(data) for place, data in curves.items()}}
 
 
 def _name(segmentation: Segmentation) -> str:

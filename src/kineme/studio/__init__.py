@@ -16,6 +16,6 @@
         library           the same for a library, at library_routes: clusters as cards, searches
 
 Everything that a page sends is checked as it is decoded into the types of
-`kineme.web.edits` and `kineme.web.requests`. No path is ever made from what a page sends: files
-are found by ids, and an upload's name is made anew.
+`kineme.web.requests`. No path is ever made from what a page sends: files are found by ids, and an
+upload's name is made anew.
 """

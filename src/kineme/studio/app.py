@@ -51,28 +51,13 @@ def create_app(
     library: ShownLibrary | None = None,
     static: Path = STATIC,
     limit: int = LIMIT,
+    development: bool = False,
 ) -> Guard:
     """The studio of some recordings, as an ASGI application.
 
-    Parameters
-    ----------
-    recordings : OpenRecordings
-    token : str
-        What requests must carry.
-    port : int
-        The server's own.
-    hub : Hub
-        Where news of the recordings go through.
-    library : ShownLibrary, optional
-        That the recordings are of; its page is shown where none of them is named.
-    static : Path
-        The built page.
-    limit : int
-        Bytes of an upload.
-
-    Returns
-    -------
-    Guard
+    Where there is a ``library``, its page is shown when no recording is named. ``static`` has the
+    built pages, ``limit`` is in bytes of an upload; pages of the development server may ask in
+    ``development``.
     """
 
     def page(request: Request) -> Response:
@@ -101,7 +86,7 @@ def create_app(
             Exception: _failed,
         },
     )
-    return Guard(app, token=token, port=port)
+    return Guard(app, token=token, port=port, development=development)
 
 
 def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> list[Route]:

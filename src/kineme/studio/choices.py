@@ -21,20 +21,15 @@ from kineme.methods.levels import DETAILS
 from kineme.methods.presets import DEFAULT
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
-from kineme.web.edits import SegmentAgain
-from kineme.web.folder_messages import ExportFormat, Parameter, PresetChoice
+from kineme.web.messages import ExportFormat, Parameter, PresetChoice
+from kineme.web.requests import SegmentAgain
 
 CLIPS, REPORT = "motions", "report"
 """What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""
 
 
 def presets() -> list[PresetChoice]:
-    """The presets, the default first.
-
-    Returns
-    -------
-    list of PresetChoice
-    """
+    """The presets, the default first."""
     return [
         PresetChoice(
             name=name,
@@ -52,21 +47,9 @@ def details() -> list[float]:
 
 
 def check_offered(preset: str, parameters: Mapping[str, float], *, signals: bool) -> None:
-    """Check constants that a page asks for against what it is offered.
+    """ParameterError for constants that a page is not offered, or not with such values.
 
-    Parameters
-    ----------
-    preset : str
-        Its name.
-    parameters : mapping of float
-        The constants, lengths in the unit that they have for such a recording.
-    signals : bool
-        Whether they are for signals.
-
-    Raises
-    ------
-    ParameterError
-        No such preset, a constant that is not offered, or one outside its limits.
+    Lengths are in the unit that they have for such a recording.
     """
     resolve_preset(preset)
     offered = {each.name: each for each in _parameters(preset, signals=signals)}
@@ -81,17 +64,7 @@ def check_offered(preset: str, parameters: Mapping[str, float], *, signals: bool
 def same_again(table: Segmentation, *, signals: bool) -> SegmentAgain:
     """To segment as a table was: by its preset, with what is offered of its constants.
 
-    Parameters
-    ----------
-    table : Segmentation
-        By the default preset if it does not say by which.
-    signals : bool
-        Whether it is of signals.
-
-    Returns
-    -------
-    SegmentAgain
-        Which keeps nothing of the table.
+    By the default preset where it does not say by which; nothing of the table is kept.
     """
     provenance = table.provenance
     preset, detail = str(provenance.get("preset")), provenance.get("detail")
@@ -113,12 +86,7 @@ def same_again(table: Segmentation, *, signals: bool) -> SegmentAgain:
 
 
 def export_formats() -> list[ExportFormat]:
-    """Every format that segments can be downloaded in.
-
-    Returns
-    -------
-    list of ExportFormat
-    """
+    """Every format that segments can be downloaded in."""
     return [
         *(
             ExportFormat(name=each.name, suffix=each.download_suffix, help=each.help)

@@ -4,42 +4,67 @@ from __future__ import annotations
 
 import tempfile
 import zipfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 
 from kineme._checks import is_text
 from kineme.clips.split import split, write_clips
 from kineme.errors import ParameterError
-from kineme.features import Names
 from kineme.labels import label_formats, write_segments
-from kineme.recordings import Motion
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
 from kineme.studio.http.bodies import safe_name
 from kineme.studio.open_recording import OpenRecording
-from kineme.web.page_data import Shown
 
 
 def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str, bytes]:
     """Name and bytes of what is downloaded of a recording.
 
-    Parameters
-    ----------
-    opened : OpenRecording
-    kind : str
-        A label format, or one of `kineme.studio.choices`: motion files, a page.
-    level : {"activity", "primitive"}, optional
-        Of the segments.
+    ``kind`` is a label format, or one of `kineme.studio.choices`: motion files, a page.
     """
-    loaded, stem = opened.loaded, _stem_of(opened)
+    loaded, table, stem = opened.loaded, opened.table, _stem_of(opened)
     if kind == CLIPS:
-        return motion_files(loaded.motion, opened.table, stem, level)
+        motion = loaded.motion
+        return _written(stem, lambda to: split(motion, table, to / stem, level=level or "activity"))
     if kind == REPORT:
-        return report_file(loaded.recording, opened.table, loaded.path, loaded.effectors)
-    return table_file(opened.table, stem, kind, level)
+        stem, name = loaded.path.stem, loaded.path.name
+        page = partial(write_report, loaded.recording, table, name=name, effectors=loaded.effectors)
+        return _written(stem, lambda to: page(to / f"{stem}.html"))
+    return table_file(table, stem, kind, level)
+
+
+def table_file(
+    segmentation: Segmentation, stem: str, name: str, level: Level | None
+) -> tuple[str, bytes]:
+    """Name and bytes of the segments in a label format; a ZIP where that is several files.
+
+    ``level`` is for formats that do not always hold both.
+    """
+    found = label_formats().get(name)
+    if found is None or found.write is None:
+        raise ParameterError(f"there is no format {name!r:.40}")
+    file, of_level = f"{stem}{found.written_suffix}", None if found.holds == "all" else level
+
+    def write(to: Path) -> None:
+        place = to / found.folder
+        place.mkdir(exist_ok=True)
+        write_segments(segmentation, place / file, format=name, level=of_level)
+
+    # Where it is one file, that holds as provenance what else lies there.
+    return _written(stem, write, None if found.several else file)
+
+
+def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tuple[str, bytes]:
+    """Name and bytes of a ZIP with a motion file for each of some rows of the table."""
+    table, stem = opened.table, _stem_of(opened)
+    if not rows or not all(0 <= row < len(table) for row in rows):
+        raise ParameterError("choose the segments to write: some of these are not in the table")
+    clips = [(opened.loaded.recording, [table.table[row] for row in rows])]
+    return _written(stem, lambda to: write_clips(clips, to / stem, loops=loops))
 
 
 def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]:
@@ -56,92 +81,24 @@ def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]
     return f"{stem}.zip", packed.getvalue()
 
 
-def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tuple[str, bytes]:
-    """Name and bytes of a ZIP with a motion file for each of some rows of the table."""
-    table = opened.table
-    if not rows or not all(0 <= row < len(table) for row in rows):
-        raise ParameterError("choose the segments to write: some of these are not in the table")
-    wanted = [table.table[row] for row in rows]
-    with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        write_clips(
-            [(opened.loaded.recording, wanted)], Path(folder) / _stem_of(opened), loops=loops
-        )
-        return _one_file(Path(folder), _stem_of(opened))
-
-
-def table_file(
-    segmentation: Segmentation, stem: str, name: str, level: Level | None
-) -> tuple[str, bytes]:
-    """The segments in a label format.
-
-    Parameters
-    ----------
-    segmentation : Segmentation
-    stem : str
-        Of the recording's file.
-    name : str
-        Of the format.
-    level : {"activity", "primitive"}, optional
-        Of the segments to write, in formats that do not always hold both.
-
-    Returns
-    -------
-    name : str
-        Of the file.
-    content : bytes
-        A ZIP where the format is several files.
-
-    Raises
-    ------
-    ParameterError
-        No such format.
-    """
-    label_format = label_formats().get(name)
-    if label_format is None or label_format.write is None:
-        raise ParameterError(f"there is no format {name!r:.40}")
-    with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        place = Path(folder) / label_format.folder
-        place.mkdir(exist_ok=True)
-        path = place / f"{stem}{label_format.written_suffix}"
-        write_segments(
-            segmentation, path, format=name, level=None if label_format.holds == "all" else level
-        )
-        if not label_format.several:  # other formats hold what else lies there, as provenance
-            return path.name, path.read_bytes()
-        return _one_file(Path(folder), stem)
-
-
-def motion_files(
-    motion: Motion, segmentation: Segmentation, stem: str, level: Level | None
-) -> tuple[str, bytes]:
-    """Name and bytes of a ZIP with a motion file for each segment, and their list."""
-    with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        split(motion, segmentation, Path(folder) / stem, level=level or "activity")
-        return _one_file(Path(folder), stem)
-
-
-def report_file(
-    recording: Shown, segmentation: Segmentation, file: Path, effectors: Names | None
-) -> tuple[str, bytes]:
-    """Name and bytes of a page that shows the recording in a file, and its segments."""
-    with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        page = Path(folder) / f"{file.stem}.html"
-        write_report(recording, segmentation, page, name=file.name, effectors=effectors)
-        return _one_file(Path(folder), file.stem)
-
-
 def _stem_of(opened: OpenRecording) -> str:
     """What downloads are called after: the recording, in letters that archives can hold."""
     stem = opened.path.stem
     return stem if is_text(stem) else safe_name(stem)
 
 
-def _one_file(folder: Path, stem: str) -> tuple[str, bytes]:
-    files = sorted(path for path in folder.rglob("*") if path.is_file())
-    if len(files) == 1:
-        return files[0].name, files[0].read_bytes()
-    packed = BytesIO()
-    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as parts:
-        for path in files:
-            parts.write(path, path.relative_to(folder))
-    return f"{stem}.zip", packed.getvalue()
+def _written(
+    stem: str, write: Callable[[Path], object], name: str | None = None
+) -> tuple[str, bytes]:
+    """Name and bytes of what is written to a folder, or of the file of that name alone.
+
+    Several files are a ZIP.
+    """
+    with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
+        write(Path(folder))
+        found = [path for path in sorted(Path(folder).rglob("*")) if path.is_file()]
+        paths = [path for path in found if name in (None, path.name)]
+        if len(paths) == 1:
+            return paths[0].name, paths[0].read_bytes()
+        files = ((path.relative_to(folder).as_posix(), path.read_bytes()) for path in paths)
+        return together(files, stem)

@@ -16,8 +16,8 @@ from kineme.segments.editing.annotating import noted
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.loading import LoadedRecording
-from kineme.web import edits as sent
-from kineme.web.edits import Edit
+from kineme.web import requests as sent
+from kineme.web.requests import Edit
 
 BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
     sent.MoveBorder: editing.move_border,
@@ -39,15 +39,9 @@ BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """The table after an edit.
+    """The table after an edit, and what to tell people.
 
-    Parameters
-    ----------
-    table : Segmentation
-    notes : list of str
-        What to tell people.
-    replaced : bool
-        Whether it is another table, in whose place the one before is kept.
+    Where it is another table (``replaced``), the one before is kept.
     """
 
     table: Segmentation
@@ -72,27 +66,9 @@ def edited(
     files: Surroundings,
     version: Callable[[int], Segmentation],
 ) -> Outcome:
-    """The table after an edit other than undo and redo.
+    """The table after an edit other than undo and redo; KinemeError where it cannot be made.
 
-    Parameters
-    ----------
-    table : Segmentation
-    edit : Edit
-    loaded : LoadedRecording
-        What the table is of.
-    files : Surroundings
-        Where knowledge bases and label files are.
-    version : callable
-        A table that was replaced, by its number.
-
-    Returns
-    -------
-    Outcome
-
-    Raises
-    ------
-    KinemeError
-        The edit cannot be made, and why.
+    ``version`` gives a table that was replaced, by its number.
     """
     if isinstance(edit, sent.Together):
         for one in edit.edits:

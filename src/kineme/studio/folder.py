@@ -1,7 +1,7 @@
 """What there is to open: the files of a folder, each known to the page by an id.
 
 An id says nothing and is good for nothing but to find one of the files that
-are listed at that moment, so that no request can name any other. How far each
+are listed then, so that no request can name any other. How far each
 recording is, its table tells; the recording is not opened for it.
 """
 
@@ -20,7 +20,7 @@ from kineme.segments.editing.annotating import marked
 from kineme.studio.reading import stamp_of
 from kineme.studio.storage.tables import usual_table, usual_tables
 
-MOST_KNOWN = 10_000
+MOST_COUNTS = 10_000
 """Tables whose counts stay in memory."""
 
 
@@ -30,15 +30,7 @@ def file_id(path: Path) -> str:
 
 
 class Folder:
-    """A folder, or some files of it.
-
-    Parameters
-    ----------
-    root : Path
-        Where uploads go and where labels are looked for.
-    files : iterable of Path, optional
-        The recordings to list; by default all that lie in the folder.
-    """
+    """A folder, to which uploads go; or some files of it, which alone are listed then."""
 
     of_library = False
 
@@ -90,17 +82,7 @@ class Progress:
 
 
 def progress(recording: Path) -> Progress | None:
-    """How far a recording is, as its table says.
-
-    Parameters
-    ----------
-    recording : Path
-
-    Returns
-    -------
-    Progress or None
-        None where it has no table, or one that cannot be read.
-    """
+    """How far a recording is; None where it has no table, or one that cannot be read."""
     path = usual_table(recording)
     try:
         return _counts(path, *stamp_of(path)) if path else None
@@ -108,7 +90,7 @@ def progress(recording: Path) -> Progress | None:
         return None
 
 
-@lru_cache(MOST_KNOWN)
+@lru_cache(MOST_COUNTS)
 def _counts(path: Path, *_: int) -> Progress | None:
     """Of the file as it was at that time; a file that is no table counts for none."""
     try:

@@ -33,7 +33,6 @@ from kineme.studio.folder import Folder, file_id, progress
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.reading import ReadingOptions, stamp_of
 from kineme.studio.storage.tables import usual_table
-from kineme.web.edits import NameSegment
 from kineme.web.library_messages import (
     CallCluster,
     CallHits,
@@ -48,7 +47,7 @@ from kineme.web.library_messages import (
     SearchRequest,
     Span,
 )
-from kineme.web.requests import EditRequest
+from kineme.web.requests import EditRequest, NameSegment
 
 SAME = 1 / 3
 """Seconds in common over those in either from which a hit shows a segment: half of each, where
@@ -62,17 +61,7 @@ Outcome = TypeVar("Outcome")
 
 
 class ShownLibrary:
-    """A library, as pages see it.
-
-    Parameters
-    ----------
-    folder : Path
-
-    Raises
-    ------
-    ReadError
-        There is no library, it is damaged, or of another version.
-    """
+    """A library, as pages see it; ReadError where there is none that can be read."""
 
     def __init__(self, folder: Path):
         self._folder = folder
@@ -164,12 +153,7 @@ class ShownLibrary:
 
 
 class LibraryFolder(Folder):
-    """The recordings of a library as a folder of the studio, and files that came later.
-
-    Parameters
-    ----------
-    shown : ShownLibrary
-    """
+    """The recordings of a library as a folder of the studio, and files that came later."""
 
     of_library = True
 
@@ -194,12 +178,8 @@ class Searches:
     def search(self, library: Library, sent: SearchRequest) -> LibraryHits:
         """What a library has that is like the examples.
 
-        Raises
-        ------
-        SupersededError
-            A newer search was asked for meanwhile.
-        ParameterError
-            Nothing to search for, or no recording of that name.
+        SupersededError where a newer search was asked for meanwhile, ParameterError where there is
+        nothing to search for.
         """
         number = self._newest = next(self._numbers)
 
@@ -223,13 +203,7 @@ class Searches:
 
 
 class Interruptible:
-    """Threads of this process, with a look now and then whether anybody still waits.
-
-    Parameters
-    ----------
-    check : callable
-        Raises what ends the work.
-    """
+    """Threads of this process; ``check``, called now and then, raises what ends the work."""
 
     def __init__(self, check: Callable[[], None]):
         self._check = check
@@ -246,17 +220,7 @@ class Interruptible:
 
 
 def segment_of(table: Segmentation, start_s: float, stop_s: float) -> Segment | None:
-    """The segment that a span shows, of the level that fits it best; None where none does.
-
-    Parameters
-    ----------
-    table : Segmentation
-    start_s, stop_s : float
-
-    Returns
-    -------
-    Segment or None
-    """
+    """The segment that a span shows, of the level that fits it best; None where none does."""
 
     def share(row: Segment) -> float:
         common = min(row.stop_s, stop_s) - max(row.start_s, start_s)
@@ -279,17 +243,8 @@ def name_hits(
 ) -> NamedHits:
     """Give the segments that hits show a name; what cannot be named costs itself.
 
-    Parameters
-    ----------
-    recordings : OpenRecordings
-    hits : iterable of (Span, Path or None)
-        Each with the file of its recording, if that is there.
-    name : str
-        Empty takes it away.
-
-    Returns
-    -------
-    NamedHits
+    Hits come with the files of their recordings, where those are there; an empty name takes it
+    away.
     """
     named, failures = 0, []
     for span, path in hits:
@@ -328,11 +283,11 @@ def _modified(path: Path) -> int:
 
 
 def _recording(name: str, path: Path, vocabulary: str, lasts: float) -> LibraryRecording:
-    there = path.is_file()
+    exists = path.is_file()
     return LibraryRecording(
         recording=name,
-        id=file_id(path) if there else "",
-        status=_status(path) if there else "gone",
+        id=file_id(path) if exists else "",
+        status=_status(path) if exists else "gone",
         vocabulary=vocabulary,
         duration_s=lasts,
     )

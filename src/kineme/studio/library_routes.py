@@ -8,21 +8,26 @@ from collections import OrderedDict
 from pathlib import Path
 
 import numpy as np
-from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import Response
 from starlette.routing import Route
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.library import Library
 from kineme.recordings import Motion, Signals
-from kineme.studio.http.bodies import MessageResponse, body
+from kineme.studio.http.bodies import route
 from kineme.studio.library import ShownLibrary
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.reading import Stamp, stamp_of
 from kineme.web.display import display_motion
-from kineme.web.encoding import from_json
-from kineme.web.library_messages import CallHits, LibraryEdit, LibraryFigure, SearchRequest
+from kineme.web.library_messages import (
+    CallHits,
+    LibraryEdit,
+    LibraryFigure,
+    LibraryHits,
+    LibraryState,
+    NamedHits,
+    SearchRequest,
+)
 
 MOST_IN_MEMORY = 4
 """Recordings."""
@@ -33,54 +38,40 @@ CHANNELS, POINTS = 6, 120
 
 
 class LibraryApi:
-    """The addresses under ``/api/library``.
-
-    Parameters
-    ----------
-    shown : ShownLibrary
-    recordings : OpenRecordings
-        Those of the library.
-    """
+    """The addresses under ``/api/library``."""
 
     def __init__(self, shown: ShownLibrary, recordings: OpenRecordings):
         self._shown, self._recordings, self._figures = shown, recordings, Figures()
 
-    async def state(self, _: Request) -> Response:
-        return MessageResponse(await run_in_threadpool(self._shown.state))
+    def routes(self) -> list[Route]:
+        return [
+            route("/api/library", self.state),
+            route("/api/library/edits", self.edit, LibraryEdit),
+            route("/api/library/search", self.search, SearchRequest),
+            route("/api/library/names", self.names, CallHits),
+            route("/api/library/figure", self.figure),
+        ]
 
-    async def edit(self, request: Request) -> Response:
-        sent: LibraryEdit = from_json(await body(request), LibraryEdit)  # type: ignore[arg-type]
-        return MessageResponse(await run_in_threadpool(self._shown.edit, sent))
+    def state(self, _: Request) -> LibraryState:
+        return self._shown.state()
 
-    async def search(self, request: Request) -> Response:
-        sent = from_json(await body(request), SearchRequest)
-        return MessageResponse(await run_in_threadpool(self._shown.search, sent))
+    def edit(self, _: Request, sent: LibraryEdit) -> LibraryState:
+        return self._shown.edit(sent)
 
-    async def names(self, request: Request) -> Response:
-        sent = from_json(await body(request), CallHits)
-        return MessageResponse(await run_in_threadpool(self._shown.call, sent, self._recordings))
+    def search(self, _: Request, sent: SearchRequest) -> LibraryHits:
+        return self._shown.search(sent)
 
-    async def figure(self, request: Request) -> Response:
+    def names(self, _: Request, sent: CallHits) -> NamedHits:
+        return self._shown.call(sent, self._recordings)
+
+    def figure(self, request: Request) -> LibraryFigure:
         query = request.query_params
         try:
             start_s, stop_s = float(query["start"]), float(query["stop"])
         except (KeyError, ValueError):
             raise ParameterError("a figure is of a span: start and stop in seconds") from None
-
-        def work() -> LibraryFigure:
-            name = query.get("recording", "")
-            return self._figures.figure(self._shown.library(), name, start_s, stop_s)
-
-        return MessageResponse(await run_in_threadpool(work))
-
-    def routes(self) -> list[Route]:
-        return [
-            Route("/api/library", self.state),
-            Route("/api/library/edits", self.edit, methods=["POST"]),
-            Route("/api/library/search", self.search, methods=["POST"]),
-            Route("/api/library/names", self.names, methods=["POST"]),
-            Route("/api/library/figure", self.figure),
-        ]
+        name = query.get("recording", "")
+        return self._figures.figure(self._shown.library(), name, start_s, stop_s)
 
 
 class Figures:
@@ -93,19 +84,8 @@ class Figures:
     def figure(self, library: Library, name: str, start_s: float, stop_s: float) -> LibraryFigure:
         """What is drawn of a span.
 
-        Parameters
-        ----------
-        library : Library
-        name : str
-            Of a recording of it.
-        start_s, stop_s : float
-
-        Raises
-        ------
-        ParameterError
-            There is no such recording, or nothing in the span.
-        ReadError
-            Its file is gone.
+        ParameterError where there is no such recording or nothing in the span, ReadError where the
+        file is gone.
         """
         if not 0 <= start_s < stop_s:
             raise ParameterError("a figure is of a span from one second to a later one")

@@ -34,16 +34,7 @@ LONG = 300.0
 class LoadedRecording:
     """A recording as its file was when it was opened.
 
-    Parameters
-    ----------
-    path : Path
-    cache : RecordingCache
-        Where it is read from.
-
-    Raises
-    ------
-    ReadError
-        The file cannot be read, or is another now.
+    ReadError where it cannot be read, or is another now.
     """
 
     def __init__(self, path: Path, cache: RecordingCache):
@@ -122,21 +113,7 @@ class LoadedRecording:
         parameters: Mapping[str, float] | None = None,
         detail: float = DEFAULT_DETAIL,
     ) -> Segmentation:
-        """The segments by a preset.
-
-        Parameters
-        ----------
-        preset : str
-            Its name.
-        parameters : mapping of float, optional
-            Those of the constants it offers that are to be changed.
-        detail : float
-            Less than 1 is coarser, more is finer.
-
-        Returns
-        -------
-        Segmentation
-        """
+        """The segments by a preset, with some of the constants it offers changed."""
         from kineme.segmentation.segmenter import segment
 
         found, changed = self.recording, dict[str, Any](parameters or {})
@@ -145,14 +122,9 @@ class LoadedRecording:
         return segments if detail == DEFAULT_DETAIL else segments.level(detail)
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
-        """The table before anybody made another.
+        """The table before anybody made another, and what people should know about it.
 
-        Returns
-        -------
-        table : Segmentation
-            The segments by the default preset; one for all where there is a single point only.
-        notes : list of str
-            What people should know about it.
+        By the default preset; one segment for all where there is a single point only.
         """
         try:
             return self.segment(), []
@@ -171,19 +143,7 @@ class LoadedRecording:
         threshold: float,
         spread: bool,
     ) -> Segmentation:
-        """The segments with labels from a knowledge base.
-
-        Parameters
-        ----------
-        segmentation : Segmentation
-        base : KnowledgeBase
-        threshold, spread
-            As `kineme.transfer.transfer_labels` takes them.
-
-        Returns
-        -------
-        Segmentation
-        """
+        """The segments with labels, as `kineme.transfer.transfer_labels` gives them."""
         from kineme.transfer import transfer_features, transfer_labels
 
         features = transfer_features(self.motion, effectors=self.effectors)

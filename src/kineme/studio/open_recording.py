@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import threading
 import uuid
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from concurrent.futures import Future, wait
 from pathlib import Path
 
@@ -29,18 +29,15 @@ from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.loading import LoadedRecording, digest_in
 from kineme.studio.reading import RecordingCache
-from kineme.studio.storage.journal import Change, Journal, Step
+from kineme.studio.storage.journal import Change, Journal
 from kineme.studio.storage.sidecars import (
-    notes_on_labels,
-    notes_on_reading,
-    notes_on_video,
+    notes_on_sidecars,
     options_of,
     video_message,
 )
 from kineme.studio.storage.tables import ChangedOnDiskError, saved_table
-from kineme.web.edits import Edit, Redo, Undo
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
-from kineme.web.requests import PreviewRequest
+from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 
 Found = tuple[Segmentation, list[str]]
 SOON = 3.0
@@ -57,25 +54,10 @@ class ConflictError(Exception):
 
 
 class OpenRecording:
-    """A recording with its table, which edits change.
+    """A recording with its table, which edits change; ReadError where it cannot be read.
 
-    Parameters
-    ----------
-    name : str
-        The id of the recording.
-    path : Path
-        Its file.
-    cache : RecordingCache
-        Where it is read from.
-    others : set of Path
-        Files that hold the tables of other recordings.
-    revision : int
-        Of the table, to begin with.
-
-    Raises
-    ------
-    ReadError
-        The recording cannot be read.
+    ``others`` are files that hold the tables of other recordings; ``revision`` is that of the table
+    to begin with.
     """
 
     def __init__(
@@ -134,14 +116,7 @@ class OpenRecording:
             return self._table
 
     def message(self) -> tuple[Recording, bool]:
-        """All that a page shows.
-
-        Returns
-        -------
-        message : Recording
-        anew : bool
-            Whether the table was read again for it, because another program had changed the file.
-        """
+        """All that a page shows, and whether another program has changed the table meanwhile."""
         from kineme.web.page_data import recording_message
 
         with self._lock:
@@ -158,34 +133,21 @@ class OpenRecording:
                 video=video_message(self.path),
                 reading=options_of(self.path),
                 finding=self.finding,
-                warnings=[*shown.warnings, *self._notes, *self._side_notes()],
+                warnings=[
+                    *shown.warnings,
+                    *self._notes,
+                    *self._journal.notes,
+                    *notes_on_sidecars(self.path),
+                ],
             )
             return message, anew
 
     def edit(self, revision: int, edit: Edit, files: Surroundings, *, name: str = "") -> Edited:
-        """The table after an edit, which is on the disk.
+        """The table after an edit of that revision, which is on the disk.
 
-        Parameters
-        ----------
-        revision : int
-            Of the table that the edit was made on.
-        edit : Edit
-        files : Surroundings
-            Where knowledge bases and label files are.
-        name : str
-            Of the edit: one that has been made is not made again.
-
-        Returns
-        -------
-        Edited
-
-        Raises
-        ------
-        ConflictError
-            The revision is not the present one, or the file is not the one that was last read or
-            written here.
-        KinemeError
-            The edit cannot be made, or its result cannot be saved.
+        An edit whose name has been made is not made again. ConflictError where the table is of
+        another revision, or the file not the one last read or written here; KinemeError where the
+        edit cannot be made or saved.
         """
         if self.finding and revision == self.revision:
             raise ParameterError(STILL_FINDING)
@@ -207,24 +169,47 @@ class OpenRecording:
             self._table, self.revision = change.table, self.revision + 1
             return self._edited(notes)
 
-    def preview(self, wanted: PreviewRequest) -> Preview:
+    def preview(self, request: PreviewRequest) -> Preview:
         """What segmenting again would make of the table, which stays as it is."""
-        return preview_of(self.table, self.loaded, wanted)
+        from kineme.web.page_data import segments_message
+
+        detail = DEFAULT_DETAIL if request.detail is UNSET else request.detail
+        found = self.loaded.segment(request.preset, request.parameters, detail)
+        result = editing.carried(self.table, found)
+        lost = [f"{result.corrections} corrections and {result.names} names"]
+        return Preview(
+            segmentation=segments_message(result.segmentation if request.keep else found),
+            corrections=result.corrections,
+            names=result.names,
+            lost=result.lost if request.keep else lost,
+            details=list(found.hierarchy.details) if found.hierarchy else [DEFAULT_DETAIL],
+            detail=found.hierarchy.detail if found.hierarchy else DEFAULT_DETAIL,
+        )
 
     def versions(self) -> list[Version]:
         """The tables that were replaced, the latest first."""
         with self._lock:
             steps = self._journal.versions()
             tables = {number: self._journal.table(number) for number in steps}
-        return versions_of(steps, tables)
+        return [
+            Version(
+                number=number,
+                at=step.at,
+                edit=step.edit,
+                segments=len(tables[number]),
+                corrections=tables[number].annotation.corrections,
+                names=names_of(tables[number]),
+            )
+            for number, step in steps.items()
+        ]
 
     def version(self, number: int) -> Comparison:
         """A table that was replaced, to lay beside the present one."""
         from kineme.web.page_data import segments_message
 
         with self._lock:
-            at = self._journal.versions()[number].at if number in self._journal.versions() else ""
             table = self._version(number)
+            at = self._journal.versions()[number].at
         return Comparison(name=at, segmentation=segments_message(table), scores={})
 
     def _after(self, edit: Edit, files: Surroundings, name: str) -> tuple[Change, list[str]]:
@@ -263,12 +248,6 @@ class OpenRecording:
             notes=notes,
         )
 
-    def _side_notes(self) -> list[str]:
-        """What people should know of the files of ``.kineme``: those that were left alone."""
-        path = self.path
-        files = [*notes_on_reading(path), *notes_on_video(path), *notes_on_labels(path.parent)]
-        return [*self._journal.notes, *files]
-
     @property
     def _saved(self) -> str:
         """The name of the table's file, empty as long as there is none."""
@@ -276,13 +255,7 @@ class OpenRecording:
 
 
 class FirstSegments:
-    """Segments that a thread is finding.
-
-    Parameters
-    ----------
-    find : callable
-        Gives a table and notes for people.
-    """
+    """Segments, and notes for people, that a thread is finding."""
 
     def __init__(self, find: Callable[[], Found]):
         self._found: Future[Found] = Future()
@@ -302,36 +275,3 @@ class FirstSegments:
     def result(self) -> Found:
         """Table and notes, as soon as they are there; whatever finding them raised."""
         return self._found.result()
-
-
-def preview_of(before: Segmentation, loaded: LoadedRecording, wanted: PreviewRequest) -> Preview:
-    """What segmenting again would make of a table."""
-    from kineme.web.page_data import segments_message
-
-    detail = DEFAULT_DETAIL if wanted.detail is UNSET else wanted.detail
-    found = loaded.segment(wanted.preset, wanted.parameters, detail)
-    result = editing.carried(before, found)
-    lost = [f"{result.corrections} corrections and {result.names} names"]
-    return Preview(
-        segmentation=segments_message(result.segmentation if wanted.keep else found),
-        corrections=result.corrections,
-        names=result.names,
-        lost=result.lost if wanted.keep else lost,
-        details=list(found.hierarchy.details) if found.hierarchy else [DEFAULT_DETAIL],
-        detail=found.hierarchy.detail if found.hierarchy else DEFAULT_DETAIL,
-    )
-
-
-def versions_of(steps: Mapping[int, Step], tables: Mapping[int, Segmentation]) -> list[Version]:
-    """Tables that were replaced, by their numbers, in the same order."""
-    return [
-        Version(
-            number=number,
-            at=step.at,
-            edit=step.edit,
-            segments=len(tables[number]),
-            corrections=tables[number].annotation.corrections,
-            names=names_of(tables[number]),
-        )
-        for number, step in steps.items()
-    ]

@@ -48,13 +48,7 @@ class SupersededError(Exception):
 class OpenRecordings:
     """The recordings of a folder, each opened once.
 
-    Parameters
-    ----------
-    folder : Folder
-    changed : callable
-        Called with id and revision when a table has changed.
-    options : ReadingOptions
-        What the files do not say themselves.
+    ``changed`` is called with id and revision when a table has changed.
     """
 
     def __init__(self, folder: Folder, changed: Listener, options: ReadingOptions = NO_OPTIONS):
@@ -71,21 +65,7 @@ class OpenRecordings:
     def get(self, name: str) -> OpenRecording:
         """The recording of that id, opened if it is not, and again if its file has changed.
 
-        Parameters
-        ----------
-        name : str
-            The id.
-
-        Returns
-        -------
-        OpenRecording
-
-        Raises
-        ------
-        UnknownError
-            No such recording is listed.
-        ReadError
-            It cannot be read.
+        UnknownError where none is listed, ReadError where it cannot be read.
         """
         self._forget_others(name)
         present = self._open.get(name)
@@ -195,17 +175,8 @@ class OpenRecordings:
     def read_as(self, name: str, options: dict[str, Any]) -> None:
         """Read a recording otherwise from now on; its table is made anew, the one before kept.
 
-        Parameters
-        ----------
-        name : str
-            The id.
-        options : dict
-            By the names of `kineme.formats.ReadOptions`; what is not in it is as of all.
-
-        Raises
-        ------
-        KinemeError
-            It cannot be read so, and is read as before.
+        Options have the names of `kineme.formats.ReadOptions`; others are as for all. KinemeError
+        where it cannot be read so: it is read as before.
         """
         path = _found(self.folder.recordings(), name, "recording")
         before = options_of(path)
@@ -253,17 +224,7 @@ class Sketched(Struct):
 def sketched(name: str, path: Path, options: ReadingOptions) -> Sketched | None:
     """What can be shown of a recording before it is read.
 
-    Parameters
-    ----------
-    name : str
-        Its id.
-    path : Path
-    options : ReadingOptions
-
-    Returns
-    -------
-    Sketched or None
-        None for a file that is soon read, or whose format has no shorter way.
+    None for a file that is soon read, or whose format has no shorter way.
     """
     from kineme.web.display import display_motion
     from kineme.web.page_data import segments_message

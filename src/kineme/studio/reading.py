@@ -25,27 +25,14 @@ Stamp = tuple[int, int]
 
 @dataclass(frozen=True)
 class ReadingOptions:
-    """What the files do not say themselves.
-
-    Parameters
-    ----------
-    file : ReadOptions
-        As `kineme.formats.read_quietly` takes them.
-    effectors : mapping, optional
-        The names of head, hands and feet, as `kineme.features.end_effectors` takes them.
-    """
+    """What the files do not say themselves, and how head, hands and feet are called."""
 
     file: ReadOptions = field(default_factory=ReadOptions)
     effectors: Names | None = None
 
 
 class RecordingCache:
-    """The recordings used last; several can be read at once.
-
-    Parameters
-    ----------
-    options : ReadingOptions
-    """
+    """The recordings used last; several can be read at once."""
 
     def __init__(self, options: ReadingOptions) -> None:
         self.options = options
@@ -54,21 +41,9 @@ class RecordingCache:
         self._recent: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
 
     def read(self, path: Path) -> Motion | Signals:
-        """The recording in a file, read if it is not in memory.
+        """The recording in a file, read if it is not in memory; ReadError where it cannot be.
 
-        Parameters
-        ----------
-        path : Path
-
-        Returns
-        -------
-        Motion or Signals
-            Its provenance has what there is to warn of.
-
-        Raises
-        ------
-        ReadError
-            The file is gone or cannot be read.
+        Its provenance has what there is to warn of.
         """
         options = read_options(path, self.options.file)
         key = path, stamp_of(path), repr(options)
@@ -103,22 +78,7 @@ class RecordingCache:
 
 
 def stamp_of(path: Path) -> Stamp:
-    """What changes when a file is written.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    tuple of int
-        Time of the last change in nanoseconds, and length in bytes.
-
-    Raises
-    ------
-    ReadError
-        It is gone.
-    """
+    """What changes when a file is written: nanoseconds and bytes; ReadError where it is gone."""
     try:
         found = path.stat()
     except OSError as error:

@@ -1,4 +1,4 @@
-"""What each address answers; the list is at the end of `Api`.
+"""What each address answers; the list is at the head of `Api`.
 
 Everything that reads, computes or writes runs in a thread of its own, so that
 the server answers others meanwhile. What is rarely asked for is imported when
@@ -7,11 +7,10 @@ it is.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import cast, get_args
 
-from msgspec import UNSET
+from msgspec import UNSET, structs
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
@@ -27,20 +26,28 @@ from kineme.studio.http.bodies import (
     LIMIT,
     MessageResponse,
     Upload,
-    body,
     chunks,
     file_response,
     number_in,
     recording_suffixes,
+    route,
     safe_name,
 )
 from kineme.studio.http.events import Hub
-from kineme.studio.loading import LoadedRecording
+from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels, video_of
-from kineme.web.encoding import from_json
-from kineme.web.folder_messages import FileChoice, Listing, State
-from kineme.web.messages import Comparison, CurveList, Preview, Versions
+from kineme.web.messages import (
+    Comparison,
+    CurveList,
+    Edited,
+    FileChoice,
+    Listing,
+    Preview,
+    Recording,
+    State,
+    Versions,
+)
 from kineme.web.requests import (
     ClipsRequest,
     CompareRequest,
@@ -56,113 +63,40 @@ BINARY = "application/octet-stream"
 
 
 class Api:
-    """The addresses under ``/api``.
-
-    Parameters
-    ----------
-    recordings : OpenRecordings
-    hub : Hub
-        Where news go to the pages.
-    limit : int
-        Bytes of an upload.
-    """
+    """The addresses under ``/api``; uploads have at most ``limit`` bytes."""
 
     def __init__(self, recordings: OpenRecordings, hub: Hub, *, limit: int = LIMIT):
         self._recordings, self._hub, self._limit = recordings, hub, limit
 
-    async def state(self, _: Request) -> Response:
-        return MessageResponse(await run_in_threadpool(self._state))
-
-    async def upload(self, request: Request) -> Response:
-        length = request.headers.get("content-length", "")
-        upload = Upload(
-            self._recordings.folder.root,
-            request.query_params.get("name", ""),
-            length=int(length) if length.isdigit() else None,
-            limit=self._limit,
-        )
-        with upload:
-            async for chunk in chunks(request):
-                upload.write(chunk)
-            path = await run_in_threadpool(upload.finish)
-        self._recordings.folder.add(path)
-        self._hub.tell(file_id(path), 0)
-        return MessageResponse(_listing(file_id(path), path))
-
-    async def recording(self, request: Request) -> Response:
-        name = request.path_params["id"]
-        return MessageResponse(await run_in_threadpool(self._recordings.message, name))
-
-    async def edit(self, request: Request) -> Response:
-        sent = from_json(await body(request), EditRequest)
-        name, work = request.path_params["id"], self._recordings.edit
-        return MessageResponse(await run_in_threadpool(work, name, sent))
-
-    async def preview(self, request: Request) -> Response:
-        sent = from_json(await body(request), PreviewRequest)
-
-        def work() -> Preview:
-            return self._recordings.get(request.path_params["id"]).preview(sent)
-
-        return MessageResponse(await run_in_threadpool(work))
-
-    async def versions(self, request: Request) -> Response:
-        def work() -> Versions:
-            opened = self._recordings.get(request.path_params["id"])
-            return Versions(versions=opened.versions())
-
-        return MessageResponse(await run_in_threadpool(work))
-
-    async def version(self, request: Request) -> Response:
-        number = number_in(request.path_params["number"])
-
-        def work() -> Comparison:
-            return self._recordings.get(request.path_params["id"]).version(number)
-
-        return MessageResponse(await run_in_threadpool(work))
-
-    async def compare(self, request: Request) -> Response:
-        sent = from_json(await body(request), CompareRequest)
-        name = request.path_params["id"]
-        return MessageResponse(await run_in_threadpool(self._compare, name, sent))
-
-    async def export(self, request: Request) -> Response:
-        name, kind = request.path_params["id"], request.path_params["format"]
-        level = _level(request)
-
-        def work() -> tuple[str, bytes]:
-            from kineme.studio import downloads
-
-            return downloads.exported(self._recordings.get(name), kind, level)
-
-        return file_response(*await run_in_threadpool(work))
-
-    async def events(self, _: Request) -> Response:
-        # sse-starlette would be one more dependency for the few lines of Hub.stream, no shorter.
-        return StreamingResponse(self._hub.stream(), media_type="text/event-stream")
-
-    async def unknown(self, _: Request) -> Response:
-        raise UnknownError("there is nothing at this address")
-
     def routes(self) -> list[Route]:
         one = "/api/recordings/{id}"
         return [
-            Route("/api/state", self.state),
+            route("/api/state", self.state),
+            route("/api/labels", self.labels, LabelsRequest),
+            route("/api/knowledge", self.knowledge, KnowledgeRequest),
+            route("/api/export/{format}", self.export_checked),
             Route("/api/recordings", self.upload, methods=["POST"]),
-            Route(one, self.recording),
-            *PictureApi(self._recordings).routes(one),
-            *FolderApi(self._recordings).routes(one),
-            Route(f"{one}/edits", self.edit, methods=["POST"]),
-            Route(f"{one}/preview", self.preview, methods=["POST"]),
-            Route(f"{one}/versions", self.versions),
-            Route(f"{one}/versions/{{number}}", self.version),
-            Route(f"{one}/compare", self.compare, methods=["POST"]),
-            Route(f"{one}/export/{{format}}", self.export),
+            route(one, self.recording),
+            route(f"{one}/motion", self.motion),
+            route(f"{one}/matrix/{{level}}/{{row}}/{{column}}", self.tile),
+            route(f"{one}/curves", self.curves),
+            route(f"{one}/curves/{{curve}}/{{level}}/{{number}}", self.curve_tile),
+            route(f"{one}/edits", self.edit, EditRequest),
+            route(f"{one}/preview", self.preview, PreviewRequest),
+            route(f"{one}/versions", self.versions),
+            route(f"{one}/versions/{{number}}", self.version),
+            route(f"{one}/compare", self.compare, CompareRequest),
+            route(f"{one}/export/{{format}}", self.export),
+            route(f"{one}/clips", self.clips, ClipsRequest),
+            route(f"{one}/video", self.video),
+            route(f"{one}/video", self.offset, VideoRequest),
+            route(f"{one}/reading", self.reading, ReadingRequest),
+            route(f"{one}/people", self.people),
             Route("/api/events", self.events),
             Route("/api{rest:path}", self.unknown),
         ]
 
-    def _state(self) -> State:
+    def state(self, _: Request) -> State:
         folder = self._recordings.folder
         bases, annotations = (
             [FileChoice(id=name, name=path.name) for name, path in files.items()]
@@ -183,12 +117,100 @@ class Api:
             export_formats=choices.export_formats(),
         )
 
-    def _compare(self, name: str, sent: CompareRequest) -> Comparison:
+    def labels(self, _: Request, sent: LabelsRequest) -> list[str]:
+        return share_labels(self._recordings.folder.root, sent.labels)
+
+    def knowledge(self, _: Request, sent: KnowledgeRequest) -> FileChoice:
+        """A knowledge base of the named primitives of some recordings, in the folder."""
+        from kineme.transfer import KnowledgeBase
+
+        if not sent.recordings:
+            raise ParameterError("choose the recordings whose names it is to know")
+        bases = []
+        for name in sent.recordings:
+            opened = self._recordings.get(name)
+            motion, effectors = opened.loaded.motion, opened.loaded.effectors
+            bases.append(KnowledgeBase.from_recording(motion, opened.table, effectors=effectors))
+        stem = safe_name(f"{sent.name.removesuffix('.npz')}.npz")
+        path = self._recordings.folder.root / stem
+        if path.exists():
+            raise ParameterError(f"{path.name} is there already: take another name")
+        KnowledgeBase.merged(*bases).save(path)
+        return FileChoice(id=file_id(path), name=path.name)
+
+    def export_checked(self, request: Request) -> Response:
+        """The recordings all of whose segments are checked, in one ZIP."""
+        from kineme.studio import downloads
+
+        kind, level = request.path_params["format"], _level(request)
+        folder = self._recordings.folder
+        counts = {name: progress(path) for name, path in folder.recordings().items()}
+        names = [name for name, n in counts.items() if n and n.checked >= n.segments]
+        if not names:
+            raise ParameterError("no recording is checked yet: check all segments of one first")
+        files = [downloads.exported(self._recordings.get(name), kind, level) for name in names]
+        return file_response(*downloads.together(files, folder.root.name or "checked"))
+
+    async def upload(self, request: Request) -> Response:
+        length = request.headers.get("content-length", "")
+        upload = Upload(
+            self._recordings.folder.root,
+            request.query_params.get("name", ""),
+            length=int(length) if length.isdigit() else None,
+            limit=self._limit,
+        )
+        with upload:
+            async for chunk in chunks(request):
+                upload.write(chunk)
+            path = await run_in_threadpool(upload.finish)
+        self._recordings.folder.add(path)
+        self._hub.tell(file_id(path), 0)
+        return MessageResponse(_listing(file_id(path), path))
+
+    def recording(self, request: Request) -> Recording:
+        return self._recordings.message(request.path_params["id"])
+
+    def motion(self, request: Request) -> Response:
+        n_samples = number_in(request.query_params.get("poses", ""))
+        poses = self._recordings.poses(request.path_params["id"], n_samples)
+        return Response(poses, media_type=BINARY)
+
+    def tile(self, request: Request) -> Response:
+        place = _numbers(request, "level", "row", "column")
+        found = self._opened(request).loaded.page_data().matrix.tile(*place)
+        if found is None:
+            raise UnknownError("the matrix has no such tile")
+        return Response(found, media_type="image/png")
+
+    def curves(self, request: Request) -> CurveList:
+        return self._opened(request).loaded.curves().head()
+
+    def curve_tile(self, request: Request) -> Response:
+        place = _numbers(request, "curve", "level", "number")
+        loaded = self._opened(request).loaded
+        found = loaded.curves().tile(loaded.source, *place)
+        if found is None:
+            raise UnknownError("the curve has no such tile")
+        return Response(found, media_type=BINARY)
+
+    def edit(self, request: Request, sent: EditRequest) -> Edited:
+        return self._recordings.edit(request.path_params["id"], sent)
+
+    def preview(self, request: Request, sent: PreviewRequest) -> Preview:
+        return self._opened(request).preview(sent)
+
+    def versions(self, request: Request) -> Versions:
+        return Versions(versions=self._opened(request).versions())
+
+    def version(self, request: Request) -> Comparison:
+        return self._opened(request).version(*_numbers(request, "number"))
+
+    def compare(self, request: Request, sent: CompareRequest) -> Comparison:
         from kineme.evaluation.inputs import agreement
         from kineme.labels.collections import labels_for
         from kineme.web.page_data import segments_message
 
-        opened = self._recordings.get(name)
+        opened = self._opened(request)
         table = opened.table
         if sent.preset is not UNSET and sent.annotation is UNSET:
             title = sent.preset
@@ -204,194 +226,58 @@ class Api:
         scores = agreement(other, table)  # the other is taken for the truth
         return Comparison(name=title, segmentation=segments_message(other), scores=scores)
 
+    def export(self, request: Request) -> Response:
+        from kineme.studio import downloads
 
-class PictureApi:
-    """The addresses of what is drawn.
-
-    Parameters
-    ----------
-    recordings : OpenRecordings
-    """
-
-    def __init__(self, recordings: OpenRecordings):
-        self._recordings = recordings
-
-    async def motion(self, request: Request) -> Response:
-        wanted = number_in(request.query_params.get("poses", ""))
-        name, poses = request.path_params["id"], self._recordings.poses
-        return Response(await run_in_threadpool(poses, name, wanted), media_type=BINARY)
-
-    async def tile(self, request: Request) -> Response:
-        place = [number_in(request.path_params[name]) for name in ("level", "row", "column")]
-
-        def work() -> bytes | None:
-            shown = self._loaded(request).page_data()
-            return shown.matrix.tile(*place)
-
-        found = await run_in_threadpool(work)
-        if found is None:
-            raise UnknownError("the matrix has no such tile")
-        return Response(found, media_type="image/png")
-
-    async def curves(self, request: Request) -> Response:
-        def work() -> CurveList:
-            return self._loaded(request).curves().head()
-
-        return MessageResponse(await run_in_threadpool(work))
-
-    async def piece(self, request: Request) -> Response:
-        place = [number_in(request.path_params[name]) for name in ("curve", "level", "number")]
-
-        def work() -> bytes | None:
-            loaded = self._loaded(request)
-            return loaded.curves().piece(loaded.source, *place)
-
-        found = await run_in_threadpool(work)
-        if found is None:
-            raise UnknownError("there is no such piece of a curve")
-        return Response(found, media_type=BINARY)
-
-    def routes(self, one: str) -> list[Route]:
-        """Those of a recording, whose address begins with ``one``."""
-        return [
-            Route(f"{one}/motion", self.motion),
-            Route(f"{one}/matrix/{{level}}/{{row}}/{{column}}", self.tile),
-            Route(f"{one}/curves", self.curves),
-            Route(f"{one}/curves/{{curve}}/{{level}}/{{number}}", self.piece),
-        ]
-
-    def _loaded(self, request: Request) -> LoadedRecording:
-        return self._recordings.get(request.path_params["id"]).loaded
-
-
-class FolderApi:
-    """The addresses of the folder as a whole.
-
-    Parameters
-    ----------
-    recordings : OpenRecordings
-    """
-
-    def __init__(self, recordings: OpenRecordings):
-        self._recordings = recordings
-
-    async def labels(self, request: Request) -> Response:
-        sent = from_json(await body(request), LabelsRequest)
-        root = self._recordings.folder.root
-        return MessageResponse(await run_in_threadpool(share_labels, root, sent.labels))
-
-    async def export(self, request: Request) -> Response:
         kind, level = request.path_params["format"], _level(request)
+        return file_response(*downloads.exported(self._opened(request), kind, level))
 
-        def work() -> tuple[str, bytes]:
-            from kineme.studio import downloads
+    def clips(self, request: Request, sent: ClipsRequest) -> Response:
+        from kineme.studio import downloads
 
-            files = [
-                downloads.exported(self._recordings.get(name), kind, level)
-                for name in self._checked()
-            ]
-            return downloads.together(files, self._recordings.folder.root.name or "checked")
+        files = downloads.clip_files(self._opened(request), sent.rows, loops=sent.loops)
+        return file_response(*files)
 
-        return file_response(*await run_in_threadpool(work))
-
-    async def knowledge(self, request: Request) -> Response:
-        sent = from_json(await body(request), KnowledgeRequest)
-        return MessageResponse(await run_in_threadpool(self._knowledge, sent))
-
-    async def clips(self, request: Request) -> Response:
-        sent = from_json(await body(request), ClipsRequest)
-        opened = request.path_params["id"]
-
-        def work() -> tuple[str, bytes]:
-            from kineme.studio import downloads
-
-            recording = self._recordings.get(opened)
-            return downloads.clip_files(recording, sent.rows, loops=sent.loops)
-
-        return file_response(*await run_in_threadpool(work))
-
-    async def video(self, request: Request) -> Response:
-        found = video_of(self._path(request))
+    def video(self, request: Request) -> Response:
+        found = video_of(self._opened(request).path)
         if found is None:
             raise UnknownError("there is no video of that name beside the recording")
         return FileResponse(found)
 
-    async def offset(self, request: Request) -> Response:
-        sent = from_json(await body(request), VideoRequest)
-        path = self._path(request)
-        await run_in_threadpool(set_offset, path, sent.offset_s)
-        return MessageResponse({"offset_s": sent.offset_s})
+    def offset(self, request: Request, sent: VideoRequest) -> VideoRequest:
+        set_offset(self._opened(request).path, sent.offset_s)
+        return sent
 
-    async def reading(self, request: Request) -> Response:
-        sent = from_json(await body(request), ReadingRequest)
-        name = request.path_params["id"]
-        options = {field: getattr(sent, field) for field in sent.__struct_fields__}
-        await run_in_threadpool(self._recordings.read_as, name, options)
-        return MessageResponse({field: value for field, value in options.items() if value})
+    def reading(self, request: Request, sent: ReadingRequest) -> dict[str, object]:
+        options = structs.asdict(sent)
+        self._recordings.read_as(request.path_params["id"], options)
+        return {name: value for name, value in options.items() if value}
 
-    async def people(self, request: Request) -> Response:
-        work = self._recordings.people
-        return MessageResponse(await run_in_threadpool(work, request.path_params["id"]))
+    def people(self, request: Request) -> list[str]:
+        return self._recordings.people(request.path_params["id"])
 
-    def routes(self, one: str) -> list[Route]:
-        """These, and those of a recording, whose address begins with ``one``."""
-        sent: list[tuple[str, Callable[..., object]]] = [
-            ("/api/labels", self.labels),
-            ("/api/knowledge", self.knowledge),
-            (f"{one}/clips", self.clips),
-            (f"{one}/video", self.offset),
-            (f"{one}/reading", self.reading),
-        ]
-        return [
-            Route("/api/export/{format}", self.export),
-            Route(f"{one}/video", self.video, methods=["GET"]),
-            Route(f"{one}/people", self.people),
-            *(Route(address, work, methods=["POST"]) for address, work in sent),
-        ]
+    async def events(self, _: Request) -> Response:
+        # sse-starlette would be one more dependency for the few lines of Hub.stream, no shorter.
+        return StreamingResponse(self._hub.stream(), media_type="text/event-stream")
 
-    def _path(self, request: Request) -> Path:
-        return self._recordings.get(request.path_params["id"]).path
+    async def unknown(self, _: Request) -> Response:
+        raise UnknownError("there is nothing at this address")
 
-    def _checked(self) -> list[str]:
-        """The recordings all of whose segments are checked."""
-        found = self._recordings.folder.recordings()
-        done = {name: progress(path) for name, path in found.items()}
-        names = [
-            name for name, counts in done.items() if counts and counts.checked >= counts.segments
-        ]
-        if not names:
-            raise ParameterError("no recording is checked yet: check all segments of one first")
-        return names
+    def _opened(self, request: Request) -> OpenRecording:
+        return self._recordings.get(request.path_params["id"])
 
-    def _knowledge(self, sent: KnowledgeRequest) -> FileChoice:
-        """A knowledge base of the named primitives of some recordings, in the folder."""
-        from kineme.transfer import KnowledgeBase
 
-        if not sent.recordings:
-            raise ParameterError("choose the recordings whose names it is to know")
-        bases = []
-        for name in sent.recordings:
-            opened = self._recordings.get(name)
-            loaded = opened.loaded
-            bases.append(
-                KnowledgeBase.from_recording(
-                    loaded.motion, opened.table, effectors=loaded.effectors
-                )
-            )
-        stem = safe_name(f"{sent.name.removesuffix('.npz')}.npz")
-        path = self._recordings.folder.root / stem
-        if path.exists():
-            raise ParameterError(f"{path.name} is there already: take another name")
-        KnowledgeBase.merged(*bases).save(path)
-        return FileChoice(id=file_id(path), name=path.name)
+def _numbers(request: Request, *names: str) -> list[int]:
+    """The numbers in an address."""
+    return [number_in(request.path_params[name]) for name in names]
 
 
 def _level(request: Request) -> Level | None:
     """The level that an address names, if it names one."""
-    wanted = request.query_params.get("level") or None
-    if wanted not in (None, *get_args(Level)):
+    level = request.query_params.get("level") or None
+    if level not in (None, *get_args(Level)):
         raise ParameterError(f"level must be {' or '.join(get_args(Level))}")
-    return cast(Level | None, wanted)
+    return cast(Level | None, level)
 
 
 def _size(path: Path) -> int:

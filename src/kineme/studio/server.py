@@ -17,7 +17,7 @@ import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.http.events import Hub
-from kineme.studio.http.security import HeadersInTime, new_token
+from kineme.studio.http.security import DEVELOPMENT, HeadersInTime, new_token
 
 if TYPE_CHECKING:
     from kineme.studio.library import ShownLibrary
@@ -57,35 +57,21 @@ def serve(
     browser: bool,
     announce: Callable[[str], None],
     library: ShownLibrary | None = None,
+    development: bool = False,
 ) -> None:
-    """Serve until Ctrl+C.
+    """Serve a folder, or some files of it, or a library, until Ctrl+C.
 
-    Parameters
-    ----------
-    root : Path
-        The folder.
-    files : iterable of Path, optional
-        The recordings of it to list; all by default.
-    options : ReadingOptions
-        What the recordings do not say themselves.
-    port : int or None
-        To listen on; None for the first free one from 8750, 0 for any.
-    browser : bool
-        Open the address in the browser.
-    announce : callable
-        Called with the address.
-    library : ShownLibrary, optional
-        Whose recordings are shown, in place of those of the folder.
-
-    Raises
-    ------
-    ParameterError
-        The port is in use, or not one.
+    The port is as `listening` takes it; ``announce`` is called with the address. In ``development``
+    that is one of pages that are served from their sources, and the port, which they have to know,
+    the first.
     """
+    if development and port is None:
+        port = PORT
     with listening(port) as opened, suppress(KeyboardInterrupt):
         number = opened.getsockname()[1]
         token = new_token()
-        address = f"http://{HOST}:{number}/?token={token}"
+        origin = DEVELOPMENT if development else f"http://{HOST}:{number}"
+        address = f"{origin}/?token={token}"
         announce(address)
         if browser:
             threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
@@ -100,7 +86,14 @@ def serve(
         recordings = OpenRecordings(folder, hub.tell, options)
         forget_drafts(folder.root)
         config = uvicorn.Config(
-            create_app(recordings, token=token, port=number, hub=hub, library=library),
+            create_app(
+                recordings,
+                token=token,
+                port=number,
+                hub=hub,
+                library=library,
+                development=development,
+            ),
             log_level=logging.ERROR,
             access_log=False,  # addresses hold the token
             server_header=False,
@@ -120,21 +113,9 @@ def serve(
 
 
 def listening(port: int | None) -> socket.socket:
-    """A socket of this machine alone.
+    """A socket of this machine alone; ParameterError where the port is in use, or not one.
 
-    Parameters
-    ----------
-    port : int or None
-        To listen on; None for the first free one from 8750, 0 for any.
-
-    Returns
-    -------
-    socket
-
-    Raises
-    ------
-    ParameterError
-        The port is in use, or not one.
+    None is the first free port from 8750, 0 any.
     """
     if port is not None and not 0 <= port < 2**16:
         raise ParameterError(f"the port is a number from 0 to 65535, not {port}")
@@ -150,8 +131,8 @@ def listening(port: int | None) -> socket.socket:
             reason = error.strerror
             continue
         return opened
-    which = f"{PORT} to {PORT + TRIES - 1} are" if port is None else f"{port} is"
-    raise ParameterError(f"port {which} not free ({reason}): name another with --port")
+    ports = f"{PORT} to {PORT + TRIES - 1} are" if port is None else f"{port} is"
+    raise ParameterError(f"port {ports} not free ({reason}): name another with --port")
 
 
 def make_ready(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> None:

@@ -1,8 +1,8 @@
-"""What a page draws as curves over time, at any zoom, a piece at a time.
+"""What a page draws as curves over time, at any zoom, a tile at a time.
 
 A curve has levels: at level ``l`` one number pair stands for ``FACTOR ** l`` frames, the least and
 the greatest value in them, so that a pixel wide as many frames shows everything that happens in
-them. Level 0 is the curve itself. A piece holds `PIECE` pairs, 32-bit floats, little end first;
+them. Level 0 is the curve itself. A tile holds `TILE` pairs, 32-bit floats, little end first;
 nan where nothing was seen.
 """
 
@@ -23,22 +23,18 @@ from kineme.web.messages import Curve, CurveList
 Pairs = NDArray[np.float32]
 
 FACTOR = 4
-PIECE = 1024
+TILE = 1024
 MOST_BYTES = 4_000_000
-"""Of the pieces in a report."""
-MOST_KNOWN = 24
+"""Of the tiles in a report."""
+MOST_IN_MEMORY = 24
 """Curves whose levels stay in memory: 6 MB each for an hour at 120 Hz."""
 
 
 class Curves:
     """The curves of a recording; those looked at last stay in memory.
 
-    Parameters
-    ----------
-    recording : Motion or Signals
-    analog : Signals, optional
-        Channels beside a motion, at a rate of their own: of each frame the least and the
-        greatest value are drawn.
+    ``analog`` are channels beside a motion, at a rate of their own: of each frame the least and the
+    greatest value are drawn.
     """
 
     def __init__(self, recording: Motion | Signals, analog: Signals | None = None):
@@ -49,17 +45,17 @@ class Curves:
         self._first_analog = len(self._drawn)
         if analog is not None:
             self._drawn += of_analog(analog, recording.n_frames, recording.fps)
-        self._known: OrderedDict[int, list[Pairs]] = OrderedDict()
+        self._recent: OrderedDict[int, list[Pairs]] = OrderedDict()
         self._lock = Lock()
 
     def head(self) -> CurveList:
-        """Which curves there are, and how their pieces are asked for."""
+        """Which curves there are, and how their tiles are asked for."""
         curves = [Curve(name=each.name, group=each.group, unit=each.unit) for each in self._drawn]
         return CurveList(
-            curves=curves, factor=FACTOR, piece=PIECE, levels=len(level_sizes(self.n_frames))
+            curves=curves, factor=FACTOR, tile=TILE, levels=len(level_sizes(self.n_frames))
         )
 
-    def piece(
+    def tile(
         self,
         read: Callable[[bool], Motion | Signals],
         curve: int,
@@ -68,82 +64,52 @@ class Curves:
     ) -> bytes | None:
         """Some pairs of a curve; None where there are none.
 
-        Parameters
-        ----------
-        read : callable
-            Gives the recording, where the curve is not in memory; with True its analog channels.
-        curve : int
-            Its place in the list.
-        level, number : int
-            Each from 0.
-
-        Returns
-        -------
-        bytes or None
+        ``read`` gives the recording where the curve is not in memory; with True, its analog
+        channels.
         """
         if not 0 <= curve < len(self._drawn):
             return None
         with self._lock:
-            levels = self._known.get(curve)
+            levels = self._recent.get(curve)
             if levels is None:
                 source = read(curve >= self._first_analog)
-                levels = self._known[curve] = levels_of(self._drawn[curve].seen(source))
-            self._known.move_to_end(curve)
-            while len(self._known) > MOST_KNOWN:
-                self._known.popitem(last=False)
-        if not 0 <= level < len(levels) or not 0 <= number * PIECE < len(levels[level]):
+                levels = self._recent[curve] = levels_of(self._drawn[curve].with_gaps(source))
+            self._recent.move_to_end(curve)
+            while len(self._recent) > MOST_IN_MEMORY:
+                self._recent.popitem(last=False)
+        if not 0 <= level < len(levels) or not 0 <= number * TILE < len(levels[level]):
             return None
-        return levels[level][number * PIECE : (number + 1) * PIECE].tobytes()
+        return levels[level][number * TILE : (number + 1) * TILE].tobytes()
 
 
 def curves_of(
     recording: Motion | Signals | ArrayLike, fps: float, most_bytes: int = MOST_BYTES
 ) -> tuple[CurveList, dict[str, bytes]]:
-    """The curves of signals as a page has them that cannot ask for them.
+    """The curves of signals, with tiles by "curve/level/number", for a page that cannot ask.
 
-    Parameters
-    ----------
-    recording : Motion, Signals or array_like
-        Arrays are (frames, channels).
-    fps : float
-        Frames per second of an array.
-    most_bytes : int
-        Length of all pieces together; finer levels are left out where they are longer.
-
-    Returns
-    -------
-    head : CurveList
-    pieces : dict
-        By "curve/level/number".
+    ``fps`` is that of an array (frames, channels). Finer levels are left out where all together
+    would be longer than ``most_bytes``.
     """
     if not isinstance(recording, Motion | Signals):
         recording = Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
     signals = recording
-    curves, pieces = Curves(signals), dict[str, bytes]()
+    curves, tiles = Curves(signals), dict[str, bytes]()
     head, left = curves.head(), most_bytes
     for level in reversed(range(head.levels)):
         bins = level_sizes(signals.n_frames)[level]
-        places = [(c, level, n) for c in range(len(head.curves)) for n in range(ceil(bins / PIECE))]
+        places = [(c, level, n) for c in range(len(head.curves)) for n in range(ceil(bins / TILE))]
         left -= 8 * bins * len(head.curves)
-        if left < 0 and pieces:
+        if left < 0 and tiles:
             break
         for place in places:
-            pieces["/".join(map(str, place))] = curves.piece(lambda _: signals, *place) or b""
-    return head, pieces
+            tiles["/".join(map(str, place))] = curves.tile(lambda _: signals, *place) or b""
+    return head, tiles
 
 
 def levels_of(values: Floats) -> list[Pairs]:
-    """Least and greatest values of ever more frames.
+    """Least and greatest values (bins, 2) of ever more frames; the last has `TILE` bins at most.
 
-    Parameters
-    ----------
-    values : (frames,) or (frames, 2) array
-        nan where nothing was seen; two are the least and the greatest of a frame.
-
-    Returns
-    -------
-    list of (bins, 2) array
-        The last has at most `PIECE` bins.
+    Values are nan where nothing was seen; two are the least and the greatest of a frame.
 
     Examples
     --------
@@ -163,6 +129,6 @@ def levels_of(values: Floats) -> list[Pairs]:
 def level_sizes(n_frames: int) -> list[int]:
     """How many bins each level has."""
     sizes = [n_frames]
-    while sizes[-1] > PIECE:
+    while sizes[-1] > TILE:
         sizes.append(ceil(sizes[-1] / FACTOR))
     return sizes

@@ -37,24 +37,10 @@ FINE, COARSE = 1e-4, 5e-4  # steps, as shares of the body's largest extent
 def display_motion(
     motion: Motion, *, effectors: Names | None = None, most_bytes: int = MOST_BYTES
 ) -> tuple[MotionHead, bytes]:
-    """How to read the binary motion, and the binary motion.
+    """How to read the binary motion, and the binary motion, as described above.
 
-    Parameters
-    ----------
-    motion : Motion
-        What is to be shown.
-    effectors : mapping, optional
-        Joints that stand for head, hands and feet where names do not tell, as
-        `kineme.features.end_effectors` takes them.
-    most_bytes : int
-        Length above which fewer digits are sent, then fewer poses.
-
-    Returns
-    -------
-    MotionHead
-        Number and rate of the poses, joints, bones, and the scale of the numbers.
-    bytes
-        The poses, as described above.
+    ``effectors`` are as `kineme.features.end_effectors` takes them. Above ``most_bytes``, fewer
+    digits are sent, then fewer poses.
 
     Examples
     --------
@@ -92,19 +78,7 @@ def display_motion(
 
 
 def sampled(motion: Motion, fps: float) -> Floats:
-    """Poses at another rate, on straight lines between those of the frames.
-
-    Parameters
-    ----------
-    motion : Motion
-    fps : float
-        Poses per second.
-
-    Returns
-    -------
-    ndarray
-        Positions (samples, joints, 3) at 0, 1/fps, 2/fps, ... seconds; nan in the motion's gaps.
-    """
+    """Poses (samples, joints, 3) at another rate, on straight lines between frames; nan in gaps."""
     ratio = motion.fps / fps
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
     at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
@@ -120,40 +94,27 @@ def sampled(motion: Motion, fps: float) -> Floats:
 
 
 def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float], float, bytes]:
-    """Positions as whole numbers, compressed.
+    """Origin and step in metres, and positions (samples, joints, 3) as whole numbers, compressed.
 
-    Parameters
-    ----------
-    positions : ndarray
-        (samples, joints, 3) in metres; nan where not seen.
-    share : float
-        The step, as a share of the largest extent of the median pose. It
-        becomes larger where 16 bits do not reach both ends of the recording.
-
-    Returns
-    -------
-    origin : tuple of float
-        Metres.
-    step : float
-        Metres.
-    data : bytes
-        The compressed columns.
+    The step is a share of the largest extent of the median pose. It becomes larger where 16 bits do
+    not reach both ends of the recording.
     """
-    seen = np.asarray(np.isfinite(positions).all(axis=2))
-    everywhere = bool(seen.all())
-    points = positions.reshape(-1, 3) if everywhere else positions[seen]  # without a copy of hours
+    visible = np.asarray(np.isfinite(positions).all(axis=2))
+    everywhere = bool(visible.all())
+    # All of them without a copy, which would be of hours.
+    points = positions.reshape(-1, 3) if everywhere else positions[visible]
     if not len(points):
         points = np.zeros((1, 3))
     low, high = points.min(axis=0), points.max(axis=0)
     origin = (low + high) / 2
-    step = max(share * _extent(positions, seen), float((high - low).max()) / 65000) or 1.0
+    step = max(share * _extent(positions, visible), float((high - low).max()) / 65000) or 1.0
     numbers = np.full(positions.shape, MISSING, np.int16)
     if everywhere:
         for first in range(0, len(positions), BLOCK):
             span = slice(first, first + BLOCK)
             numbers[span] = np.rint((positions[span] - origin) / step)
     else:
-        numbers[seen] = np.rint((points[: seen.sum()] - origin) / step)
+        numbers[visible] = np.rint((points[: visible.sum()] - origin) / step)
     columns = np.ascontiguousarray(numbers.reshape(len(numbers), -1).T)
     columns[:, 1:] -= columns[:, :-1].copy()
     x, y, z = origin.tolist()
@@ -161,19 +122,10 @@ def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float],
 
 
 def bones(motion: Motion) -> list[tuple[int, int]]:
-    """Pairs of joints to draw a line between.
+    """Pairs of joints (parent, child) to draw a line between.
 
-    Of markers only the joints made from them are joined: the markers
-    themselves hang on the pelvis for want of anything better.
-
-    Parameters
-    ----------
-    motion : Motion
-
-    Returns
-    -------
-    list of tuple of int
-        (parent, child).
+    Of markers only the joints made from them are joined: the markers themselves hang on the pelvis
+    for want of anything better.
     """
     skeleton = motion.skeleton
     lengths = np.linalg.norm(skeleton.offsets, axis=1)
@@ -189,12 +141,12 @@ def bones(motion: Motion) -> list[tuple[int, int]]:
     return of_bodies or pairs
 
 
-def _extent(positions: Floats, seen: NDArray[np.bool_]) -> float:
+def _extent(positions: Floats, visible: NDArray[np.bool_]) -> float:
     """Largest extent of the median pose along an axis, in metres."""
-    whole = np.flatnonzero(seen.all(axis=1))
-    if not len(whole):
+    complete = np.flatnonzero(visible.all(axis=1))
+    if not len(complete):
         return 0.0
-    few = positions[whole[:: max(1, len(whole) // 1000)]]
+    few = positions[complete[:: max(1, len(complete) // 1000)]]
     return float(np.median(np.ptp(few, axis=1).max(axis=1)))
 
 

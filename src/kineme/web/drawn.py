@@ -23,7 +23,7 @@ class Drawn:
     values: Callable[[Motion | Signals], Floats]
     of_frames: bool = True
 
-    def seen(self, recording: Motion | Signals) -> Floats:
+    def with_gaps(self, recording: Motion | Signals) -> Floats:
         """The values, nan in gaps."""
         values = np.array(self.values(recording), np.float64)
         for start, stop in recording.gaps if self.of_frames else ():
@@ -52,11 +52,11 @@ def _in_frames(number: int, n_frames: int, fps: float) -> Callable[[Motion | Sig
         for start, stop in recording.gaps:
             channel[start:stop] = np.nan
         starts = np.floor(np.arange(n_frames) * (recording.fps / fps) + 1e-9).astype(np.intp)
-        there = starts[starts < len(channel)]
+        starts = starts[starts < len(channel)]
         found = np.full((n_frames, 2), np.nan)
-        if len(there):
-            found[: len(there), 0] = np.fmin.reduceat(channel, there)
-            found[: len(there), 1] = np.fmax.reduceat(channel, there)
+        if len(starts):
+            found[: len(starts), 0] = np.fmin.reduceat(channel, starts)
+            found[: len(starts), 1] = np.fmax.reduceat(channel, starts)
         return found
 
     return pairs

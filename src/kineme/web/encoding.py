@@ -15,15 +15,7 @@ Message = TypeVar("Message")
 def to_json(message: object) -> bytes:
     """A message as JSON; numbers that are not finite are null.
 
-    Parameters
-    ----------
-    message : object
-        A message, or anything made of messages, texts, numbers, lists and dicts.
-
-    Returns
-    -------
-    bytes
-        UTF-8. What is not Unicode in the name of a file becomes "?".
+    What is not Unicode in the name of a file becomes "?".
 
     Examples
     --------
@@ -37,24 +29,9 @@ def to_json(message: object) -> bytes:
 
 
 def from_json(body: bytes, kind: type[Message]) -> Message:
-    """The message in a body.
+    """The message in a body, whose fields are of their types and within their limits.
 
-    Parameters
-    ----------
-    body : bytes
-        JSON.
-    kind : type
-        A request of `kineme.web.requests`.
-
-    Returns
-    -------
-    Message
-        Of that type; every field of its own type and within its limits.
-
-    Raises
-    ------
-    ParameterError
-        The body is not JSON, or not that message: which field, and what is wrong with it.
+    ParameterError where it is no such message: which field, and what is wrong with it.
 
     Examples
     --------

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
-from kineme.web.edits import EditBase, Request, Text, Whole
 from kineme.web.messages import MotionHead
+from kineme.web.requests import EditBase, Integer, Request, Text
 
 MOST_EXAMPLES = 500
 """Examples, or counter-examples, of one search."""
@@ -111,7 +111,7 @@ class SearchRequest(Request, frozen=True, kw_only=True):
     threshold: Annotated[float, Meta(gt=0, le=10)]
     top: Annotated[int, Meta(ge=1, le=1000)]
     mirror: bool
-    cluster: Whole | UnsetType = UNSET
+    cluster: Integer | UnsetType = UNSET
 
 
 class CallHits(Request, frozen=True, kw_only=True):
@@ -124,21 +124,21 @@ class CallHits(Request, frozen=True, kw_only=True):
 class CallCluster(EditBase, frozen=True, kw_only=True, tag="name"):
     """A name for a cluster of the library; an empty one takes it away."""
 
-    cluster: Whole
+    cluster: Integer
     name: Text
 
 
 class JoinClusters(EditBase, frozen=True, kw_only=True, tag="merge"):
     """Others become part of a cluster of the library, which keeps its number and name."""
 
-    cluster: Whole
-    others: list[Whole]
+    cluster: Integer
+    others: list[Integer]
 
 
 class PartCluster(EditBase, frozen=True, kw_only=True, tag="split"):
     """What a cluster of the library has in some recordings becomes a cluster of its own."""
 
-    cluster: Whole
+    cluster: Integer
     recordings: list[Path]
 
 

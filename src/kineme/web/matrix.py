@@ -33,52 +33,27 @@ RATE = 10.0  # cells per second: what can still be told apart on a screen
 MOST_CELLS = 36_000  # an hour; longer recordings get fewer cells per second
 OFFSETS = (-0.2, -0.1, 0.0, 0.1, 0.2)  # seconds, as in the preset kineme
 MOST_BYTES = 9_000_000  # of the tiles in a report, see display.MOST_BYTES
-WHOLE = 24  # tiles a side up to which a report holds all of a level
+MOST_TILES = 24  # tiles a side up to which a report holds all of a level
 
 
 @dataclass(frozen=True, eq=False)
 class Matrix:
     """A recording's self-similarity: ``levels[L]`` holds the features of each cell of level L.
 
-    Parameters
-    ----------
-    fps : float
-        Cells of level 0 per second.
-    levels : tuple of ndarray
-        (cells, dims) each, in units of the scale; rows of nan where nothing was seen.
+    They are (cells, dims), in units of the scale, nan where nothing was seen; level 0 has ``fps``
+    cells a second.
     """
 
     fps: float
     levels: tuple[NDArray[np.float32], ...]
 
     def head(self, band: int | None = None) -> MatrixHead:
-        """What a page needs to know of the tiles.
-
-        Parameters
-        ----------
-        band : int, optional
-            How far from the diagonal the tiles of a report reach, in cells; None: everywhere.
-
-        Returns
-        -------
-        MatrixHead
-        """
+        """What a page needs to know of the tiles; in a report they may fill a ``band`` only."""
         sizes = [len(level) for level in self.levels]
         return MatrixHead(fps=self.fps, tile=TILE, sizes=sizes, band=band)
 
     def tile(self, level: int, row: int, column: int) -> bytes | None:
-        """One tile.
-
-        Parameters
-        ----------
-        level, row, column : int
-            Its place in the pyramid, each from 0.
-
-        Returns
-        -------
-        bytes or None
-            A PNG; None where there is no such tile.
-        """
+        """The PNG of a tile; None where there is no such one."""
         if not 0 <= level < len(self.levels) or min(row, column) < 0:
             return None
         features = self.levels[level]
@@ -88,26 +63,14 @@ class Matrix:
         return _png(_similarity(down, across))
 
     def report_tiles(self, most_bytes: int = MOST_BYTES) -> tuple[dict[str, bytes], int | None]:
-        """The tiles that a report holds, and the band that they fill.
+        """The tiles of a report by "level/row/column", and the band of cells that they fill.
 
-        Those on and below the diagonal: all of the coarse levels; of the fine
-        ones those at the diagonal, then those next to it, as long as there is
-        room.
-
-        Parameters
-        ----------
-        most_bytes : int
-            Length of all of them together.
-
-        Returns
-        -------
-        tiles : dict
-            PNGs by "level/row/column".
-        band : int or None
-            How far from the diagonal they reach, in cells; None if none was left out.
+        Those on and below the diagonal: all of the coarse levels; of the fine ones those at the
+        diagonal, then those next to it, as long as there is room. The band is None if none was left
+        out.
         """
         sides = [ceil(len(features) / TILE) for features in self.levels]
-        coarse = [level for level, side in enumerate(sides) if side <= WHOLE]
+        coarse = [level for level, side in enumerate(sides) if side <= MOST_TILES]
         places = [
             (level, row, column)
             for level in reversed(coarse)
@@ -132,30 +95,19 @@ class Matrix:
 
 
 def pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
-    """The matrix of features at every zoom.
+    """The matrix of features (samples, dims) at every zoom; ``seconds`` is the recording's length.
 
-    Parameters
-    ----------
-    values : ndarray
-        (samples, dims), so scaled that two of them are ``exp(-1)`` similar at a distance of 1;
-        nan where nothing was seen.
-    fps : float
-        Samples per second.
-    seconds : float
-        Length of the recording.
-
-    Returns
-    -------
-    Matrix
+    They are so scaled that two of them are ``exp(-1)`` similar at a distance of 1; nan where
+    nothing was seen.
     """
     rate = min(RATE, fps, MOST_CELLS / seconds)
     middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
     stacked = np.concatenate([_at(values, middles + offset, fps) for offset in OFFSETS], axis=1)
     stacked /= np.sqrt(len(OFFSETS))
-    seen = np.asarray(np.isfinite(stacked).all(axis=1))
-    total = np.where(seen[:, None], stacked, 0.0)
-    squares, counts = total**2, seen.astype(float)[:, None]
-    levels = [np.where(seen[:, None], total, np.nan).astype(np.float32)]
+    visible = np.asarray(np.isfinite(stacked).all(axis=1))
+    total = np.where(visible[:, None], stacked, 0.0)
+    squares, counts = total**2, visible.astype(float)[:, None]
+    levels = [np.where(visible[:, None], total, np.nan).astype(np.float32)]
     while len(total) > TILE:
         total, squares, counts = (_in_pairs(sums) for sums in (total, squares, counts))
         # 0 / 0: where nothing was seen there is nothing to compare.

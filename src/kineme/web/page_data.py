@@ -29,20 +29,8 @@ Shown = Motion | Signals | ArrayLike
 class PageData:
     """All that a page draws of a recording, whatever becomes of its segments.
 
-    Parameters
-    ----------
-    n_frames : int
-        Length of the recording.
-    fps : float
-        Frames per second of the recording.
-    motion : MotionHead or None
-        How to read ``binary``; None for signals.
-    binary : bytes
-        The poses, see `kineme.web.display`; empty for signals.
-    matrix : Matrix
-        The self-similarity of the recording.
-    warnings : list of str
-        What there was to warn of when it was read.
+    ``motion`` says how to read ``binary``, the poses (`kineme.web.display`): None and empty for
+    signals.
     """
 
     n_frames: int
@@ -56,25 +44,9 @@ class PageData:
 def page_data(
     recording: Shown, *, fps: float | None = None, effectors: Names | None = None
 ) -> PageData:
-    """What a page draws of a motion, of signals, or of an array.
+    """What a page draws of a motion, of signals, or of an array (frames, channels) with its rate.
 
-    Parameters
-    ----------
-    recording : Motion, Signals or array_like
-        Arrays are (frames, channels).
-    fps : float, optional
-        Frames per second of an array; recordings know their own.
-    effectors : mapping, optional
-        Joints that stand for head, hands and feet where names do not tell.
-
-    Returns
-    -------
-    PageData
-
-    Raises
-    ------
-    ParameterError
-        An array without frame rate, or of another shape.
+    ParameterError for an array without frame rate, or of another shape.
 
     Examples
     --------
@@ -106,29 +78,10 @@ def recording_message(
     band: int | None = None,
     levels: bool = False,
 ) -> Recording:
-    """The message that goes with the binary parts of a report.
+    """The message that goes with the binary parts of a report, and with tiles of this band.
 
-    Parameters
-    ----------
-    data : PageData
-        Of the recording.
-    segmentation : Segmentation
-        Of the same recording.
-    name : str
-        What people call it.
-    band : int, optional
-        Of the tiles that go along, see `kineme.web.matrix.Matrix.report_tiles`.
-    levels : bool
-        Whether the tables at all details go along, unless they are too long.
-
-    Returns
-    -------
-    Recording
-
-    Raises
-    ------
-    ParameterError
-        The segments are of a recording of another length or frame rate.
+    With ``levels`` the tables at all details go along, unless they are too long. ParameterError
+    where the segments are of a recording of another length or frame rate.
     """
     frames, fps = segmentation.n_frames, segmentation.fps
     if frames != data.n_frames or not np.isclose(fps, data.fps, rtol=1e-6, atol=0):
@@ -156,16 +109,7 @@ def recording_message(
 
 
 def segments_message(segmentation: Segmentation) -> Segments:
-    """A segment table as pages have it.
-
-    Parameters
-    ----------
-    segmentation : Segmentation
-
-    Returns
-    -------
-    Segments
-    """
+    """A segment table as pages have it."""
     rows = list(segmentation)
     spans = {mark: marked(segmentation, mark) for mark in get_args(Mark)}
     return Segments(
@@ -188,10 +132,10 @@ def segments_message(segmentation: Segmentation) -> Segments:
 
 def _levels(segmentation: Segmentation) -> list[TableAtDetail]:
     """The tables at all details; none where there is one, or where they would fill the page."""
-    known = segmentation.hierarchy
-    if known is None or sum(map(len, known.tables)) > MOST_ROWS:
+    hierarchy = segmentation.hierarchy
+    if hierarchy is None or sum(map(len, hierarchy.tables)) > MOST_ROWS:
         return []
-    tables = zip(known.details, known.tables, strict=True)
+    tables = zip(hierarchy.details, hierarchy.tables, strict=True)
     return [TableAtDetail(detail=detail, segments=list(table)) for detail, table in tables]
 
 

@@ -28,16 +28,6 @@ MOST_CHANNELS = 16
 def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matrix:
     """The matrix of a motion; of the distances between its points where it has no known body.
 
-    Parameters
-    ----------
-    motion : Motion
-    effectors : mapping, optional
-        Joints that stand for head, hands and feet where names do not tell.
-
-    Returns
-    -------
-    Matrix
-
     Examples
     --------
     >>> import kineme
@@ -59,23 +49,9 @@ def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matri
 
 
 def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
-    """The matrix of any signal.
+    """The matrix of any signal (frames, channels) or (frames,); nan for what was not seen.
 
-    Parameters
-    ----------
-    values : array_like
-        (frames, channels), or (frames,); nan for what was not seen.
-    fps : float
-        Frames per second.
-
-    Returns
-    -------
-    Matrix
-
-    Raises
-    ------
-    ParameterError
-        No frames, no channels, no numbers, or a frame rate that is not positive.
+    ParameterError for what is no such signal, or a frame rate that is not positive.
 
     Examples
     --------
@@ -102,31 +78,31 @@ def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
 
 def _distances(motion: Motion) -> Floats:
     """The features of a motion without a body, in units of the scale; any values in its gaps."""
-    seen = np.ones(motion.n_frames, np.bool_)
+    visible = np.ones(motion.n_frames, np.bool_)
     for start, stop in motion.gaps:
-        seen[start:stop] = False
-    if motion.skeleton.n_joints < 2 or not seen.any():
+        visible[start:stop] = False
+    if motion.skeleton.n_joints < 2 or not visible.any():
         return np.zeros((motion.n_frames, 1))
-    features, _ = distance_features(motion.positions[seen])
+    features, _ = distance_features(motion.positions[visible])
     values = np.zeros((motion.n_frames, features.shape[1]))
-    values[seen] = features / (BODY_SCALE * SIZE)
+    values[visible] = features / (BODY_SCALE * SIZE)
     return values
 
 
 def _standardised(values: Floats) -> Floats:
     """The channels over their deviation, the main ones of many, 1 apart where ``d`` is to be 1."""
-    seen = np.asarray(np.isfinite(values).all(axis=1))
-    if not seen.any():
+    visible = np.asarray(np.isfinite(values).all(axis=1))
+    if not visible.any():
         return np.full((len(values), 1), np.nan)
-    out = np.where(seen[:, None], values, np.nan) - values[seen].mean(axis=0)
-    deviation = out[seen].std(axis=0)
+    out = np.where(visible[:, None], values, np.nan) - values[visible].mean(axis=0)
+    deviation = out[visible].std(axis=0)
     out = out[:, deviation > 0] / deviation[deviation > 0]
     if out.shape[1] == 0:
-        return np.where(seen[:, None], 0.0, np.nan)
+        return np.where(visible[:, None], 0.0, np.nan)
     if out.shape[1] > MOST_CHANNELS:
         from scipy.linalg import eigh
 
         n = out.shape[1]
-        axes = eigh(np.cov(out[seen].T), subset_by_index=(n - MOST_CHANNELS, n - 1))[1]
+        axes = eigh(np.cov(out[visible].T), subset_by_index=(n - MOST_CHANNELS, n - 1))[1]
         out = out @ axes
-    return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[seen].var(axis=0).sum())))
+    return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[visible].var(axis=0).sum())))

@@ -12,22 +12,24 @@ import secrets
 import shutil
 import time
 import unicodedata
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 from urllib.parse import quote
 
+from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
 
 from kineme._files import hold, is_held
 from kineme.errors import ParameterError, WriteError
 from kineme.formats import supported_formats
 from kineme.labels import label_formats
-from kineme.web.encoding import to_json
+from kineme.web.encoding import from_json, to_json
 
 SLOWEST = 60.0
 """Seconds between two pieces of a request."""
@@ -59,6 +61,20 @@ def file_response(name: str, content: bytes) -> Response:
 def number_in(text: str) -> int:
     """The number in an address; -1, which nothing has, for anything else."""
     return int(text) if text.isascii() and text.isdigit() and len(text) < 9 else -1
+
+
+def route(path: str, work: Callable[..., object], sent: Any = None) -> Route:
+    """An address that is answered from a thread of its own; with ``sent``, by what is sent there.
+
+    ``work`` takes the request and the message of that type, and gives a message or a response.
+    """
+
+    async def answer(request: Request) -> Response:
+        given = () if sent is None else (from_json(await body(request), sent),)
+        found = await run_in_threadpool(work, request, *given)
+        return found if isinstance(found, Response) else MessageResponse(found)
+
+    return Route(path, answer, methods=["GET" if sent is None else "POST"])
 
 
 class TooSlowError(Exception):
@@ -96,25 +112,9 @@ async def body(request: Request) -> bytes:
 class Upload:
     """A file on its way in; leaving the block removes what was not given its name.
 
-    Parameters
-    ----------
-    root : Path
-        The folder.
-    name : str
-        As the page sends it.
-    length : int or None
-        Bytes, where the page announces how many.
-    limit : int
-        Bytes.
-
-    Raises
-    ------
-    ParameterError
-        A name that no file the studio opens has.
-    TooLargeError
-        The length announced is over the limit, or there is no room for it.
-    WriteError
-        The folder cannot be written to.
+    ``length`` is what the page announces. Refused are names that no file the studio opens has
+    (ParameterError), what is too long or has no room (TooLargeError), and what cannot be written
+    (WriteError).
     """
 
     def __init__(self, root: Path, name: str, *, length: int | None = None, limit: int = LIMIT):
@@ -157,13 +157,7 @@ class Upload:
             raise TooLargeError(f"{self.name} cannot be written: {error.strerror}") from error
 
     def finish(self) -> Path:
-        """Give the file its name.
-
-        Returns
-        -------
-        Path
-            Of the file; of the same one if it is there already.
-        """
+        """The path under which the file is there now, or was before."""
         self._file.close()
         for path in _free_names(self._root / self.name):
             if path.is_file() and self._is_in(path):

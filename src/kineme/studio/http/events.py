@@ -26,15 +26,7 @@ class Hub:
         """Set once a page listens, which it does when it has listed the recordings."""
 
     def tell(self, recording: str, revision: int) -> None:
-        """Send news to every page.
-
-        Parameters
-        ----------
-        recording : str
-            Its id.
-        revision : int
-            Of its table, as it is now; 0: the recording is new.
-        """
+        """Send every page the revision of a recording's table; 0: the recording is new."""
         if self._loop is not None:
             news = Changed(recording=recording, revision=revision)
             with suppress(RuntimeError):  # the server has ended

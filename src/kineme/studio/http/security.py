@@ -28,6 +28,8 @@ IN_ADDRESS = ("/", "/api/events")
 VIDEO = "/video"
 """Paths that take the token in their address: browsers send no headers for these."""
 TRUSTED = "kineme.trusted"
+DEVELOPMENT = "http://127.0.0.1:5173"
+"""Where ``npm run dev`` serves the pages from their sources."""
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
@@ -53,22 +55,15 @@ def new_token() -> str:
 
 
 class Guard:
-    """An application behind these rules.
+    """An application behind these rules; in ``development`` its server may ask, too."""
 
-    Parameters
-    ----------
-    app : ASGIApp
-    token : str
-        What requests must carry.
-    port : int
-        The server's own.
-    """
-
-    def __init__(self, app: ASGIApp, *, token: str, port: int):
+    def __init__(self, app: ASGIApp, *, token: str, port: int, development: bool = False):
         self._app = app
         self._token = token.encode()
         hosts = [f"{name}:{port}" for name in ("127.0.0.1", "localhost")]
         self._origins = {f"http://{host}" for host in hosts}
+        if development:
+            self._origins.add(DEVELOPMENT)
         self._hosts = {*hosts, "127.0.0.1", "localhost"} if port == 80 else {*hosts}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:

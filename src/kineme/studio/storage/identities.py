@@ -29,13 +29,8 @@ LONGEST_ORIGIN = 8
 class Identities:
     """The identities of the segments of one table.
 
-    Parameters
-    ----------
-    origin : str
-        The edit that made the table; empty for one that was found.
-    others : dict of str
-        By level and first frame (``p150``): the identities of segments that came from elsewhere
-        or started elsewhere.
+    ``origin`` is the edit that made it, empty for one that was found; ``others`` has, by level and
+    first frame (``p150``), identities of segments that came from or started elsewhere.
     """
 
     origin: str = ""
@@ -43,14 +38,6 @@ class Identities:
 
     def of(self, table: Segmentation) -> list[str]:
         """The identity of each row of the table.
-
-        Parameters
-        ----------
-        table : Segmentation
-
-        Returns
-        -------
-        list of str
 
         Examples
         --------
@@ -66,21 +53,8 @@ class Identities:
     ) -> Identities:
         """Those of the table that an edit makes of another.
 
-        Parameters
-        ----------
-        before : Segmentation
-            The table of these identities.
-        now : Segmentation
-            What it became.
-        edit : str
-            The name of the edit.
-        replaced : bool
-            Whether it is another table: then who has the same frames is the same. Else it is who
-            starts where it did, and of the others who started nearest by.
-
-        Returns
-        -------
-        Identities
+        In one that is ``replaced``, who has the same frames is the same. Else it is who starts
+        where it did, and of the others who started nearest by.
         """
         edit = edit[:LONGEST_ORIGIN]
         identities = dict(zip(map(_key, before), self.of(before), strict=True))
@@ -104,15 +78,6 @@ class Identities:
 
 def descent(before: Sequence[int], now: Iterable[int]) -> dict[int, int]:
     """Where the segments of a level that start at ``now`` started before; new ones are left out.
-
-    Parameters
-    ----------
-    before, now : sequences of int
-        First frames in time order.
-
-    Returns
-    -------
-    dict of int
 
     Examples
     --------

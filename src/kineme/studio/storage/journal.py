@@ -31,7 +31,7 @@ from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.identities import Identities
 from kineme.studio.storage.sidecars import FOLDER, read_sidecar, write_file
-from kineme.web.edits import Edit
+from kineme.web.requests import Edit
 
 MOST_KEPT = 200
 MOST_NAMES = 200
@@ -43,20 +43,9 @@ HISTORY = "history.json"
 
 @dataclass(frozen=True)
 class Step:
-    """A table of the history, and how it came about.
+    """A table of the history: when it came about (ISO 8601), its digest, and by which edit.
 
-    Parameters
-    ----------
-    at : str
-        When, ISO 8601.
-    sha256 : str
-        Of the file.
-    n_frames : int
-        Of the recording.
-    edit : Edit or None
-        As a page sent it; None for what was found, or written by another program.
-    ids : Identities
-        Who its segments are.
+    None is for what was found, or written by another program. ``ids`` say who its segments are.
     """
 
     at: str
@@ -90,20 +79,11 @@ class Change:
 
 
 class Journal:
-    """The history of one table.
+    """The history of one table; ``notes`` say that a damaged one was left alone.
 
-    Parameters
-    ----------
-    table_path : Path
-        The file that people have.
-    table : Segmentation
-        What is in it; or was found, if it is not there. Where the history ends with another
-        table, that one is kept. Nothing is written before the first change.
-
-    Attributes
-    ----------
-    notes : list of str
-        What people should know: that a damaged history was left alone.
+    ``table`` is what the file that people have holds, or what was found if it is not there. Where
+    the history ends with another table, that one is kept. Nothing is written before the first
+    change.
     """
 
     def __init__(self, table_path: Path, table: Segmentation):
@@ -160,13 +140,7 @@ class Journal:
         return {number: steps[number] for number in numbers if steps[number].n_frames == n_frames}
 
     def table(self, number: int) -> Segmentation:
-        """A table of the history.
-
-        Raises
-        ------
-        ReadError
-            It is not there any more.
-        """
+        """A table of the history; ReadError where it is not there any more."""
         if number in self._unsaved:
             return self._unsaved[number]
         return read_segments(self._path(number), format="json")
@@ -179,22 +153,10 @@ class Journal:
         replaced: bool = False,
         ids: Identities = OF_A_FIRST_TABLE,
     ) -> Change:
-        """The history with a new table.
+        """The history with a new table, made by an edit or by nobody.
 
-        Parameters
-        ----------
-        table : Segmentation
-        edit : Edit or None
-            What made it.
-        replaced : bool
-            It takes the place of the present one, which is kept. So is, in any case, the last
-            of those that could have been redone.
-        ids : Identities
-            Who its segments are.
-
-        Returns
-        -------
-        Change
+        The present one is kept where it is ``replaced``; so is, in any case, the last of those that
+        could have been redone.
         """
         history, steps = self._record.history, self._record.steps
         number = max([0, *steps, *self._numbers()]) + 1
@@ -228,20 +190,8 @@ class Journal:
     ) -> None:
         """Have a change on the disk, and then what ``save`` does with its table.
 
-        Parameters
-        ----------
-        change : Change
-        save : callable
-            Where it raises, the change has not been made.
-        revision : int
-            Of the table from then on.
-        name : str
-            Of the edit, by which it is known from now on.
-
-        Raises
-        ------
-        WriteError
-            It cannot be written.
+        Where that raises, the change has not been made. From then on the table has this revision,
+        and the edit is known by its name.
         """
         names = (*self._record.names, name)[-MOST_NAMES:]
         record = pruned(replace(change.record, revision=revision, names=names))
@@ -294,19 +244,7 @@ class Journal:
 
 
 def read_record(folder: Path) -> tuple[Record, list[str]]:
-    """The history in a folder, and what people should know of it.
-
-    Parameters
-    ----------
-    folder : Path
-
-    Returns
-    -------
-    record : Record
-        An empty one where there is none that can be read.
-    notes : list of str
-        That a damaged one was left alone.
-    """
+    """The history in a folder, empty where none can be read, and what people should know of it."""
     record, notes = read_sidecar(folder / HISTORY, Record, Record())
     complete = record.schema == SCHEMA and needed_by(record) <= record.steps.keys()
     if complete or record == Record():

@@ -21,8 +21,8 @@ from kineme._files import atomic_write, refuse_link
 from kineme._json import loaded
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
-from kineme.web.edits import LARGEST
 from kineme.web.messages import Video
+from kineme.web.requests import LARGEST
 
 FOLDER = ".kineme"
 OPTIONS = ("person", "fps", "unit", "up")
@@ -48,26 +48,13 @@ def options_of(recording: Path) -> dict[str, Any]:
     return _reading(recording)[0]
 
 
-def notes_on_reading(recording: Path) -> list[str]:
-    """That what was said of a recording cannot be read, where it cannot."""
-    return _reading(recording)[1]
-
-
 def read_options(recording: Path, general: ReadOptions) -> ReadOptions:
     """How a recording is read: as people said of it, else as of all."""
     return replace(general, **options_of(recording))
 
 
 def keep_options(recording: Path, options: dict[str, Any]) -> None:
-    """Keep what people say of how a recording is read.
-
-    Raises
-    ------
-    ParameterError
-        A value that an option does not take.
-    WriteError
-        It cannot be written.
-    """
+    """Keep what people say of how a recording is read; ParameterError for a wrong value."""
     given = {name: value for name, value in options.items() if name in OPTIONS and value}
     ReadOptions(**given)
     write_file(_sidecar(recording, "reading"), json.dumps(given).encode())
@@ -93,11 +80,6 @@ def offset_of(recording: Path) -> float:
     return _video(recording)[0].offset_s
 
 
-def notes_on_video(recording: Path) -> list[str]:
-    """That the offset of a video cannot be read, where it cannot."""
-    return _video(recording)[1]
-
-
 def set_offset(recording: Path, seconds: float) -> None:
     """Keep the offset of the video; WriteError where it cannot be written."""
     write_file(_sidecar(recording, "video"), json.dumps({"offset_s": seconds}).encode())
@@ -108,41 +90,23 @@ def shared_labels(root: Path) -> list[str]:
     return _labels(root)[0]
 
 
-def notes_on_labels(root: Path) -> list[str]:
-    """That the labels of a folder cannot be read, where they cannot."""
-    return _labels(root)[1]
-
-
 def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
-    """Keep these labels, each once, for the folder.
-
-    Raises
-    ------
-    WriteError
-        They cannot be written.
-    """
+    """Keep these labels, each once, for the folder."""
     unique = list(dict.fromkeys(label.strip() for label in labels if label.strip()))
     write_file(root / FOLDER / LABELS, json.dumps(unique, ensure_ascii=False, indent=1).encode())
     return unique
 
 
+def notes_on_sidecars(recording: Path) -> list[str]:
+    """Which of the files of a recording and its folder cannot be read, and why."""
+    found = (_reading(recording), _video(recording), _labels(recording.parent))
+    return [note for _, notes in found for note in notes]
+
+
 def read_sidecar(path: Path, shape: type[Content], otherwise: Content) -> tuple[Content, list[str]]:
     """What a side file holds, and what people should know of it.
 
-    Parameters
-    ----------
-    path : Path
-        It need not be there.
-    shape : type
-        Of what it holds.
-    otherwise : object
-        What counts where there is none, or none that can be read.
-
-    Returns
-    -------
-    content : object
-    notes : list of str
-        That a damaged file was left alone, and why.
+    ``otherwise`` counts where there is none, or a damaged one, which is left alone.
     """
     try:
         return loaded(path, shape), []
@@ -155,10 +119,7 @@ def read_sidecar(path: Path, shape: type[Content], otherwise: Content) -> tuple[
 def write_file(path: Path, content: bytes) -> None:
     """Have a file of ``.kineme`` on the disk, whole or not at all, with the folders around it.
 
-    Raises
-    ------
-    WriteError
-        It cannot be written; it, ``.kineme`` or a folder between is a link.
+    WriteError where it cannot be; it, ``.kineme`` or a folder between is a link.
     """
     _make_folder(path.parent)
     with atomic_write(path) as draft:

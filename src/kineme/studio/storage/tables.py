@@ -25,13 +25,7 @@ class ChangedOnDiskError(Exception):
 
 
 class TableFile:
-    """The file that a table is saved in, as it was last read or written here.
-
-    Parameters
-    ----------
-    path : Path
-        It need not exist.
-    """
+    """The file that a table is saved in, as it was last read or written here; or will be."""
 
     def __init__(self, path: Path):
         self.path = path
@@ -57,16 +51,8 @@ class TableFile:
     def write(self, segmentation: Segmentation) -> None:
         """Save the table, on the disk; all of it, or nothing.
 
-        Parameters
-        ----------
-        segmentation : Segmentation
-
-        Raises
-        ------
-        ChangedOnDiskError
-            Somebody else has changed the file, which stays as it is.
-        WriteError
-            It cannot be written, or is a link to elsewhere.
+        ChangedOnDiskError where somebody else has changed the file, which stays as it is;
+        WriteError where it cannot be written, or is a link to elsewhere.
         """
         text = json_table.dumps(segmentation).encode()
         with atomic_write(self.path) as draft:
@@ -81,28 +67,10 @@ class TableFile:
 def saved_table(
     recording: Path, fits: Callable[[Segmentation], bool], others: set[Path]
 ) -> tuple[TableFile, Segmentation | None, list[str]]:
-    """Where the recording's table is saved, and the table if it has been.
+    """Where the recording's table is saved, the table if it has been, and files left alone.
 
-    Parameters
-    ----------
-    recording : Path
-    fits : callable
-        Whether a table is of this recording.
-    others : set of Path
-        Files that hold the tables of other recordings.
-
-    Returns
-    -------
-    file : TableFile
-    table : Segmentation or None
-        None where none has been saved.
-    notes : list of str
-        What people should know: files that were left alone.
-
-    Raises
-    ------
-    WriteError
-        No name is left for the table.
+    ``fits`` says whether a table is of this recording; ``others`` hold the tables of other
+    recordings. WriteError where no name is left.
     """
     notes: list[str] = []
     for path in _candidates(recording):

@@ -1,13 +1,13 @@
-"""The TypeScript types of the messages, made from their msgspec structs.
+"""The TypeScript types of the messages and of the server's paths.
 
     python src/kineme/web/pages/make_messages.py
 
 writes ``src/messages.ts`` beside this file from `kineme.web.messages`,
-`kineme.web.folder_messages`, `kineme.web.library_messages`, `kineme.web.edits`
-and `kineme.web.requests`: the same names, with their docstrings. Generators
-that start from JSON Schema lose the names of ``Level`` and ``Edit`` and need a
-node package more; this one reads ``msgspec.inspect``. A test fails while the
-two sides differ.
+`kineme.web.requests` and `kineme.web.library_messages`: the same names, with
+their docstrings. Generators that start from JSON Schema lose the names of
+``Level`` and ``Edit`` and need a node package more; this one reads
+``msgspec.inspect``. ``src/studio/server/paths.ts`` has the paths of
+`kineme.studio`. A test fails while the two sides differ.
 """
 
 from __future__ import annotations
@@ -20,16 +20,17 @@ from types import ModuleType, UnionType
 from typing import Any, Literal, get_origin
 
 from msgspec import Struct, inspect, to_builtins
+from starlette.routing import Route
 
 from kineme._files import atomic_write
 from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.table import COLUMNS, Kind, Level, Segment
-from kineme.web import edits, folder_messages, library_messages, messages, requests
+from kineme.studio.library_routes import LibraryApi
+from kineme.studio.routes import Api
+from kineme.web import library_messages, messages, requests
 
-TARGET = Path(__file__).parent / "src" / "messages.ts"
-HEAD = (
-    "// Made from kineme/web (messages, edits, requests) by make_messages.py; change them there.\n"
-)
+SOURCES = Path(__file__).parent / "src"
+HEAD = "// Made from kineme/web (messages, requests) by make_messages.py; change them there.\n"
 FIRST = {str: "activity", int: 0, float: 0.0}
 """What a column that is always needed has in a row of which nothing is known."""
 BARE = {
@@ -172,10 +173,37 @@ def _comment(text: str) -> str:
 def messages_typescript() -> str:
     """What ``messages.ts`` holds."""
     of_table = {"Level": Level, "Kind": Kind, "Segment": Segment, "Annotation": Annotation}
-    types = types_of(messages, folder_messages, edits, requests, library_messages)
+    types = types_of(messages, requests, library_messages)
     return f"{typescript(of_table | types)}\n{_bare()}"
 
 
+def paths_typescript() -> str:
+    """What ``studio/server/paths.ts`` holds."""
+    nobody: Any = None  # routes are listed without anyone to answer
+    routes = [*Api(nobody, nobody).routes(), *LibraryApi(nobody, nobody).routes()]
+    return (
+        "// Made from the routes of kineme/studio by make_messages.py; change them there.\n\n"
+        "/** What is asked for; names in braces are filled in. */\n"
+        f"export type GetPath ={_paths(routes, 'GET')};\n\n"
+        "/** Where something is sent to. */\n"
+        f"export type PostPath ={_paths(routes, 'POST')};\n"
+    )
+
+
+def _paths(routes: list[Route], method: str) -> str:
+    paths = sorted(route.path for route in routes if method in (route.methods or ()))
+    return "".join(f'\n  | "{path}"' for path in paths if ":" not in path)  # but for any other
+
+
+def made() -> dict[Path, str]:
+    """The files that are made, and what they hold."""
+    return {
+        SOURCES / "messages.ts": messages_typescript(),
+        SOURCES / "studio" / "server" / "paths.ts": paths_typescript(),
+    }
+
+
 if __name__ == "__main__":
-    with atomic_write(TARGET) as draft:
-        draft.write_text(messages_typescript(), encoding="utf-8")
+    for target, text in made().items():
+        with atomic_write(target) as draft:
+            draft.write_text(text, encoding="utf-8")

@@ -1,8 +1,13 @@
 import { createHash } from "node:crypto";
 import { fileURLToPath } from "node:url";
-import { defineConfig, type Plugin } from "vite";
+import { defineConfig, type Connect, type Plugin } from "vite";
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+
+const GENERATED = "Built from src/kineme/web/pages by npm run build: change it there.";
+
+/** `kineme studio --dev`, which allows the pages of this development server. */
+const STUDIO = `http://127.0.0.1:${process.env.KINEME_PORT ?? 8750}`;
 
 // Names without hashes: the built files are committed, and a rebuild must give the same ones.
 const names = {
@@ -15,7 +20,13 @@ export default defineConfig(({ mode }) => {
   const page = mode === "report" || mode === "library" ? mode : "studio";
   return {
     base: "./",
-    plugins: page === "report" ? [oneFile()] : [],
+    plugins: [page === "report" && oneFile(), generated(), pageOfStudio()],
+    server: {
+      host: "127.0.0.1",
+      port: 5173,
+      strictPort: true, // the studio allows no other
+      proxy: { "/api": { target: STUDIO, changeOrigin: true } },
+    },
     build: {
       outDir: here("../static"),
       emptyOutDir: page === "studio", // the studio is built first
@@ -28,9 +39,50 @@ export default defineConfig(({ mode }) => {
         output: { ...names, codeSplitting: false },
       },
     },
-    test: { include: ["tests/**/*.test.ts"] },
+    test: { include: ["tests/**/*.test.{ts,tsx}"] },
   };
 });
+
+/** While developing: the sources of the page that the studio shows at an address. */
+function pageOfStudio(): Plugin {
+  const answer: Connect.NextHandleFunction = (request, _response, next) => {
+    const url = request.url ?? "";
+    if (!/^\/(\?|$)/.test(url)) return next();
+    fetch(STUDIO + url)
+      .then((shown) => shown.text())
+      .then((html) => {
+        const page = html.includes("assets/library.js") ? "library" : "studio";
+        request.url = url.replace("/", `/${page}.html`);
+        next();
+      })
+      .catch(() => next(new Error(`Nothing answers at ${STUDIO}: start kineme studio --dev.`)));
+  };
+  return {
+    name: "page-of-studio",
+    apply: "serve",
+    configureServer: (server) => void server.middlewares.use(answer),
+  };
+}
+
+/** Says at the head of built files that they are. */
+function generated(): Plugin {
+  return {
+    name: "generated",
+    enforce: "post",
+    generateBundle(_options, bundle) {
+      for (const file of Object.values(bundle)) {
+        if (file.type === "chunk") file.code = `/* ${GENERATED} */\n${file.code}`;
+        else if (file.fileName.endsWith(".css"))
+          file.source = `/* ${GENERATED} */\n${String(file.source)}`;
+        else if (file.fileName.endsWith(".html"))
+          file.source = String(file.source).replace(
+            /^.*\n/,
+            (first) => `${first}<!-- ${GENERATED} -->\n`,
+          );
+      }
+    },
+  };
+}
 
 /** The report as one page: script and style inside it, and a policy that lets nothing else run. */
 function oneFile(): Plugin {

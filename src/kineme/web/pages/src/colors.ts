@@ -44,25 +44,25 @@ export function labelColors(
     most.set(label, seconds);
     if (cluster >= 0) seconds.set(cluster, (seconds.get(cluster) ?? 0) + stop_s - start_s);
   }
-  const taken = new Set(rows.map(({ cluster }) => clusterColor(cluster)));
+  const used = new Set(rows.map(({ cluster }) => clusterColor(cluster)));
   const colors = new Map<string, string>();
   for (const label of [...most.keys()].sort()) {
     const [first] = [...most.get(label)!].sort((a, b) => b[1] - a[1]);
-    const color = first ? clusterColor(first[0]) : freeColor(label, taken);
-    taken.add(color);
+    const color = first ? clusterColor(first[0]) : freeColor(label, used);
+    used.add(color);
     colors.set(label, color);
   }
   return colors;
 }
 
 /** A colour for a text, the same on every day; another one where that is taken. */
-function freeColor(text: string, taken: ReadonlySet<string>): string {
+function freeColor(text: string, used: ReadonlySet<string>): string {
   let hash = 2166136261; // FNV-1a
   for (let i = 0; i < text.length; i++) hash = Math.imul(hash ^ text.charCodeAt(i), 16777619);
   const all = PALETTE.length * MIXES.length;
   for (let i = 0; i < all; i++) {
     const color = clusterColor(((hash >>> 0) + i) % all);
-    if (!taken.has(color)) return color;
+    if (!used.has(color)) return color;
   }
   return clusterColor((hash >>> 0) % all);
 }

@@ -1,4 +1,4 @@
-// Made from kineme/web (messages, edits, requests) by make_messages.py; change them there.
+// Made from kineme/web (messages, requests) by make_messages.py; change them there.
 
 export type Level = "activity" | "primitive";
 
@@ -123,7 +123,7 @@ export interface Curve {
 export interface CurveList {
   curves: Curve[];
   factor: number;
-  piece: number;
+  tile: number;
   levels: number;
 }
 

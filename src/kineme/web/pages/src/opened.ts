@@ -13,12 +13,12 @@ export interface OpenRecording {
 }
 
 /** A recording that the page itself may show otherwise. */
-export interface OwnRecording extends OpenRecording {
+export interface ShownRecording extends OpenRecording {
   recording: Signal<Recording>;
 }
 
 /** A recording from where its data are; the motion comes later, so that the lanes show at once. */
-export async function openRecording(data: RecordingData): Promise<OwnRecording> {
+export async function openRecording(data: RecordingData): Promise<ShownRecording> {
   const recording = signal(await data.recording());
   return { data, recording, motion: signal<Motion | null>(null) };
 }

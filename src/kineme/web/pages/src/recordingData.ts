@@ -10,13 +10,13 @@ export interface RecordingData {
   /** The curves there are to draw; null where none can be had. */
   curves(): Promise<CurveList | null>;
   /** Pairs of least and greatest values, see kineme.web.curves; null where there is none. */
-  piece(curve: number, level: number, number: number): Promise<ArrayBuffer | null>;
+  curveTile(curve: number, level: number, number: number): Promise<ArrayBuffer | null>;
 }
 
 /** The data inside a report: three script elements that no browser runs. */
 export class EmbeddedData implements RecordingData {
   private readonly tiles: Record<string, string>;
-  private readonly drawn: { list: CurveList; pieces: Record<string, string> } | null;
+  private readonly drawn: { list: CurveList; tiles: Record<string, string> } | null;
 
   constructor(private readonly page: Document = document) {
     this.tiles = JSON.parse(this.text("kineme-tiles") || "{}") as Record<string, string>;
@@ -43,8 +43,8 @@ export class EmbeddedData implements RecordingData {
     return Promise.resolve(this.drawn?.list ?? null);
   }
 
-  piece(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
-    const text = this.drawn?.pieces[`${curve}/${level}/${number}`];
+  curveTile(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
+    const text = this.drawn?.tiles[`${curve}/${level}/${number}`];
     return Promise.resolve(text ? bytesOf(text).buffer : null);
   }
 

@@ -114,10 +114,10 @@ export function labelsOf(lane: readonly Segment[]): LabelCount[] {
   for (const segment of lane) {
     const { label } = segment;
     if (!label) continue;
-    const known = counts.get(label) ?? { label, count: 0, total_s: 0 };
-    known.count += 1;
-    known.total_s += durationOf(segment);
-    counts.set(label, known);
+    const total = counts.get(label) ?? { label, count: 0, total_s: 0 };
+    total.count += 1;
+    total.total_s += durationOf(segment);
+    counts.set(label, total);
   }
   return [...counts.values()].sort((a, b) => b.total_s - a.total_s);
 }

@@ -28,18 +28,18 @@ export interface OtherResult {
   marked?: boolean;
 }
 
-export interface Marks {
+export interface Bounds {
   start_s: number | null;
   stop_s: number | null;
 }
 
-export const UNMARKED: Marks = { start_s: null, stop_s: null };
+export const UNBOUNDED: Bounds = { start_s: null, stop_s: null };
 
 /** The details a result can be looked at, coarsest first, and the one that is. */
 export interface Levels {
   all: readonly number[];
   detail: number;
-  choose(detail: number): void;
+  choose: (detail: number) => void;
 }
 
 export class State {
@@ -52,7 +52,7 @@ export class State {
   readonly speed = signal(1);
   readonly loop = signal<Span | null>(null);
   /** Where what one is interested in starts and stops, seconds; null: not marked. */
-  readonly marks = signal<Marks>(UNMARKED);
+  readonly bounds = signal<Bounds>(UNBOUNDED);
   /** A segment that was chosen; it is left where the playhead leaves it. */
   readonly selection = signal<Selection | null>(null);
   /** The level one works in. */

@@ -3,7 +3,7 @@ import { batch } from "@preact/signals";
 import type { Segment } from "./messages";
 import type { OpenRecording } from "./opened";
 import { durationOf, indexAt } from "./segments";
-import { State, UNMARKED } from "./state";
+import { State, UNBOUNDED } from "./state";
 import { following, inside, panned, zoomed, type Span } from "./view";
 
 export class Store extends State {
@@ -95,18 +95,18 @@ export class Store extends State {
   mark(end: "start_s" | "stop_s"): void {
     const before = this.markedSpan();
     const here = this.playhead.value;
-    const at = this.marks.value[end] === here ? null : here;
-    const marks = { ...this.marks.value, [end]: at };
-    const { start_s, stop_s } = marks;
+    const at = this.bounds.value[end] === here ? null : here;
+    const bounds = { ...this.bounds.value, [end]: at };
+    const { start_s, stop_s } = bounds;
     if (start_s !== null && stop_s !== null && stop_s <= start_s)
-      marks[end === "start_s" ? "stop_s" : "start_s"] = null;
-    this.marks.value = marks;
+      bounds[end === "start_s" ? "stop_s" : "start_s"] = null;
+    this.bounds.value = bounds;
     if (this.loop.value && before) this.loop.value = this.markedSpan();
   }
 
   /** What is between the marks; one alone reaches to the end or the start of the recording. */
   markedSpan(): Span | null {
-    const { start_s, stop_s } = this.marks.value;
+    const { start_s, stop_s } = this.bounds.value;
     if (start_s === null && stop_s === null) return null;
     return { start_s: start_s ?? 0, stop_s: stop_s ?? this.duration.value };
   }
@@ -162,7 +162,7 @@ export class Store extends State {
       this.inStep.value = false;
       this.ghost.value = null;
       this.zoom.value = null;
-      this.marks.value = UNMARKED;
+      this.bounds.value = UNBOUNDED;
       this.playing.value = false;
       this.current.value = index;
     });

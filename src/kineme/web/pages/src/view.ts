@@ -65,9 +65,9 @@ export function ticksOf(range: Span, width: number, apart = 64): Tick[] {
 /** 75.5 -> "1:15.5"; hours where there are any. */
 export function clock(seconds: number, digits = 0): string {
   const units = Math.round(seconds * 10 ** digits);
-  const whole = Math.floor(units / 10 ** digits);
+  const full = Math.floor(units / 10 ** digits);
   const rest = digits ? `.${String(units % 10 ** digits).padStart(digits, "0")}` : "";
   const two = (value: number): string => String(value).padStart(2, "0");
-  const [h, m, s] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
+  const [h, m, s] = [Math.floor(full / 3600), Math.floor(full / 60) % 60, full % 60];
   return (h ? `${h}:${two(m)}` : `${m}`) + `:${two(s)}${rest}`;
 }

@@ -1,6 +1,6 @@
 /** The rooms of the pages: no circles between files, no folder too full to find one's way in. */
 import { readdirSync, readFileSync, statSync } from "node:fs";
-import { dirname, join, normalize } from "node:path";
+import { basename, dirname, join, normalize } from "node:path";
 import { expect, test } from "vitest";
 
 const SRC = join(import.meta.dirname, "..", "src");
@@ -43,6 +43,14 @@ test("what the report and the studio share knows neither of them", () => {
   const pages = /\/src\/(report|studio)\//;
   const shared = files.filter((file) => !pages.test(file));
   expect(shared.filter((file) => importsOf(file).some((each) => pages.test(each)))).toEqual([]);
+});
+
+test("the server is asked in one place", () => {
+  const asking = files.filter((file) =>
+    /\bfetch\(|EventSource\(|XMLHttpRequest\(|["`]\/api/.test(readFileSync(file, "utf-8")),
+  );
+  const allowed = ["api.ts", "paths.ts", "libraryApi.ts"];
+  expect(asking.filter((file) => !allowed.includes(basename(file)))).toEqual([]);
 });
 
 test.each(folders)("%s holds no more files than one looks through", (folder) => {

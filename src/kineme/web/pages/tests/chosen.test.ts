@@ -8,7 +8,7 @@ const list: CurveList = {
     joints.map((name) => ({ name, group, unit: "m" })),
   ),
   factor: 4,
-  piece: 1024,
+  tile: 1024,
   levels: 1,
 };
 let chosen: typeof import("../src/channels/chosen");

@@ -51,7 +51,7 @@ test("borders that only one of two results has are marked, in both", () => {
   const theirs = tableOf([segment(0, 12), segment(12, 30), segment(30, 40)]);
   const marks = (marked: boolean) =>
     layOut({ activities, primitives, other: { name: "", segmentation: theirs, marked } }, 160).map(
-      (lane) => [...lane.marks],
+      (lane) => [...lane.differences],
     );
   expect(marks(true)).toEqual([[0], [10], [], [], [12]]);
   expect(marks(false).flat()).toEqual([]);

@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 import type { Recording } from "../src/messages";
-import type { OwnRecording } from "../src/opened";
+import type { ShownRecording } from "../src/opened";
 import type { RecordingData } from "../src/recordingData";
 import { Store } from "../src/store";
 import { segment, tableOf } from "./recordings";
@@ -85,7 +85,7 @@ test("the view follows the playhead, and all of it is shown again at the end of 
 test("a selection that an edit took away is none", () => {
   const store = page();
   store.select(primitives[1]!);
-  const opened = store.active.value as OwnRecording;
+  const opened = store.active.value as ShownRecording;
   const { segmentation } = opened.recording.value;
   const segments = segmentation.segments.filter((each) => each.start_frame !== 10);
   opened.recording.value = {

@@ -1,10 +1,12 @@
 /** Where the result comes from, and what it cost. */
 import type { ComponentChildren, JSX } from "preact";
+import { useStore } from "../context";
 import type { Recording, Segment } from "../messages";
 import type { Store } from "../store";
 import { clock } from "../view";
 
-export function About({ store }: { store: Store }): JSX.Element | null {
+export function About(): JSX.Element | null {
+  const store = useStore();
   const recording = store.recording.value;
   if (!recording) return null;
   const { provenance, timings } = recording.segmentation;
@@ -66,7 +68,8 @@ function Value({ of }: { of: unknown }): JSX.Element {
     );
   if (Array.isArray(of)) return <>{of.map((each) => String(each)).join(", ")}</>;
   if (of === null) return <>none</>;
-  return <>{typeof of === "number" ? rounded(of) : String(of)}</>;
+  if (typeof of === "string") return <>{of}</>;
+  return <>{typeof of === "number" ? rounded(of) : JSON.stringify(of)}</>;
 }
 
 function Sentences({ title, of }: { title: string; of: readonly string[] }): JSX.Element | null {

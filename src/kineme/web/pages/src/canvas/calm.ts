@@ -18,6 +18,6 @@ export function useCalm<T>(
       last = now;
       calm.value = value;
     });
-  }, [fast, playing]);
+  }, [fast, playing, calm]);
   return calm;
 }

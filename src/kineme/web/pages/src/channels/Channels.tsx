@@ -2,6 +2,7 @@
 import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { useCalm } from "../canvas/calm";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
@@ -12,20 +13,20 @@ import { toPixel } from "../view";
 import { ChannelChoice } from "./ChannelChoice";
 import { endsOf, rowsOf } from "./chosen";
 import { boxOf, drawChannels, type Row } from "./drawing";
-import { Pieces } from "./pieces";
+import { CurveTiles } from "./tiles";
 
 interface Props {
-  store: Store;
   /** Whether times are written above. */
   ruler?: boolean;
 }
 
-export function Channels({ store, ruler = false }: Props): JSX.Element | null {
+export function Channels({ ruler = false }: Props): JSX.Element | null {
+  const store = useStore();
   const data = store.active.value?.data;
-  const came = useSignal<Pieces | null>(null);
+  const loaded = useSignal<CurveTiles | null>(null);
   // Those of the recording before are never asked for what is shown of this one.
-  const pieces = useComputed(() =>
-    came.value?.data === store.active.value?.data ? came.value : null,
+  const current = useComputed(() =>
+    loaded.value?.data === store.active.value?.data ? loaded.value : null,
   );
   const gestures = useMemo(
     () =>
@@ -40,16 +41,16 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
     let asked = true;
     void data?.curves().then(
       (list) => {
-        if (asked && list) came.value = new Pieces(data, list);
+        if (asked && list) loaded.value = new CurveTiles(data, list);
       },
       () => undefined,
     );
     return () => void (asked = false);
-  }, [data]);
-  const known = pieces.value;
-  if (!known) return <div class="channels" aria-busy="true" />;
+  }, [data, loaded]);
+  const tiles = current.value;
+  if (!tiles) return <div class="channels" aria-busy="true" />;
   const ends = endsOfShown(store);
-  const rows = rowsOf(known.list, ends);
+  const rows = rowsOf(tiles.list, ends);
   const names = rows.map(({ head }) => `${head.name} ${head.group}`).join(", ");
   return (
     <div class="channels">
@@ -59,17 +60,17 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
           label={`Curves over time: ${names}. Click to go there; use the wheel to zoom, drag to pan.`}
           watch={() =>
             void [
-              rowsOf(known.list, endsOfShown(store)),
-              known.arrived.value,
+              rowsOf(tiles.list, endsOfShown(store)),
+              tiles.arrived.value,
               store.range.value,
               store.primitives.value,
               store.activities.value,
               store.labelColors.value,
-              pieces.value,
+              current.value,
             ]
           }
           draw={(pen, width, height) => {
-            const now = pieces.value;
+            const now = current.value;
             if (!now) return;
             const shown = rowsOf(now.list, endsOfShown(store));
             drawChannels(pen, shown, now, store, { width, height, ruler });
@@ -84,8 +85,8 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
           <Line share={toPixel(store.range.value, 1, store.playhead.value)} />
         </div>
       )}
-      <Values store={store} rows={rows} pieces={known} ruler={ruler} />
-      <ChannelChoice list={known.list} ends={ends} />
+      <Values rows={rows} tiles={tiles} ruler={ruler} />
+      <ChannelChoice list={tiles.list} ends={ends} />
     </div>
   );
 }
@@ -96,19 +97,15 @@ function endsOfShown(store: Store): string[] {
 }
 
 /** What each curve is at the playhead. */
-function Values(props: {
-  store: Store;
-  rows: readonly Row[];
-  pieces: Pieces;
-  ruler: boolean;
-}): JSX.Element {
-  const { store, rows, pieces, ruler } = props;
+function Values(props: { rows: readonly Row[]; tiles: CurveTiles; ruler: boolean }): JSX.Element {
+  const store = useStore();
+  const { rows, tiles, ruler } = props;
   const frame = useCalm(store.frame, store.playing);
-  void pieces.arrived.value;
+  void tiles.arrived.value;
   return (
     <div class="channel-values number" aria-hidden="true">
       {rows.map(({ curve, head }, i) => {
-        const value = pieces.at(curve, frame.value);
+        const value = tiles.at(curve, frame.value);
         const [top] = boxOf(i, rows.length, 100, false);
         const text = value === null || Number.isNaN(value) ? "–" : shortNumber(value);
         return (

@@ -32,8 +32,8 @@ export function rowsOf(list: CurveList, ends: readonly string[]): Row[] {
 export function toggle(list: CurveList, ends: readonly string[], curve: Curve): void {
   const shown = rowsOf(list, ends).map(({ head }) => nameOf(head));
   const name = nameOf(curve);
-  const own = new Set(list.curves.map(nameOf));
-  const others = chosen.value.filter((each) => !own.has(each)); // of other kinds of recordings
+  const names = new Set(list.curves.map(nameOf));
+  const others = chosen.value.filter((each) => !names.has(each)); // of other kinds of recordings
   const next = shown.includes(name) ? shown.filter((each) => each !== name) : [...shown, name];
   chosen.value = [...others, ...next];
   localStorage.setItem(KEY, JSON.stringify(chosen.value));

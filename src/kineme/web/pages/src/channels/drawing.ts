@@ -6,7 +6,7 @@ import { drawRuler, FONT, shortened } from "../timeline/frame";
 import { GUTTER, RULER, visible } from "../timeline/lanes";
 import { toPixel } from "../view";
 import { levelFor, outlineOf, type Outline } from "./outline";
-import type { Pieces } from "./pieces";
+import type { CurveTiles } from "./tiles";
 
 type Pen = CanvasRenderingContext2D;
 
@@ -34,7 +34,7 @@ export function boxOf(row: number, rows: number, height: number, ruler: boolean)
 export function drawChannels(
   pen: Pen,
   rows: readonly Row[],
-  pieces: Pieces,
+  tiles: CurveTiles,
   store: Store,
   { width, height, ruler }: { width: number; height: number; ruler: boolean },
 ): void {
@@ -52,7 +52,7 @@ export function drawChannels(
     pen.rect(0, top, room, tall);
     pen.clip();
     drawSegments(pen, store, box);
-    drawCurve(pen, row.curve, pieces, store, box);
+    drawCurve(pen, row.curve, tiles, store, box);
     pen.restore();
   });
 }
@@ -93,8 +93,8 @@ function drawSegments(pen: Pen, store: Store, { top, height, room }: Box): void 
   }
 }
 
-function drawCurve(pen: Pen, curve: number, pieces: Pieces, store: Store, box: Box): void {
-  const bounds = pieces.bounds(curve);
+function drawCurve(pen: Pen, curve: number, tiles: CurveTiles, store: Store, box: Box): void {
+  const bounds = tiles.bounds(curve);
   if (!bounds) return;
   const [low, high] = bounds[0] < bounds[1] ? bounds : [bounds[0] - 1, bounds[1] + 1];
   const scale = (box.height - 2 * PAD) / (high - low);
@@ -106,36 +106,36 @@ function drawCurve(pen: Pen, curve: number, pieces: Pieces, store: Store, box: B
   pen.strokeStyle = cssColor("text");
   pen.lineWidth = 1.2;
   pen.lineJoin = "round";
-  stroke(pen, shownOf(curve, pieces, store, box.room), y);
+  stroke(pen, shownOf(curve, tiles, store, box.room), y);
 }
 
 /** As fine as the screen; what has not come yet is drawn as coarse as it is known. */
-function shownOf(curve: number, pieces: Pieces, store: Store, room: number): Outline {
-  const { factor, levels, piece } = pieces.list;
+function shownOf(curve: number, tiles: CurveTiles, store: Store, room: number): Outline {
+  const { factor, levels, tile } = tiles.list;
   const range = store.range.value;
   const fps = store.fps.value;
   const frames = store.recording.value?.n_frames ?? 0;
   const perPixel = ((range.stop_s - range.start_s) * fps) / room;
-  const whole = (level: number): Outline => {
+  const outlineAt = (level: number): Outline => {
     const wide = factor ** level;
     const bins = Math.ceil(frames / wide);
     let number = -1;
     let pairs: Float32Array | null = null;
     const bin = (i: number): readonly [number, number] | null => {
-      if (Math.floor(i / piece) !== number) {
-        number = Math.floor(i / piece);
-        pairs = pieces.get(curve, level, number);
+      if (Math.floor(i / tile) !== number) {
+        number = Math.floor(i / tile);
+        pairs = tiles.get(curve, level, number);
         if (!pairs?.length) missing = true;
       }
-      const at = 2 * (i - number * piece);
+      const at = 2 * (i - number * tile);
       return pairs?.length ? [pairs[at]!, pairs[at + 1]!] : null;
     };
     return outlineOf(bin, bins, fps / wide, range, room);
   };
   let missing = false;
-  const fine = whole(levelFor(perPixel, factor, levels));
+  const fine = outlineAt(levelFor(perPixel, factor, levels));
   if (!missing) return fine;
-  const coarse = whole(levels - 1);
+  const coarse = outlineAt(levels - 1);
   return {
     low: fine.low.map((value, i) => (Number.isNaN(value) ? coarse.low[i]! : value)),
     high: fine.high.map((value, i) => (Number.isNaN(value) ? coarse.high[i]! : value)),

@@ -1,4 +1,4 @@
-/** From pieces of a curve to what each pixel shows of it. Pure functions. */
+/** From tiles of a curve to what each pixel shows of it. Pure functions. */
 import type { Span } from "../view";
 
 /** The least and the greatest value in each column of pixels; NaN where there is none. */

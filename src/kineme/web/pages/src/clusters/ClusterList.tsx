@@ -1,22 +1,23 @@
 /** Every cluster with its colour, how often it occurs and how long it lasts; else the labels. */
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { clusterColor, NO_COLOR } from "../colors";
 import type { Segment } from "../messages";
 import { labelsOf, type Cluster } from "../segments";
-import type { Store } from "../store";
 import { clock } from "../view";
 import { ClusterName } from "./ClusterName";
 
-export function ClusterList({ store }: { store: Store }): JSX.Element {
+export function ClusterList(): JSX.Element {
+  const store = useStore();
   const clusters = store.clusters.value;
-  if (clusters.length === 0) return <LabelList store={store} />;
+  if (clusters.length === 0) return <LabelList />;
   const most = Math.max(...clusters.map((cluster) => cluster.members.length));
   return (
     <table class="clusters">
       <Head first="Cluster" />
       <tbody onPointerLeave={() => (store.hovered.value = null)}>
         {clusters.map((cluster) => (
-          <Row key={cluster.id} cluster={cluster} store={store} most={most} />
+          <Row key={cluster.id} cluster={cluster} most={most} />
         ))}
       </tbody>
     </table>
@@ -42,11 +43,11 @@ function Head({ first }: { first: string }): JSX.Element {
 
 interface RowProps {
   cluster: Cluster;
-  store: Store;
   most: number;
 }
 
-function Row({ cluster, store, most }: RowProps): JSX.Element {
+function Row({ cluster, most }: RowProps): JSX.Element {
+  const store = useStore();
   const { id, members, mean_s, total_s } = cluster;
   const shown = store.cluster.value === id;
   return (
@@ -56,7 +57,7 @@ function Row({ cluster, store, most }: RowProps): JSX.Element {
       onClick={() => store.selectCluster(id)}
     >
       <th scope="row">
-        <ClusterName cluster={cluster} store={store} />
+        <ClusterName cluster={cluster} />
       </th>
       <Counts color={clusterColor(id)} {...{ count: members.length, most, mean_s, total_s }} />
     </tr>
@@ -84,7 +85,8 @@ function Counts(props: {
 }
 
 /** The labels of a table that has no clusters: somebody named what happens, nobody grouped it. */
-function LabelList({ store }: { store: Store }): JSX.Element {
+function LabelList(): JSX.Element {
+  const store = useStore();
   const { primitives, activities } = store;
   const lane = primitives.value.some((each) => each.label) ? primitives : activities;
   const labels = labelsOf(lane.value);

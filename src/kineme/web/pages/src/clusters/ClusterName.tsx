@@ -2,12 +2,13 @@
 import { useSignal } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { clusterColor } from "../colors";
 import { NameInput } from "../layout/NameInput";
 import type { Cluster } from "../segments";
-import type { Store } from "../store";
 
-export function ClusterName({ cluster, store }: { cluster: Cluster; store: Store }): JSX.Element {
+export function ClusterName({ cluster }: { cluster: Cluster }): JSX.Element {
+  const store = useStore();
   const { id, label } = cluster;
   const naming = useSignal(false);
   const field = useRef<HTMLInputElement>(null);

@@ -1,6 +1,7 @@
 /** What can be done to clusters where edits are possible: numbered anew, two made one. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import type { Cluster } from "../segments";
 import type { Store } from "../store";
 
@@ -11,7 +12,8 @@ const ORDERS: readonly (readonly [string, (a: Cluster, b: Cluster) => number])[]
   ["by name", (a, b) => (a.label || "\uffff").localeCompare(b.label || "\uffff") || a.id - b.id],
 ];
 
-export function ClusterTools({ store }: { store: Store }): JSX.Element | null {
+export function ClusterTools(): JSX.Element | null {
+  const store = useStore();
   const into = useSignal("");
   const edits = store.edits.value;
   const clusters = store.clusters.value;

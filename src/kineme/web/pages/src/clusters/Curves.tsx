@@ -2,6 +2,7 @@
 import { computed, useSignal } from "@preact/signals";
 import { useMemo } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
 import { clusterColor } from "../colors";
@@ -23,15 +24,16 @@ import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
 const MOST = 150; // curves drawn, and members that the mean is of
 const FEW = 12; // members looked at to choose a joint
 
-export function Curves({ store }: { store: Store }): JSX.Element {
+export function Curves(): JSX.Element {
+  const store = useStore();
   const chosen = useSignal<Partial<Track>>({});
-  const shown = useMemo(() => computed(() => contentOf(store, chosen.value)), [store]);
+  const shown = useMemo(() => computed(() => contentOf(store, chosen.value)), [store, chosen]);
   const member = useMemo(
     () => computed(() => (shown.value ? memberAt(store, shown.value) : -1)),
-    [store],
+    [store, shown],
   );
   const content = shown.value;
-  if (!content) return <Missing store={store} />;
+  if (!content) return <Missing />;
   const { motion, track, members, phases, color } = content;
   const all = store.shownCluster.value?.members.length ?? 0;
   const turned = phases.filter((phase) => phase > 0).length;
@@ -84,7 +86,7 @@ export function Curves({ store }: { store: Store }): JSX.Element {
             if (nearest) store.select(nearest);
           }}
         />
-        <Now store={store} members={members} phases={phases} />
+        <Now members={members} phases={phases} />
       </div>
       <p class="quiet note">
         {memberCount}, mean ± deviation, seen from the pelvis
@@ -122,12 +124,9 @@ function memberAt(store: Store, { members }: Content): number {
 }
 
 /** How far the present repetition is; apart from the canvas, so that playing redraws no curves. */
-function Now(props: {
-  store: Store;
-  members: readonly Segment[];
-  phases: readonly number[];
-}): JSX.Element {
-  const { store, members, phases } = props;
+function Now(props: { members: readonly Segment[]; phases: readonly number[] }): JSX.Element {
+  const store = useStore();
+  const { members, phases } = props;
   const at = store.playhead.value;
   const number = members.findIndex((each) => each.start_s <= at && at < each.stop_s);
   const present = members[number];
@@ -140,7 +139,8 @@ function Now(props: {
   );
 }
 
-function Missing({ store }: { store: Store }): JSX.Element {
+function Missing(): JSX.Element {
+  const store = useStore();
   const bodiless = store.recording.value?.motion === null;
   return (
     <p class="empty quiet">

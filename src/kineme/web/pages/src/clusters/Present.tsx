@@ -1,17 +1,18 @@
 /** The primitive under the playhead, and the way to the others of its cluster. */
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
-import type { Store } from "../store";
 import { IconButton } from "../transport/icons";
-import { surenessOf } from "../sureness";
+import { confidenceOf } from "../confidence";
 import { clock } from "../view";
 
-export function Present({ store }: { store: Store }): JSX.Element | null {
+export function Present(): JSX.Element | null {
+  const store = useStore();
   const segment = store.present.value;
   if (!segment) return null;
   const table = store.recording.value?.segmentation;
-  const sureness = table && surenessOf(table).get(segment);
+  const confidence = table && confidenceOf(table).get(segment);
   const cluster = store.clusters.value.find((each) => each.id === segment.cluster);
   const members = cluster?.members ?? [];
   const at = members.indexOf(segment);
@@ -37,7 +38,7 @@ export function Present({ store }: { store: Store }): JSX.Element | null {
       </p>
       <p class="quiet number">
         {clock(segment.start_s, 2)} to {clock(segment.stop_s, 2)} · {durationOf(segment).toFixed(2)}{" "}
-        s{sureness?.text && <span title={sureness.why}> · {sureness.text}</span>}
+        s{confidence?.text && <span title={confidence.why}> · {confidence.text}</span>}
       </p>
     </section>
   );

@@ -100,8 +100,8 @@ export function liveliest(
       const { mean } = spreadOf(
         members.map((member, i) => curveOf(motion, member, track, COARSE, phases[i])),
       );
-      const seen = mean.filter((value) => !Number.isNaN(value));
-      const extent = Math.max(...seen) - Math.min(...seen);
+      const finite = mean.filter((value) => !Number.isNaN(value));
+      const extent = Math.max(...finite) - Math.min(...finite);
       if (extent > most) [best, most] = [{ joint, axis }, extent];
     }
   }

@@ -11,7 +11,7 @@ import { headingAt, poseAt, rootOf, type Motion } from "../motion";
 import { AXES, component, someOf } from "./curves";
 
 const POINTS = 60; // of a cycle; phases are told as finely
-const ROW = POINTS + 1; // with the moment at which the next one begins
+const ROW = POINTS + 1; // with the point at which the next one begins
 const FEW = 6; // members that an activity is told by
 const MOST_JOINTS = 12;
 /** It is another phase where turning leaves less than this share of what differs. */
@@ -70,8 +70,8 @@ function meanCycle(motion: Motion, group: readonly Segment[], joints: number[]):
 
 /** Takes the mean off, in place; what is missing is as the mean. */
 function center(values: Float64Array): void {
-  const seen = values.filter((value) => !Number.isNaN(value));
-  const mean = seen.reduce((sum, value) => sum + value, 0) / Math.max(seen.length, 1);
+  const finite = values.filter((value) => !Number.isNaN(value));
+  const mean = finite.reduce((sum, value) => sum + value, 0) / Math.max(finite.length, 1);
   values.forEach((value, i) => (values[i] = Number.isNaN(value) ? 0 : value - mean));
 }
 
@@ -83,7 +83,7 @@ function turned(reference: Float64Array, other: Float64Array): number {
   return least < LEFT * differences[0]! ? differences.indexOf(least) / POINTS : 0;
 }
 
-/** Whether it ends where it began: both are nearer to each other than two moments are on average. */
+/** Whether it ends where it began: both are nearer to each other than two points are on average. */
 function isClosed(cycle: Float64Array): boolean {
   let [gap, squares] = [0, 0];
   for (let row = 0; row < cycle.length; row += ROW)

@@ -1,22 +1,24 @@
 /** How fine the segments are: coarser to the left, finer to the right. */
 import type { JSX } from "preact";
-import { positionOf, type Store } from "../store";
+import { useStore } from "../context";
+import { positionOf } from "../store";
 
-export function DetailSlider({ store }: { store: Store }): JSX.Element | null {
+export function DetailSlider(): JSX.Element | null {
+  const store = useStore();
   const levels = store.levels.value;
   if (!levels || levels.all.length < 2) return null;
   const { all, detail, choose } = levels;
-  const said = detail === 1 ? "as usual" : detail < 1 ? "coarser" : "finer";
+  const description = detail === 1 ? "as usual" : detail < 1 ? "coarser" : "finer";
   return (
     <label class="detail" title="How fine the segments are (comma coarser, full stop finer)">
       <span>
-        Detail <span class="quiet">{said}</span>
+        Detail <span class="quiet">{description}</span>
       </span>
       <span class="number">{Number(detail.toFixed(3))}</span>
       <input
         type="range"
         aria-label="Detail"
-        aria-valuetext={`${detail}, ${said}`}
+        aria-valuetext={`${detail}, ${description}`}
         min={0}
         max={all.length - 1}
         step={1}

@@ -17,8 +17,8 @@ interface Props {
 }
 
 export function Tabs({ label, tabs, open }: Props): JSX.Element {
-  const own = useSignal(tabs[0]?.id ?? "");
-  const shown = open ?? own;
+  const chosen = useSignal(tabs[0]?.id ?? "");
+  const shown = open ?? chosen;
   const tab = tabs.find((each) => each.id === shown.value) ?? tabs[0];
   const onKeyDown = (event: KeyboardEvent): void => {
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];

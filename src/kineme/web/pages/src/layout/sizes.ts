@@ -10,10 +10,10 @@ export interface Size {
 }
 
 const KEY = "kineme.sizes";
-const known = remembered();
+const stored = remembered();
 
 function size(name: string, title: string, least: number): Size {
-  return { name, title, least, pixels: signal(known[name] ?? null) };
+  return { name, title, least, pixels: signal(stored[name] ?? null) };
 }
 
 export const SIZES = {
@@ -34,10 +34,10 @@ export function sizeStyle(): Record<string, string> {
 }
 
 /** Sets a size within what the page has room for; null: as the page has it. */
-export function setSize({ name, least, pixels }: Size, wanted: number | null, most: number): void {
-  pixels.value = wanted === null ? null : Math.round(Math.min(Math.max(wanted, least), most));
-  known[name] = pixels.value;
-  localStorage.setItem(KEY, JSON.stringify(known));
+export function setSize({ name, least, pixels }: Size, extent: number | null, most: number): void {
+  pixels.value = extent === null ? null : Math.round(Math.min(Math.max(extent, least), most));
+  stored[name] = pixels.value;
+  localStorage.setItem(KEY, JSON.stringify(stored));
 }
 
 function remembered(): Record<string, number | null> {

@@ -1,16 +1,17 @@
 /** The self-similarity matrix: similar frames are bright; click to go there. */
 import { useMemo } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
-import type { Store } from "../store";
 import { theme } from "../theme";
 import { clock, toPixel, type Span } from "../view";
 import { drawMatrix, EDGE } from "./drawing";
 import { MatrixGestures } from "./gestures";
 import { Tiles } from "./tiles";
 
-export function Matrix({ store }: { store: Store }): JSX.Element {
+export function Matrix(): JSX.Element {
+  const store = useStore();
   const data = store.active.value?.data;
   const tiles = useMemo(() => (data ? new Tiles(data) : null), [data]);
   const gestures = useMemo(() => new MatrixGestures(store), [store]);
@@ -42,7 +43,7 @@ export function Matrix({ store }: { store: Store }): JSX.Element {
           }}
           gestures={gestures}
         />
-        <Cross store={store} rows={rows} />
+        <Cross rows={rows} />
       </div>
       <p class="matrix-note quiet number">
         {pointed.value
@@ -54,7 +55,8 @@ export function Matrix({ store }: { store: Store }): JSX.Element {
 }
 
 /** The playhead on both axes. */
-function Cross({ store, rows }: { store: Store; rows: { value: Span } }): JSX.Element {
+function Cross({ rows }: { rows: { value: Span } }): JSX.Element {
+  const store = useStore();
   const { playhead, range } = store;
   return (
     <div class="cross">

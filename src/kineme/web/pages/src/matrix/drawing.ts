@@ -47,13 +47,13 @@ export function drawMatrix(
 }
 
 /** A tile, or the part of a coarser one that stands in for it. */
-function drawTile(pen: Pen, head: MatrixHead, tiles: Tiles, wanted: Place, frame: Frame): void {
-  for (let place = wanted; place.level < head.sizes.length; place = parentOf(place)) {
+function drawTile(pen: Pen, head: MatrixHead, tiles: Tiles, target: Place, frame: Frame): void {
+  for (let place = target; place.level < head.sizes.length; place = parentOf(place)) {
     const stored = storedPlace(place);
     const picture = tiles.get(stored.place);
     if (!picture) continue;
     pen.save();
-    clipTo(pen, head, wanted, frame);
+    clipTo(pen, head, target, frame);
     const seconds = cellSeconds(head, place.level);
     const { start_s, stop_s } = frame.across;
     const scale = (frame.side / (stop_s - start_s)) * seconds; // pixels per cell

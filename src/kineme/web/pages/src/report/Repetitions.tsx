@@ -1,12 +1,13 @@
 /** The table of repetitions; on paper it follows the pictures. */
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
-import type { Store } from "../store";
 import { clock } from "../view";
 import { repetitionsOf } from "./repetitions";
 
-export function Repetitions({ store }: { store: Store }): JSX.Element | null {
+export function Repetitions(): JSX.Element | null {
+  const store = useStore();
   const table = store.recording.value?.segmentation;
   const rows = table ? repetitionsOf(table) : [];
   if (!rows.length) return <p class="empty quiet">Nothing repeats itself here.</p>;
@@ -49,7 +50,8 @@ export function Repetitions({ store }: { store: Store }): JSX.Element | null {
 }
 
 /** What is printed below the pictures: what was found in what, and the repetitions. */
-export function Paper({ store }: { store: Store }): JSX.Element | null {
+export function Paper(): JSX.Element | null {
+  const store = useStore();
   const recording = store.recording.value;
   if (!recording) return null;
   const { provenance } = recording.segmentation;
@@ -61,7 +63,7 @@ export function Paper({ store }: { store: Store }): JSX.Element | null {
         {typeof provenance.preset === "string" && `, segmented by ${provenance.preset}`}
       </p>
       <h2>Repetitions</h2>
-      <Repetitions store={store} />
+      <Repetitions />
     </section>
   );
 }

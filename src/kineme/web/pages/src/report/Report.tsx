@@ -1,5 +1,6 @@
 /** The page of a report. */
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { About, aboutTitle } from "../about/About";
 import { Keys } from "../about/Keys";
 import { PAGE_KEYS } from "../keys";
@@ -9,7 +10,6 @@ import { DetailSlider } from "../layout/DetailSlider";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
 import { MatrixPlace } from "../matrix/MatrixPlace";
-import type { Store } from "../store";
 import { theme, toggleTheme } from "../theme";
 import { Timeline } from "../timeline/Timeline";
 import { IconButton } from "../transport/icons";
@@ -17,44 +17,40 @@ import { Transport } from "../transport/Transport";
 import { Viewer } from "../viewer/Viewer";
 import { Paper, Repetitions } from "./Repetitions";
 
-export function Report({ store }: { store: Store }): JSX.Element {
+export function Report(): JSX.Element {
+  const store = useStore();
   const tabs = [
     {
       id: "clusters",
       title: "Clusters",
       panel: () => (
         <>
-          <DetailSlider store={store} />
-          <Clusters store={store} />
+          <DetailSlider />
+          <Clusters />
         </>
       ),
     },
-    { id: "repetitions", title: "Repetitions", panel: () => <Repetitions store={store} /> },
+    { id: "repetitions", title: "Repetitions", panel: () => <Repetitions /> },
     { id: "keys", title: "Keys", panel: () => <Keys keys={PAGE_KEYS} /> },
-    { id: "about", title: aboutTitle(store), panel: () => <About store={store} /> },
+    { id: "about", title: aboutTitle(store), panel: () => <About /> },
   ];
   return (
     <>
       <Layout
-        header={<Header store={store} />}
-        viewer={
-          store.recording.value?.motion ? (
-            <Viewer store={store} />
-          ) : (
-            <Channels store={store} ruler />
-          )
-        }
-        matrix={<MatrixPlace store={store} />}
+        header={<Header />}
+        viewer={store.recording.value?.motion ? <Viewer /> : <Channels ruler />}
+        matrix={<MatrixPlace />}
         side={<Tabs label="About the recording" tabs={tabs} />}
-        transport={<Transport store={store} />}
-        timeline={<Timeline store={store} />}
+        transport={<Transport />}
+        timeline={<Timeline />}
       />
-      <Paper store={store} />
+      <Paper />
     </>
   );
 }
 
-function Header({ store }: { store: Store }): JSX.Element {
+function Header(): JSX.Element {
+  const store = useStore();
   const other = theme.value === "dark" ? "light" : "dark";
   return (
     <>

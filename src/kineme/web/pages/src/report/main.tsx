@@ -2,12 +2,13 @@
 import { batch } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
+import { StoreProvider } from "../context";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
 import { startPrinting } from "./printing";
 import { exposeSnapshot } from "../snapshot";
 import { EmbeddedData } from "../recordingData";
-import { loadMotion, openRecording, type OwnRecording } from "../opened";
+import { loadMotion, openRecording, type ShownRecording } from "../opened";
 import { positionOf, Store } from "../store";
 import { Report } from "./Report";
 
@@ -21,30 +22,35 @@ async function start(): Promise<void> {
   startPlayer(store);
   startKeys(store);
   startPrinting();
-  render(<Report store={store} />, document.getElementById("page")!);
+  render(
+    <StoreProvider value={store}>
+      <Report />
+    </StoreProvider>,
+    document.getElementById("page")!,
+  );
   await loadMotion(opened);
 }
 
 /** The tables at other details are looked at in place of the first one. */
-function offerLevels(store: Store, { recording }: OwnRecording): void {
+function offerLevels(store: Store, { recording }: ShownRecording): void {
   const { levels, segmentation } = recording.value;
   if (levels.length < 2) return;
-  const said = segmentation.provenance.detail;
+  const given = segmentation.provenance.detail;
   const choose = (detail: number): void => {
     const chosen = levels[positionOf(detail, all)]!;
     const { segments } = chosen;
     batch(() => {
       store.levels.value = { all, detail: chosen.detail, choose };
-      const marks = { checked: [], by_hand: [], cluster_names: {} };
-      const own = chosen.detail === shown;
+      const annotation = { checked: [], by_hand: [], cluster_names: {} };
+      const isShown = chosen.detail === shown;
       recording.value = {
         ...recording.value,
-        segmentation: own ? segmentation : { ...segmentation, ...marks, segments },
+        segmentation: isShown ? segmentation : { ...segmentation, ...annotation, segments },
       };
     });
   };
   const all = levels.map(({ detail }) => detail);
-  const shown = typeof said === "number" ? said : 1;
+  const shown = typeof given === "number" ? given : 1;
   store.levels.value = { all, detail: shown, choose };
 }
 

@@ -2,23 +2,18 @@
 import type { JSX } from "preact";
 import { theme, toggleTheme } from "../theme";
 import { IconButton } from "../transport/icons";
-import type { Session } from "./session";
+import { type DialogName, useStudio } from "./context";
+import { pageAddress } from "./server/address";
 
-export type DialogName = "versions" | "transfer" | "compare" | "export" | "help";
-
-interface Props {
-  session: Session;
-  show: (dialog: DialogName) => void;
-}
-
-export function Header({ session, show }: Props): JSX.Element {
+export function Header(): JSX.Element {
+  const { session, front } = useStudio();
   const edited = session.edited.value;
   const recording = edited?.confirmed.value;
   const other = theme.value === "dark" ? "light" : "dark";
   return (
     <>
       <h1>kineme</h1>
-      {session.state.value?.of_library && <a href={`?token=${session.api.token}`}>Library</a>}
+      {session.state.value?.of_library && <a href={pageAddress(session.api.token)}>Library</a>}
       <span class="folder quiet" title={session.state.value?.folder}>
         {recording?.name ?? session.state.value?.folder}
       </span>
@@ -41,38 +36,22 @@ export function Header({ session, show }: Props): JSX.Element {
           ↷ Redo
         </button>
       </span>
-      <SaveState session={session} />
+      <SaveState />
       <span class="group">
         <Opener
           name="versions"
           title="Tables that were replaced: look at them, bring them back (H)"
           disabled={!recording}
-          show={show}
         >
           History…
         </Opener>
-        <Opener
-          name="transfer"
-          title="Labels from a knowledge base (T)"
-          disabled={!recording}
-          show={show}
-        >
+        <Opener name="transfer" title="Labels from a knowledge base (T)" disabled={!recording}>
           Labels…
         </Opener>
-        <Opener
-          name="compare"
-          title="Compare with another result (C)"
-          disabled={!recording}
-          show={show}
-        >
+        <Opener name="compare" title="Compare with another result (C)" disabled={!recording}>
           Compare…
         </Opener>
-        <Opener
-          name="export"
-          title="Write the segments as a file (E)"
-          disabled={!recording}
-          show={show}
-        >
+        <Opener name="export" title="Write the segments as a file (E)" disabled={!recording}>
           Export…
         </Opener>
       </span>
@@ -82,7 +61,7 @@ export function Header({ session, show }: Props): JSX.Element {
         class="icon"
         title="Keys and help (?)"
         aria-label="Keys and help"
-        onClick={() => show("help")}
+        onClick={() => front.show("help")}
       >
         ?
       </button>
@@ -94,15 +73,15 @@ function Opener(props: {
   name: DialogName;
   title: string;
   disabled: boolean;
-  show: (dialog: DialogName) => void;
   children: string;
 }): JSX.Element {
+  const { front } = useStudio();
   return (
     <button
       type="button"
       title={props.title}
       disabled={props.disabled}
-      onClick={() => props.show(props.name)}
+      onClick={() => front.show(props.name)}
     >
       {props.children}
     </button>
@@ -110,7 +89,8 @@ function Opener(props: {
 }
 
 /** That segments are being found, "saved as …", or how many edits are not. */
-function SaveState({ session }: { session: Session }): JSX.Element {
+function SaveState(): JSX.Element {
+  const { session } = useStudio();
   const { saved, finding } = session.edited.value?.confirmed.value ?? {};
   const waiting = session.unsent.value.length;
   const text = finding

@@ -1,10 +1,11 @@
-/** What needs attention, across the page; and the news of the moment. */
+/** What needs attention, across the page; and the last news. */
 import type { JSX } from "preact";
+import { useStudio } from "./context";
 import type { EditedRecording } from "./editing/editedRecording";
 import { inWords } from "./editing/words";
-import type { Session } from "./session";
 
-export function Notices({ session }: { session: Session }): JSX.Element {
+export function Notices(): JSX.Element {
+  const { session } = useStudio();
   const { bulletin, trouble, unsent } = session;
   const news = bulletin.news.value;
   return (
@@ -18,7 +19,7 @@ export function Notices({ session }: { session: Session }): JSX.Element {
           </div>
         )}
         {!trouble.value &&
-          session.held.value.map((edited) => <Held key={edited.id} edited={edited} />)}
+          session.blocked.value.map((edited) => <Blocked key={edited.id} edited={edited} />)}
         {session.refused.value.map((edited) => (
           <NotMade key={edited.id} edited={edited} />
         ))}
@@ -53,11 +54,11 @@ export function Notices({ session }: { session: Session }): JSX.Element {
 }
 
 /** Edits that could not be made, and the choice to make or drop them. */
-function Held({ edited }: { edited: EditedRecording }): JSX.Element {
+function Blocked({ edited }: { edited: EditedRecording }): JSX.Element {
   return (
     <div class="notice" data-notice="held">
       <p>
-        {edited.confirmed.value.name}: {edited.held.value}. It is shown as it is now.{" "}
+        {edited.confirmed.value.name}: {edited.blocked.value}. It is shown as it is now.{" "}
         <Waiting edits={edited.unsent()} />
       </p>
       <button type="button" class="primary" onClick={() => edited.retry()}>

@@ -1,7 +1,6 @@
 /** The keys of the studio, beyond those of every page. */
-import type { DialogName } from "./Header";
+import type { StudioParts } from "./context";
 import type { Editor } from "./editing/editor";
-import type { Review } from "./review/review";
 import type { Session } from "./session";
 
 /** Keys and what they do, as the help shows them. */
@@ -14,7 +13,7 @@ export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
   ["N", "Name the segment; Enter takes the name, Escape leaves it"],
   ["Shift + N", "Name its cluster"],
   ["1 … 9", "Name the segment with a label of the folder (see Segment)"],
-  ["J", "Next to look at: where the result is least sure"],
+  ["J", "Next to look at: where confidence is lowest"],
   ["K", "The segment is checked: mark it, and go to the next to look at"],
   ["Shift + K", "Mark the segment as checked, or take the mark away"],
   ["Page Down, Page Up", "The next recording of the list, or the one before"],
@@ -27,17 +26,10 @@ export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
   ["?", "This help"],
 ];
 
-interface Hands {
-  session: Session;
-  editor: Editor;
-  review: Review;
-  show: (dialog: DialogName) => void;
-}
-
 /** What a key does in the studio; undefined where it does nothing. */
 export function commandOf(
   event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">,
-  { session, editor, review, show }: Hands,
+  { session, editor, review, front }: Omit<StudioParts, "uploads">,
 ): (() => void) | undefined {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   if (event.ctrlKey || event.metaKey) {
@@ -61,11 +53,11 @@ export function commandOf(
     k: () => (event.shiftKey ? review.toggle() : review.checkAndGoOn()),
     PageDown: () => void session.openNext(1),
     PageUp: () => void session.openNext(-1),
-    h: () => show("versions"),
-    t: () => show("transfer"),
-    c: () => show("compare"),
-    e: () => show("export"),
-    "?": () => show("help"),
+    h: () => front.show("versions"),
+    t: () => front.show("transfer"),
+    c: () => front.show("compare"),
+    e: () => front.show("export"),
+    "?": () => front.show("help"),
   };
   return commands[key];
 }

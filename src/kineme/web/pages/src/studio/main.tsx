@@ -3,27 +3,29 @@ import { effect } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
 import "./studio.css";
+import { StoreProvider } from "../context";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
 import { Store } from "../store";
+import { Front, StudioProvider } from "./context";
 import { Api } from "./server/api";
 import { Editor } from "./editing/editor";
-import type { DialogName } from "./Header";
 import { commandOf } from "./keys";
 import { Review } from "./review/review";
 import { Session } from "./session";
 import { exposeStudio } from "./snapshot";
-import { Front, Studio } from "./Studio";
-import { pageToken } from "./server/token";
+import { Studio } from "./Studio";
+import { tokenInAddress } from "./server/address";
 import { announceTab } from "./editing/unsent";
 import { Uploads } from "./server/uploads";
 
 function start(): void {
   const store = new Store();
-  const session = new Session(new Api(pageToken()), store);
+  const session = new Session(new Api(tokenInAddress()), store);
   const editor = new Editor(session);
   const front = new Front();
   const review = new Review(session, editor);
+  const parts = { session, editor, review, uploads: new Uploads(session), front };
   store.edits.value = {
     moveBorder: (level, frame, to) => editor.moveBorder(level, frame, to),
     nameCluster: (cluster, label) => editor.nameCluster(cluster, label),
@@ -41,10 +43,13 @@ function start(): void {
   });
   startPlayer(store);
   exposeStudio(session);
-  const show = (dialog: DialogName): void => void (front.dialog.value = dialog);
-  startKeys(store, (event) => commandOf(event, { session, editor, review, show }));
+  startKeys(store, (event) => commandOf(event, parts));
   render(
-    <Studio {...{ session, editor, review, front }} uploads={new Uploads(session)} />,
+    <StoreProvider value={store}>
+      <StudioProvider value={parts}>
+        <Studio />
+      </StudioProvider>
+    </StoreProvider>,
     document.getElementById("page")!,
   );
   void session.start(announceTab());

@@ -15,14 +15,14 @@ export class RecordingList {
   /** What the list of recordings shows. */
   readonly search = signal("");
   readonly order = signal<Order>("name");
-  readonly wanted = signal<Status | "">("");
+  readonly status = signal<Status | "">("");
   readonly listed = computed(() => {
     const text = this.search.value.trim().toLowerCase();
     const all = this.state.value?.recordings ?? [];
     const found = all.filter(
       (each) =>
         each.name.toLowerCase().includes(text) &&
-        (!this.wanted.value || this.statusOf(each) === this.wanted.value),
+        (!this.status.value || this.statusOf(each) === this.status.value),
     );
     if (this.order.value === "size") found.sort((a, b) => b.bytes - a.bytes);
     if (this.order.value === "left")

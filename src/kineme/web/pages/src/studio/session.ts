@@ -14,7 +14,7 @@ import { type Api, explain, Refused, RETRY, Unreachable } from "./server/api";
 import { Beside } from "./editing/beside";
 import { notRead } from "./server/answers";
 import { EditedRecording } from "./editing/editedRecording";
-import { fromAddress, momentInAddress, toAddress } from "./server/address";
+import { openInAddress, openToAddress, secondsInAddress } from "./server/address";
 import { ServerData } from "./server/serverData";
 import { shareToken } from "./server/token";
 import { Bulletin } from "./news";
@@ -51,7 +51,7 @@ export class Session {
     return this.recordings.value.find((edited) => edited.id === id);
   });
   /** Recordings whose edits wait for a decision. */
-  readonly held = computed(() => this.recordings.value.filter((edited) => edited.held.value));
+  readonly blocked = computed(() => this.recordings.value.filter((edited) => edited.blocked.value));
   /** Recordings of which some edits could not be made. */
   readonly refused = computed(() =>
     this.recordings.value.filter((each) => each.refused.value.length),
@@ -61,7 +61,7 @@ export class Session {
 
   readonly beside: Beside;
   private retrying = 0;
-  private begun = false;
+  private started = false;
 
   constructor(
     readonly api: Api,
@@ -78,8 +78,8 @@ export class Session {
   /** @param announced once other tabs know of this one, which edits are taken over by */
   async start(announced: Promise<void>): Promise<void> {
     shareToken(this.api);
-    const [told] = await Promise.all([this.refresh(), announced]);
-    if (told) await this.begin();
+    const [answered] = await Promise.all([this.refresh(), announced]);
+    if (answered) await this.begin();
   }
 
   /** The folder as it is now; whether the server told. */
@@ -108,7 +108,7 @@ export class Session {
     this.opening.value = id;
     this.unread.value = null;
     try {
-      const opened = await this.fetch(id);
+      const opened = await this.opened(id);
       if (this.opening.value !== id) return; // another one has been chosen since
       if (!beside) store.playhead.value = 0;
       store.add(opened);
@@ -142,8 +142,8 @@ export class Session {
   private notRead(id: string, error: unknown): void {
     const people = notRead(error);
     const name = this.state.value?.recordings.find((each) => each.id === id)?.name;
-    const known = this.unread.value?.id === id ? this.unread.value.people : [];
-    if (people && name) this.unread.value = { id, name, people: people.length ? people : known };
+    const before = this.unread.value?.id === id ? this.unread.value.people : [];
+    if (people && name) this.unread.value = { id, name, people: people.length ? people : before };
   }
 
   /** Opens the next recording of the list, or the one before. */
@@ -175,7 +175,7 @@ export class Session {
     window.clearInterval(this.retrying);
     this.retrying = 0;
     this.trouble.value = null;
-    if (!this.begun) await this.begin();
+    if (!this.started) await this.begin();
     else
       for (const edited of this.recordings.value) {
         await edited.resume();
@@ -185,22 +185,22 @@ export class Session {
 
   /** Opens what was open before, and listens for changes from then on. */
   private async begin(): Promise<void> {
-    this.begun = true;
+    this.started = true;
     this.api.listen(
       (change) => void this.changed(change),
       (up) => void (up ? this.recover() : this.refresh()),
     );
     addEventListener("focus", () => void this.refresh()); // files may have come meanwhile
     const { recordings } = this.state.value!;
-    const known = new Set(recordings.map((each) => each.id));
-    const before = fromAddress().filter((id) => known.has(id));
-    const first = before.length || known.size > 1 ? before : known;
+    const listed = new Set(recordings.map((each) => each.id));
+    const before = openInAddress().filter((id) => listed.has(id));
+    const first = before.length || listed.size > 1 ? before : listed;
     for (const id of first) await this.open(id, { beside: true });
-    if (momentInAddress()) this.store.seek(momentInAddress());
-    effect(() => toAddress(this.store.opened.value));
+    if (secondsInAddress()) this.store.seek(secondsInAddress());
+    effect(() => openToAddress(this.store.opened.value));
   }
 
-  private async fetch(id: string): Promise<OpenRecording> {
+  private async opened(id: string): Promise<OpenRecording> {
     const data = new ServerData(this.api, id);
     const edited =
       this.recordings.value.find((each) => each.id === id) ??
@@ -225,11 +225,11 @@ export class Session {
   /** Recordings that are neither shown nor have edits on their way need no memory. */
   private forgetClosed(): void {
     const shown = new Set(this.store.opened.value.map((each) => each.recording.peek().id));
-    const [kept, gone] = [[] as EditedRecording[], [] as EditedRecording[]];
+    const [kept, closed] = [[] as EditedRecording[], [] as EditedRecording[]];
     for (const edited of this.recordings.value)
-      (shown.has(edited.id) || edited.isOwing() ? kept : gone).push(edited);
-    for (const edited of gone) edited.close();
-    if (gone.length) this.recordings.value = kept;
+      (shown.has(edited.id) || edited.isOwing() ? kept : closed).push(edited);
+    for (const edited of closed) edited.close();
+    if (closed.length) this.recordings.value = kept;
   }
 
   private closeOthers(id: string): void {

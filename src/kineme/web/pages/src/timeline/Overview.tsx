@@ -1,12 +1,14 @@
 /** The whole recording in a strip, and the part that the lanes show; drag to move it, or to scrub. */
 import { useRef } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
 import { cssColor } from "../theme";
 import type { Store } from "../store";
 import { toPixel } from "../view";
 
-export function Overview({ store }: { store: Store }): JSX.Element {
+export function Overview(): JSX.Element {
+  const store = useStore();
   const dragging = useRef(false);
   const moveTo = (event: PointerEvent): void => {
     const { left, width } = (event.currentTarget as Element).getBoundingClientRect();
@@ -42,20 +44,20 @@ export function Overview({ store }: { store: Store }): JSX.Element {
 }
 
 function draw(pen: CanvasRenderingContext2D, width: number, height: number, store: Store): void {
-  const whole = { start_s: 0, stop_s: store.duration.value };
+  const recording = { start_s: 0, stop_s: store.duration.value };
   pen.fillStyle = cssColor("lane");
   pen.fillRect(0, 0, width, height);
   for (const segment of store.activities.value) {
     const { start_s, stop_s } = segment;
     const color = store.colorOf(segment);
     if (!color) continue;
-    const left = toPixel(whole, width, start_s);
+    const left = toPixel(recording, width, start_s);
     pen.fillStyle = color;
-    pen.fillRect(left, 2, Math.max(toPixel(whole, width, stop_s) - left, 0.5), height - 4);
+    pen.fillRect(left, 2, Math.max(toPixel(recording, width, stop_s) - left, 0.5), height - 4);
   }
   const { start_s, stop_s } = store.range.value;
-  const left = toPixel(whole, width, start_s);
-  const right = toPixel(whole, width, stop_s);
+  const left = toPixel(recording, width, start_s);
+  const right = toPixel(recording, width, stop_s);
   pen.globalAlpha = 0.6;
   pen.fillStyle = cssColor("page");
   pen.fillRect(0, 0, left, height);

@@ -2,17 +2,18 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
 import { durationOf, nameOf } from "../segments";
-import type { Store } from "../store";
 import { clock, toPixel } from "../view";
 import { drawLanes, type Drag } from "./drawing";
 import { Gestures } from "./gestures";
 import { GUTTER, layOut, type Lane } from "./lanes";
 import { Overview } from "./Overview";
 
-export function Timeline({ store }: { store: Store }): JSX.Element {
+export function Timeline(): JSX.Element {
+  const store = useStore();
   const drag = useSignal<Drag | null>(null);
   const lanes = useRef<Lane[]>([]);
   const gestures = useMemo(
@@ -22,7 +23,7 @@ export function Timeline({ store }: { store: Store }): JSX.Element {
         () => lanes.current,
         (next) => void (drag.value = next),
       ),
-    [store],
+    [store, drag],
   );
   useEffect(() => {
     const onKey = (event: KeyboardEvent): void => {
@@ -45,7 +46,7 @@ export function Timeline({ store }: { store: Store }): JSX.Element {
             void [given(), store.range.value, store.selected.value, store.hovered.value];
             void [store.loop.value, drag.value, store.target.value, store.border.value];
             void [
-              store.marks.value,
+              store.bounds.value,
               store.labelColors.value,
               store.edits.value,
               store.recording.value,
@@ -57,16 +58,17 @@ export function Timeline({ store }: { store: Store }): JSX.Element {
           }}
           gestures={gestures}
         />
-        <Playhead store={store} />
+        <Playhead />
       </div>
-      <Overview store={store} />
-      <Spoken store={store} />
+      <Overview />
+      <Spoken />
     </div>
   );
 }
 
 /** The line of the present time; apart from the canvas, so that playing redraws no lanes. */
-function Playhead({ store }: { store: Store }): JSX.Element {
+function Playhead(): JSX.Element {
+  const store = useStore();
   const share = toPixel(store.range.value, 1, store.playhead.value);
   return (
     <div class="playhead-room" style={{ left: `${GUTTER}px` }}>
@@ -76,7 +78,8 @@ function Playhead({ store }: { store: Store }): JSX.Element {
 }
 
 /** What is selected, for those who do not see it. */
-function Spoken({ store }: { store: Store }): JSX.Element {
+function Spoken(): JSX.Element {
+  const store = useStore();
   const segment = store.selected.value;
   return (
     <p class="unseen" role="status">

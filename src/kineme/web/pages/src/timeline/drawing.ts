@@ -91,7 +91,7 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
     if (color && right - left > 16) writeName(pen, lane, segment, left, right, room, inkOn(color));
     if (checked.has(segment) && right - left > 8) drawTick(pen, lane, right);
   }
-  drawMarks(pen, lane, scene);
+  drawDifferences(pen, lane, scene);
   drawTarget(pen, lane, scene);
 }
 
@@ -112,9 +112,9 @@ function drawTick(pen: Pen, lane: Lane, right: number): void {
 }
 
 /** Borders that the other result has not. */
-function drawMarks(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
+function drawDifferences(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
   pen.fillStyle = cssColor("danger");
-  for (const frame of lane.marks) {
+  for (const frame of lane.differences) {
     const x = toPixel(range, room, frame / store.fps.value);
     if (x < -2 || x > room + 2) continue;
     pen.fillRect(x - 1.5, lane.top - 2, 3, lane.height + 4);

@@ -35,7 +35,7 @@ export function drawLoop(pen: Pen, loop: Span | null, range: Span, room: number)
 /** The marks, as brackets on the ruler. */
 export function drawInAndOut(pen: Pen, store: Store, range: Span, room: number): void {
   pen.fillStyle = cssColor("accent");
-  const { start_s, stop_s } = store.marks.value;
+  const { start_s, stop_s } = store.bounds.value;
   for (const [seconds, toward] of [
     [start_s, 1],
     [stop_s, -1],

@@ -12,7 +12,7 @@ import { borderNear, GUTTER, laneAt, roomFor, RULER, type Lane } from "./lanes";
 
 const GRIP = 5; // pixels to either side of a border
 const FINGER = 12;
-const SEEN = 6; // pixels of a segment that a dragged border leaves of it
+const LEAST_WIDTH = 6; // pixels of a segment that a dragged border leaves of it
 
 /** A place on the canvas, and how far a border may be from it. */
 interface Spot {
@@ -78,7 +78,7 @@ export class Gestures {
     } else if (doing?.what === "border") {
       const { start_s, stop_s } = this.store.range.value;
       const perPixel = ((stop_s - start_s) / (spot.width - GUTTER)) * this.store.fps.value;
-      const least = Math.max(Math.ceil(perPixel * SEEN), 1);
+      const least = Math.max(Math.ceil(perPixel * LEAST_WIDTH), 1);
       const { frame } = doing.drag;
       const [low, high] = roomFor(doing.lane.segments, frame, least);
       const to = Math.round(frame + perPixel * (spot.x - doing.x));

@@ -11,7 +11,7 @@ export interface Lane {
   /** Which level's borders can be dragged here; null: none. */
   level: Level | null;
   /** Frames of borders to point out: those that the other result has not. */
-  marks: ReadonlySet<number>;
+  differences: ReadonlySet<number>;
 }
 
 export const RULER = 22;
@@ -33,8 +33,8 @@ export function layOut({ activities, primitives, other }: Given, height: number)
     activity: other ? laneOf(other.segmentation, "activity") : [],
     primitive: other ? laneOf(other.segmentation, "primitive") : [],
   };
-  const only = (mine: readonly Segment[], theirs: readonly Segment[]): ReadonlySet<number> =>
-    other?.marked ? without(mine, theirs) : NONE;
+  const only = (mine: readonly Segment[], counterpart: readonly Segment[]): ReadonlySet<number> =>
+    other?.marked ? without(mine, counterpart) : NONE;
   const rows: (Omit<Lane, "top" | "height"> & { share: number })[] = [
     {
       id: "activity",
@@ -42,7 +42,7 @@ export function layOut({ activities, primitives, other }: Given, height: number)
       segments: activities,
       level: "activity",
       share: 1,
-      marks: only(activities, others.activity),
+      differences: only(activities, others.activity),
     },
     {
       id: "primitive",
@@ -50,7 +50,7 @@ export function layOut({ activities, primitives, other }: Given, height: number)
       segments: primitives,
       level: "primitive",
       share: 1.2,
-      marks: only(primitives, others.primitive),
+      differences: only(primitives, others.primitive),
     },
     {
       id: "label",
@@ -58,7 +58,7 @@ export function layOut({ activities, primitives, other }: Given, height: number)
       segments: labelSpans(activities, primitives),
       level: null,
       share: 0.7,
-      marks: NONE,
+      differences: NONE,
     },
   ];
   if (other) {
@@ -68,7 +68,7 @@ export function layOut({ activities, primitives, other }: Given, height: number)
       segments: others.activity,
       level: null,
       share: 0.8,
-      marks: only(others.activity, activities),
+      differences: only(others.activity, activities),
     });
     rows.push({
       id: "other-primitive",
@@ -76,7 +76,7 @@ export function layOut({ activities, primitives, other }: Given, height: number)
       segments: others.primitive,
       level: null,
       share: 0.8,
-      marks: only(others.primitive, primitives),
+      differences: only(others.primitive, primitives),
     });
   }
   const total = rows.reduce((sum, row) => sum + row.share, 0);
@@ -90,15 +90,15 @@ export function layOut({ activities, primitives, other }: Given, height: number)
 }
 
 /** The borders that one lane has, and another has none as near as the eye takes for the same. */
-function without(mine: readonly Segment[], theirs: readonly Segment[]): ReadonlySet<number> {
+function without(mine: readonly Segment[], others: readonly Segment[]): ReadonlySet<number> {
   const near = ({ start_s }: Segment): boolean => {
-    let [low, high] = [0, theirs.length];
+    let [low, high] = [0, others.length];
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (theirs[middle]!.start_s < start_s - SAME) low = middle + 1;
+      if (others[middle]!.start_s < start_s - SAME) low = middle + 1;
       else high = middle;
     }
-    return low < theirs.length && theirs[low]!.start_s <= start_s + SAME;
+    return low < others.length && others[low]!.start_s <= start_s + SAME;
   };
   return new Set(mine.filter((each) => !near(each)).map((each) => each.start_frame));
 }
@@ -137,12 +137,12 @@ export function borderNear(
   fps: number,
 ): number | null {
   const i = indexAt(segments, Math.floor(seconds * fps));
-  const own = segments[i] ? durationOf(segments[i]) / 3 : 0;
+  const share = segments[i] ? durationOf(segments[i]) / 3 : 0;
   const near = [segments[i], segments[i + 1]]
     .filter((segment) => segment !== undefined && segment.start_frame > 0)
     .map((segment) => ({ frame: segment!.start_frame, far: Math.abs(segment!.start_s - seconds) }))
     .sort((a, b) => a.far - b.far)[0];
-  return near && near.far < Math.min(reach, own) ? near.frame : null;
+  return near && near.far < Math.min(reach, share) ? near.frame : null;
 }
 
 /**

@@ -1,20 +1,20 @@
 /** Play, step, loop, speed, and where in the recording we are. */
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { useCalm } from "../canvas/calm";
 import { togglePlay } from "../player";
-import type { Store } from "../store";
 import { clock } from "../view";
 import { IconButton } from "./icons";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 interface Props {
-  store: Store;
   /** Whether there are curves to show below the timeline. */
   curves?: boolean;
 }
 
-export function Transport({ store, curves = false }: Props): JSX.Element {
+export function Transport({ curves = false }: Props): JSX.Element {
+  const store = useStore();
   const { playing, loop, speed } = store;
   return (
     <div class="transport" role="toolbar" aria-label="Playing">
@@ -58,7 +58,7 @@ export function Transport({ store, curves = false }: Props): JSX.Element {
           </option>
         ))}
       </select>
-      <Clock store={store} />
+      <Clock />
       {curves && (
         <button
           type="button"
@@ -85,7 +85,8 @@ export function Transport({ store, curves = false }: Props): JSX.Element {
 }
 
 /** Time and frame, and a slider over the whole recording. */
-function Clock({ store }: { store: Store }): JSX.Element {
+function Clock(): JSX.Element {
+  const store = useStore();
   const { duration } = store;
   const playhead = useCalm(store.playhead, store.playing);
   const frame = store.frameAt(playhead.value);
@@ -104,8 +105,8 @@ function Clock({ store }: { store: Store }): JSX.Element {
           max={Math.max((store.recording.value?.n_frames ?? 1) - 1, 0)}
           value={frame}
           onChange={(event) => {
-            const wanted = event.currentTarget.valueAsNumber;
-            if (Number.isFinite(wanted)) store.seek(Math.round(wanted) / store.fps.value);
+            const number = event.currentTarget.valueAsNumber;
+            if (Number.isFinite(number)) store.seek(Math.round(number) / store.fps.value);
           }}
           onKeyDown={(event) => event.key === "Enter" && event.currentTarget.blur()}
         />

@@ -1,16 +1,17 @@
 /** The figures in 3-D: drag to orbit, wheel to zoom, right button or two fingers to pan. */
 import { useEffect, useRef } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import { nameOf } from "../segments";
 import { NO_COLOR } from "../colors";
-import type { Store } from "../store";
 import { clock } from "../view";
 import { MOST_MEMBERS } from "./placement";
 import { keepUpToDate, turnByKey } from "./updates";
 import { FigureScene } from "./scene";
 import { ViewerButtons } from "./ViewerButtons";
 
-export function Viewer({ store }: { store: Store }): JSX.Element {
+export function Viewer(): JSX.Element {
+  const store = useStore();
   const canvas = useRef<HTMLCanvasElement>(null);
   const scene = useRef<FigureScene | null>(null);
   useEffect(() => {
@@ -32,14 +33,15 @@ export function Viewer({ store }: { store: Store }): JSX.Element {
         aria-label="Figure in 3-D. Drag or press alt and an arrow key to look from another side."
         onKeyDown={(event) => turnByKey(event, scene.current)}
       />
-      <Caption store={store} />
-      <ViewerButtons store={store} onFrame={() => scene.current?.frame()} />
+      <Caption />
+      <ViewerButtons onFrame={() => scene.current?.frame()} />
     </div>
   );
 }
 
 /** What is played: the primitive under the playhead, and which cluster is shown. */
-function Caption({ store }: { store: Store }): JSX.Element {
+function Caption(): JSX.Element {
+  const store = useStore();
   const present = store.present.value;
   const shown = store.shownCluster.value;
   const stepping = store.inStep.value && shown;

@@ -1,15 +1,11 @@
 /** What the viewer shows besides the figure, and the way back to a good view. */
 import type { Signal } from "@preact/signals";
 import type { JSX } from "preact";
+import { useStore } from "../context";
 import type { Store } from "../store";
 
-export function ViewerButtons({
-  store,
-  onFrame,
-}: {
-  store: Store;
-  onFrame: () => void;
-}): JSX.Element {
+export function ViewerButtons({ onFrame }: { onFrame: () => void }): JSX.Element {
+  const store = useStore();
   return (
     <div class="viewer-buttons">
       <Toggle on={store.follow} title="The camera follows the figure">

@@ -54,7 +54,7 @@ export class Figure {
     for (let i = 0; i < joints.length; i++) {
       at(positions, i, a);
       const radius = Number.isNaN(a.x) ? 0 : joints[i]!;
-      this.joints.setMatrixAt(i, matrix.makeScale(radius, radius, radius).setPosition(known(a)));
+      this.joints.setMatrixAt(i, matrix.makeScale(radius, radius, radius).setPosition(finite(a)));
     }
     this.skull.setMatrixAt(0, this.skullAt(positions));
     for (const mesh of [this.bones, this.joints, this.skull])
@@ -121,7 +121,7 @@ function at(positions: Float32Array, joint: number, out: THREE.Vector3): THREE.V
   return out.fromArray(positions, 3 * joint);
 }
 
-function known(point: THREE.Vector3): THREE.Vector3 {
+function finite(point: THREE.Vector3): THREE.Vector3 {
   return Number.isNaN(point.x) ? point.set(0, 0, 0) : point;
 }
 

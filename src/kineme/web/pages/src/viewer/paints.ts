@@ -48,19 +48,19 @@ void main() {
   vec3 up = normalize(turn * (normal / max(size, 1e-12)) + vec3(0.0, 1e-9, 0.0));
   vec3 light = 0.67 * mix(GROUND, vec3(1.0), 0.5 + 0.5 * up.y) + 0.54 * max(dot(up, SUN), 0.0);
   paint = vec4(color * mix(vec3(1.0), light, lit), alpha);
-  vec4 seen = viewMatrix * modelMatrix * instanceMatrix * vec4(position, 1.0);
-  far = -seen.z;
-  gl_Position = projectionMatrix * seen;
+  vec4 place = viewMatrix * modelMatrix * instanceMatrix * vec4(position, 1.0);
+  far = -place.z;
+  gl_Position = projectionMatrix * place;
 }`;
 const TRAIL_VERTEX = `${PLACED}
 in vec4 color;
 out vec4 paint;
 out float far;
 void main() {
-  vec4 seen = viewMatrix * modelMatrix * vec4(position, 1.0);
+  vec4 place = viewMatrix * modelMatrix * vec4(position, 1.0);
   paint = color;
-  far = -seen.z;
-  gl_Position = projectionMatrix * seen;
+  far = -place.z;
+  gl_Position = projectionMatrix * place;
 }`;
 
 // What is painted fades into the sky with its distance.
@@ -96,8 +96,8 @@ void main() {
 
 /** For instances of one colour; `lit` is 1 for bodies and 0 for shadows. */
 export function bodyPaint(haze: Haze, lit: 0 | 1): THREE.RawShaderMaterial {
-  const own = { color: { value: new THREE.Color() }, lit: { value: lit }, alpha: { value: 1 } };
-  const uniforms = { ...haze, ...own };
+  const colors = { color: { value: new THREE.Color() }, lit: { value: lit }, alpha: { value: 1 } };
+  const uniforms = { ...haze, ...colors };
   return paint(BODY_VERTEX, HAZY_FRAGMENT, uniforms);
 }
 

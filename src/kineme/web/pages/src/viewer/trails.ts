@@ -43,9 +43,9 @@ export class Trails {
         const side = this.sideAt(path, i, camera);
         const vertex = 2 * (trail * POINTS + i);
         here.fromArray(path, 3 * i);
-        const gone = Number.isNaN(here.x);
-        if (gone) here.set(0, 0, 0);
-        const alpha = gone ? 0 : 0.85 * (i / (POINTS - 1)) ** 1.5;
+        const missing = Number.isNaN(here.x);
+        if (missing) here.set(0, 0, 0);
+        const alpha = missing ? 0 : 0.85 * (i / (POINTS - 1)) ** 1.5;
         const { r, g, b } = colors[i]!;
         for (const [k, sign] of [-1, 1].entries()) {
           const { x, y, z } = here;
@@ -72,9 +72,9 @@ export class Trails {
   private sideAt(path: Float32Array, i: number, camera: THREE.Vector3): THREE.Vector3 {
     const before = Math.max(i - 1, 0);
     const after = Math.min(i + 1, POINTS - 1);
-    along.fromArray(path, 3 * after).sub(other.fromArray(path, 3 * before));
+    direction.fromArray(path, 3 * after).sub(other.fromArray(path, 3 * before));
     sight.fromArray(path, 3 * i).sub(camera);
-    across.crossVectors(along, sight);
+    across.crossVectors(direction, sight);
     const length = across.length();
     const half = (this.width / 2) * (0.3 + (0.7 * i) / POINTS);
     return length > 1e-9 ? across.multiplyScalar(half / length) : across.set(0, 0, 0);
@@ -82,7 +82,7 @@ export class Trails {
 }
 
 const here = new THREE.Vector3();
-const along = new THREE.Vector3();
+const direction = new THREE.Vector3();
 const other = new THREE.Vector3();
 const sight = new THREE.Vector3();
 const across = new THREE.Vector3();

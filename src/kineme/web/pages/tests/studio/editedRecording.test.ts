@@ -1,8 +1,8 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
-import type { Edit, Edited, EditRequest, Recording } from "../../src/messages";
+import type { Edit, Recording } from "../../src/messages";
 import type { Api } from "../../src/studio/server/api";
-import { expected, storyOf } from "../../src/studio/editing/story";
-import { recording, row, starts } from "./tables";
+import { Server } from "./server";
+import { row, starts } from "./tables";
 
 const stored = new Map<string, string>();
 const storage = new Proxy(
@@ -20,55 +20,10 @@ vi.stubGlobal("sessionStorage", { getItem: () => "this-tab", setItem: () => unde
 vi.stubGlobal("localStorage", storage);
 vi.stubGlobal("navigator", { locks: { query: () => Promise.resolve({ held: [] }) } });
 
-const { Refused, Unreachable } = await import("../../src/studio/server/api");
 const { EditedRecording } = await import("../../src/studio/editing/editedRecording");
 
 const SPLIT: Edit = { kind: "split", level: "primitive", frame: 45 };
 const MOVE: Edit = { kind: "move_border", level: "primitive", frame: 30, to: 40 };
-
-/** A server that edits one table, knows edits by name, can be switched off, or die once it saved. */
-class Server {
-  now: Recording = recording();
-  up = true;
-  /** What it cannot make, for reasons of its own. */
-  refuses: (edit: Edit) => boolean = () => false;
-  dieAfterSaving = false;
-  /** Milliseconds until it answers. */
-  latency = 0;
-  readonly got: Edit[] = [];
-  private readonly known = new Set<string>();
-  private story = storyOf({ segmentation: this.now.segmentation, ids: this.now.ids! });
-
-  async recording(): Promise<Recording> {
-    if (!this.up) throw new Unreachable();
-    return this.now;
-  }
-
-  async edit(_id: string, { revision, edit, name = "" }: EditRequest): Promise<Edited> {
-    if (this.latency) await new Promise((resolve) => setTimeout(resolve, this.latency));
-    if (!this.up) throw new Unreachable();
-    if (this.known.has(name)) return this.answer();
-    if (revision !== this.now.revision) throw new Refused(409, "The table has changed.", {});
-    const after = expected(this.story, edit, name || crypto.randomUUID());
-    if (!after || after === this.story || this.refuses(edit))
-      throw new Refused(400, "It cannot be made.", {});
-    this.story = after;
-    this.got.push(edit);
-    if (name) this.known.add(name);
-    const { segmentation, ids } = after.present;
-    const saved = "take.segments.json";
-    this.now = { ...this.now, segmentation, ids: [...ids], revision: revision + 1, saved };
-    if (this.dieAfterSaving) {
-      this.up = false;
-      throw new Unreachable();
-    }
-    return this.answer();
-  }
-
-  private answer(): Edited {
-    return { ...this.now, ids: this.now.ids!, notes: [] };
-  }
-}
 
 let server: Server;
 let told: string[];
@@ -313,7 +268,7 @@ describe("when the server is gone", () => {
     server.up = true;
     await edited.resume();
     expect(edited.unsent()).toEqual([]);
-    expect(edited.held.value).toBeNull();
+    expect(edited.blocked.value).toBeNull();
     expect(server.got).toEqual([MOVE]);
   });
 
@@ -372,13 +327,13 @@ describe("when somebody else changes the table", () => {
     await server.edit("take", { revision: 0, edit: MOVE });
     edited.edit(SPLIT);
     await settled();
-    expect(edited.held.value).toBe("The table has changed.");
+    expect(edited.blocked.value).toBe("The table has changed.");
     expect(edited.unsent()).toHaveLength(1);
     expect(starts(edited.confirmed.value.segmentation)).toEqual([0, 40, 60]);
     edited.retry();
     await settled();
     expect(starts(server.now.segmentation)).toEqual([0, 40, 45, 60]);
-    expect(edited.held.value).toBeNull();
+    expect(edited.blocked.value).toBeNull();
   });
 
   it("it is made on what it was made on, wherever somebody has put that", async () => {
@@ -454,7 +409,7 @@ describe("when somebody else changes the table", () => {
     server.now = { ...server.now, revision: 7 };
     edited.edit(SPLIT);
     await settled();
-    expect(edited.held.value).toBeNull();
+    expect(edited.blocked.value).toBeNull();
     expect(server.got).toEqual([SPLIT]);
   });
 });

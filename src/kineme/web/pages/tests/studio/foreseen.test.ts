@@ -4,7 +4,12 @@ import { join } from "node:path";
 import { expect, it } from "vitest";
 import type { Edit, Segment, Segments } from "../../src/messages";
 import { foreseen } from "../../src/studio/editing/foreseen/foreseen";
-import { idsAfter, madeOn, readdressed, type Known } from "../../src/studio/editing/identities";
+import {
+  idsAfter,
+  madeOn,
+  readdressed,
+  type IdentifiedTable,
+} from "../../src/studio/editing/identities";
 
 type Said = Pick<Segments, "cluster_names" | "checked" | "by_hand" | "comments"> & {
   rows: unknown[][];
@@ -25,7 +30,7 @@ const { columns, chains } = JSON.parse(
   readFileSync(join(import.meta.dirname, "edits.json"), "utf-8"),
 ) as Edits;
 
-function knownOf({ rows, ids, ...rest }: Chain["start"]): Known {
+function knownOf({ rows, ids, ...rest }: Chain["start"]): IdentifiedTable {
   const told = rows.map(
     (row) => Object.fromEntries(row.map((cell, i) => [columns[i]!, cell])) as unknown as Segment,
   );

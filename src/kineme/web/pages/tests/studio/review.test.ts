@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 import { doubtsOf, progressOf } from "../../src/studio/review/doubts";
 import { between, EVERYTHING, rowsOf, spansToMerge } from "../../src/studio/table/rows";
-import { surenessOf } from "../../src/sureness";
+import { confidenceOf } from "../../src/confidence";
 import { segment, tableOf } from "../recordings";
 
 const rows = [
@@ -12,15 +12,15 @@ const rows = [
 ];
 const table = tableOf(rows);
 
-it("shows first where the result is least sure, and says why", () => {
+it("shows first where confidence is lowest, and says why", () => {
   const doubts = doubtsOf(table);
   expect(doubts.map(({ segment }) => segment.start_frame)).toEqual([10, 30, 0, 40]);
   expect(doubts[0]!.why).toBe(
-    "It is 24 % sure that all of this is right. Least sure is that a segment starts at 0:01.00.",
+    "The confidence that all of this is right is 24 %; the lowest is that a segment starts at 0:01.00.",
   );
-  expect(doubts[1]!.why).toContain("Least sure is that this is cluster 1.");
-  expect(doubts[2]!.why).toBe("It is 90 % sure that this is cluster 0.");
-  expect(doubts[3]!.sure).toBeNull();
+  expect(doubts[1]!.why).toContain("the lowest is that this is cluster 1.");
+  expect(doubts[2]!.why).toBe("The confidence that this is cluster 0 is 90 %.");
+  expect(doubts[3]!.value).toBeNull();
 });
 
 it("asks once for an activity what can be wrong with it and its repetitions", () => {
@@ -40,12 +40,12 @@ it("asks once for an activity what can be wrong with it and its repetitions", ()
     ["primitive", 0],
     ["primitive", 20],
   ]);
-  expect(doubts[0]!.sure).toBeCloseTo(0.8 * 0.9 * 0.5);
+  expect(doubts[0]!.value).toBeCloseTo(0.8 * 0.9 * 0.5);
   expect(doubts[0]!.why).toBe(
-    "It is 36 % sure that all of this is right. Least sure is that this is done 2 times.",
+    "The confidence that all of this is right is 36 %; the lowest is that this is done 2 times.",
   );
-  expect(doubts[1]!.sure).toBe(0.7);
-  expect(doubts[3]!.sure).toBeNull();
+  expect(doubts[1]!.value).toBe(0.7);
+  expect(doubts[3]!.value).toBeNull();
 });
 
 it("has one number for a segment, wherever that is shown", () => {
@@ -55,11 +55,11 @@ it("has one number for a segment, wherever that is shown", () => {
     segment(40, 50, { level: "activity", activity: 1, confidence: 0.9, border_confidence: 0.9 }),
   ]);
   const [doubt] = doubtsOf(found);
-  const [first] = rowsOf(found, EVERYTHING, "sure", false);
-  const { short, text, why } = surenessOf(found).get(found.segments[0]!)!;
-  expect([short, text]).toEqual(["19 %", "19 % sure"]);
+  const [first] = rowsOf(found, EVERYTHING, "confidence", false);
+  const { short, text, why } = confidenceOf(found).get(found.segments[0]!)!;
+  expect([short, text]).toEqual(["19 %", "confidence 19 %"]);
   expect([doubt!.segment, doubt!.short]).toEqual([found.segments[0], short]);
-  expect([first!.segment, first!.sureness.short]).toEqual([found.segments[0], short]);
+  expect([first!.segment, first!.confidence.short]).toEqual([found.segments[0], short]);
   expect(why.match(/\d+ %/g)).toEqual([short]);
 });
 
@@ -81,7 +81,7 @@ it("orders and filters the table", () => {
     rowsOf(...given).map((row) => row.segment.start_frame);
   expect(starts(table, EVERYTHING, "start", false)).toEqual([0, 10, 30, 40]);
   expect(starts(table, EVERYTHING, "duration", true)).toEqual([10, 0, 30, 40]);
-  expect(starts(table, EVERYTHING, "sure", false)).toEqual([10, 30, 0, 40]);
+  expect(starts(table, EVERYTHING, "confidence", false)).toEqual([10, 30, 0, 40]);
   expect(starts(table, { ...EVERYTHING, text: "Hop" }, "start", false)).toEqual([10]);
   expect(starts(table, { ...EVERYTHING, text: "cluster 1" }, "start", false)).toEqual([30]);
   const tens = tableOf([10, 1, 15].map((cluster, i) => segment(i, i + 1, { cluster })));
@@ -89,7 +89,7 @@ it("orders and filters the table", () => {
   expect(starts(tens, { ...EVERYTHING, text: "cluster" }, "start", false)).toEqual([0, 1, 2]);
   expect(starts(table, { ...EVERYTHING, kind: "transition" }, "start", false)).toEqual([40]);
   expect(starts(table, { ...EVERYTHING, shortest: 1.5 }, "start", false)).toEqual([10]);
-  expect(starts(table, { ...EVERYTHING, sureBelow: 0.5 }, "start", false)).toEqual([10, 30]);
+  expect(starts(table, { ...EVERYTHING, confidenceBelow: 0.5 }, "start", false)).toEqual([10, 30]);
   const checked = tableOf(rows, { checked: [3] });
   expect(starts(checked, { ...EVERYTHING, checked: "yes" }, "start", false)).toEqual([40]);
 });

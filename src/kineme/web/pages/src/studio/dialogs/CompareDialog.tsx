@@ -2,18 +2,18 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
+import { useStudio } from "../context";
 import type { CompareRequest } from "../../messages";
 import { Dialog } from "./Dialog";
-import type { Session } from "../session";
 
 interface Props {
-  session: Session;
   close: () => void;
 }
 
-export function CompareDialog({ session, close }: Props): JSX.Element {
+export function CompareDialog({ close }: Props): JSX.Element {
+  const { session } = useStudio();
   const busy = useSignal("");
-  useEffect(() => void session.refresh(), []); // there may be new files
+  useEffect(() => void session.refresh(), [session]); // there may be new files
   const { presets = [], annotations = [] } = session.state.value ?? {};
   const compare = async (name: string, request: CompareRequest): Promise<void> => {
     busy.value = name;

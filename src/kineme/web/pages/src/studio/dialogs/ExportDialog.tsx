@@ -2,14 +2,13 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
+import { useStudio } from "../context";
 import type { Level } from "../../messages";
 import { explain } from "../server/api";
 import { save } from "../server/save";
 import { Dialog } from "./Dialog";
-import type { Session } from "../session";
 
 interface Props {
-  session: Session;
   close: () => void;
 }
 
@@ -19,11 +18,12 @@ const CHOICES: readonly (readonly [Level | "", string])[] = [
   ["primitive", "primitives"],
 ];
 
-export function ExportDialog({ session, close }: Props): JSX.Element {
+export function ExportDialog({ close }: Props): JSX.Element {
+  const { session } = useStudio();
   const level = useSignal<Level | "">("");
   const all = useSignal(false);
   const busy = useSignal("");
-  useEffect(() => void session.refresh(), []);
+  useEffect(() => void session.refresh(), [session]);
   const recordings = session.state.value?.recordings ?? [];
   const done = recordings.filter((each) => session.list.isChecked(each)).length;
   const write = async (format: string): Promise<void> => {

@@ -2,15 +2,16 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
+import { useStudio } from "../context";
 import { explain } from "../server/api";
-import type { Session } from "../session";
 
-export function NewKnowledge({ session }: { session: Session }): JSX.Element {
+export function NewKnowledge(): JSX.Element {
+  const { session } = useStudio();
   const named = (session.state.value?.recordings ?? []).filter((each) => each.named > 0);
   const left = useSignal<ReadonlySet<string>>(new Set());
   const name = useSignal("moves");
   const busy = useSignal(false);
-  useEffect(() => void session.refresh(), []); // names given since the page was opened
+  useEffect(() => void session.refresh(), [session]); // names given since the page was opened
   const make = async (event: Event): Promise<void> => {
     event.preventDefault();
     busy.value = true;

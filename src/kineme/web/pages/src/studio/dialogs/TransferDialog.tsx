@@ -2,21 +2,21 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
+import { useStudio } from "../context";
 import { Dialog } from "./Dialog";
 import { NewKnowledge } from "./NewKnowledge";
-import type { Session } from "../session";
 
 interface Props {
-  session: Session;
   close: () => void;
 }
 
-export function TransferDialog({ session, close }: Props): JSX.Element {
+export function TransferDialog({ close }: Props): JSX.Element {
+  const { session } = useStudio();
   const bases = session.state.value?.knowledge_bases ?? [];
   const chosen = useSignal("");
   const base = chosen.value || (bases[0]?.id ?? "");
   const threshold = useSignal("");
-  useEffect(() => void session.refresh(), []); // there may be new files
+  useEffect(() => void session.refresh(), [session]); // there may be new files
   const spread = useSignal(true);
   const transfer = (event: Event): void => {
     event.preventDefault();
@@ -79,7 +79,7 @@ export function TransferDialog({ session, close }: Props): JSX.Element {
           </p>
         </form>
       )}
-      <NewKnowledge session={session} />
+      <NewKnowledge />
     </Dialog>
   );
 }

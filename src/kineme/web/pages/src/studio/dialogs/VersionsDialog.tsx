@@ -2,18 +2,18 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
+import { useStudio } from "../context";
 import type { Version } from "../../messages";
 import { counted, inWords } from "../editing/words";
 import { explain } from "../server/api";
-import type { Session } from "../session";
 import { Dialog } from "./Dialog";
 
 interface Props {
-  session: Session;
   close: () => void;
 }
 
-export function VersionsDialog({ session, close }: Props): JSX.Element {
+export function VersionsDialog({ close }: Props): JSX.Element {
+  const { session } = useStudio();
   const versions = useSignal<Version[] | null>(null);
   const edited = session.edited.value;
   useEffect(() => {
@@ -22,7 +22,7 @@ export function VersionsDialog({ session, close }: Props): JSX.Element {
       .versions(edited.id)
       .then((found) => (versions.value = found))
       .catch((error: unknown) => session.bulletin.problem(explain(error), "versions"));
-  }, [edited]);
+  }, [edited, session, versions]);
   const fps = edited?.confirmed.value.fps ?? 1;
   const look = async (version: Version): Promise<void> => {
     try {

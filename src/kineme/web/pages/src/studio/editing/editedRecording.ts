@@ -14,15 +14,15 @@
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import type { Edit, Edited, Recording } from "../../messages";
 import { type Api, Refused, Unreachable } from "../server/api";
-import { madeOn, readdressed, type Known } from "./identities";
+import { madeOn, readdressed, type IdentifiedTable } from "./identities";
 import { Outlook } from "./outlook";
-import { replacesTable, takenBackBy } from "./story";
+import { replacesTable, undoneBy } from "./story";
 import { store, takeOver, type Unsent } from "./unsent";
 import { foundIn, inWords, isLoss } from "./words";
 
 /** Of no table: the server only says whether it knows the edit. */
 const NO_REVISION = -1;
-const GONE = "what it was made on is not there any more";
+const MISSING = "what it was made on is not there any more";
 
 export interface Surroundings {
   api: Api;
@@ -39,10 +39,10 @@ export class EditedRecording {
   /** Edits that could not be made, until somebody decides. */
   readonly refused = signal<Unsent[]>([]);
   /** Why the queue does not move, in a sentence; null while it does. */
-  readonly held = signal<string | null>(null);
+  readonly blocked = signal<string | null>(null);
   /** The recording as it will be once all is made that waits. */
   readonly shown = computed<Recording>(() => {
-    const { segmentation, ids } = this.outlook.after(this.confirmed.value, this.onTheirWay.value);
+    const { segmentation, ids } = this.outlook.after(this.confirmed.value, this.pending.value);
     return { ...this.confirmed.value, segmentation, ids: [...ids] };
   });
   /** Whether the server is at something slow. */
@@ -51,7 +51,7 @@ export class EditedRecording {
   private readonly outlook = new Outlook();
   /** How many of those that wait are of a table that is not there any more. */
   private readonly ofAnother = signal(0);
-  private readonly onTheirWay = computed(() => this.waiting.value.slice(this.ofAnother.value));
+  private readonly pending = computed(() => this.waiting.value.slice(this.ofAnother.value));
   private sending = false;
   private announced = 0;
   private readonly whenMade = new Map<string, () => void>();
@@ -85,16 +85,16 @@ export class EditedRecording {
 
   /**
    * Shown at once where it can be, and sent when its turn comes; the promise ends when it was made,
-   * refused, or has to wait. `made` is called in the moment it is confirmed.
+   * refused, or has to wait. `made` is called as it is confirmed.
    */
   edit(edit: Edit, made?: () => void): Promise<void> {
     const queue = this.waiting.peek();
     const base = queue.length ? null : this.confirmed.peek().revision;
     const name = crypto.randomUUID();
-    const on = madeOn(edit, knownOf(this.shown.peek()));
+    const on = madeOn(edit, tableOf(this.shown.peek()));
     if (made) this.whenMade.set(name, made);
     const one: Unsent = { name, edit, base, on };
-    const shown = [...this.onTheirWay.peek(), one];
+    const shown = [...this.pending.peek(), one];
     const hopeless = this.outlook.isHopeless(this.confirmed.peek(), shown);
     this.waiting.value = [...queue, { ...one, hopeless }];
     return this.send();
@@ -105,7 +105,7 @@ export class EditedRecording {
    * one whose result only it knows.
    */
   whenShown(command: () => void): void {
-    const open = this.outlook.isOpen(this.confirmed.peek(), this.onTheirWay.peek());
+    const open = this.outlook.isOpen(this.confirmed.peek(), this.pending.peek());
     if (this.sending && open) this.commands.push(command);
     else command();
   }
@@ -147,7 +147,7 @@ export class EditedRecording {
   retry(): void {
     this.rebase();
     batch(() => {
-      this.held.value = null;
+      this.blocked.value = null;
       this.ofAnother.value = 0;
     });
     void this.send();
@@ -156,9 +156,9 @@ export class EditedRecording {
   /** Gives up the held edits; those that were made since, on the table as it is, are not among them. */
   drop(): void {
     batch(() => {
-      this.waiting.value = this.onTheirWay.peek();
+      this.waiting.value = this.pending.peek();
       this.ofAnother.value = 0;
-      this.held.value = null;
+      this.blocked.value = null;
     });
     this.rebase();
     void this.resume();
@@ -199,7 +199,7 @@ export class EditedRecording {
   private async send(): Promise<void> {
     if (this.sending) return this.settled();
     this.sending = true;
-    while (this.waiting.peek().length && this.held.peek() === null) {
+    while (this.waiting.peek().length && this.blocked.peek() === null) {
       if (!(await this.sendFirst())) break;
       while (!this.waiting.peek().length && this.commands.length) this.commands.shift()!();
     }
@@ -216,7 +216,7 @@ export class EditedRecording {
     const { name, base, on = [] } = first;
     const before = this.confirmed.peek();
     // Who is in a table that is still to be found, the server knows that waits for it.
-    const edit = before.finding ? first.edit : readdressed(first.edit, on, knownOf(before));
+    const edit = before.finding ? first.edit : readdressed(first.edit, on, tableOf(before));
     try {
       const revision = edit ? (base ?? before.revision) : NO_REVISION;
       const edited = await this.around.api.edit(this.id, {
@@ -238,7 +238,7 @@ export class EditedRecording {
     } catch (error) {
       if (!(error instanceof Refused) || error.status === 403) this.around.lost();
       else if (error.status === 400) return this.layAside(first, error.message);
-      else if (error.status === 409 && !edit) return this.layAside(first, GONE);
+      else if (error.status === 409 && !edit) return this.layAside(first, MISSING);
       else if (error.status === 409) return this.reconsider(before, error.message);
       else this.hold(error.message);
       return false;
@@ -255,7 +255,7 @@ export class EditedRecording {
    */
   private layAside(first: Unsent, reason: string): boolean {
     const rest = this.waiting.peek().slice(1);
-    const back = takenBackBy(rest.map(({ edit }) => edit));
+    const back = undoneBy(rest.map(({ edit }) => edit));
     const isStep = first.edit.kind === "undo" || first.edit.kind === "redo";
     batch(() => {
       this.waiting.value = isStep ? rest : rest.filter((_, i) => i !== back);
@@ -277,7 +277,7 @@ export class EditedRecording {
   private hold(reason: string): void {
     batch(() => {
       this.ofAnother.value = this.waiting.peek().length;
-      this.held.value = reason;
+      this.blocked.value = reason;
     });
   }
 
@@ -308,12 +308,12 @@ export class EditedRecording {
 
   private report(edit: Edit, { segmentation, notes }: Edited): void {
     const undo = replacesTable(edit) ? (): void => this.undo() : undefined;
-    const said = edit.kind === "segment" ? [foundIn(segmentation)] : [];
-    const text = [...said, ...notes.filter((note) => !said.length || isLoss(note))].join(" ");
+    const found = edit.kind === "segment" ? [foundIn(segmentation)] : [];
+    const text = [...found, ...notes.filter((note) => !found.length || isLoss(note))].join(" ");
     if (text) this.around.tell(text, undo);
   }
 }
 
-function knownOf({ segmentation, ids = [] }: Recording): Known {
+function tableOf({ segmentation, ids = [] }: Recording): IdentifiedTable {
   return { segmentation, ids };
 }

@@ -62,11 +62,11 @@ export class Editor {
   }
 
   /** The field of a name takes the keyboard, where there is one. */
-  startNaming(which: "segment" | "cluster"): void {
+  startNaming(target: "segment" | "cluster"): void {
     const segment = this.segment.value;
-    if (segment && which === "cluster" && segment.cluster < 0)
+    if (segment && target === "cluster" && segment.cluster < 0)
       this.session.bulletin.tell("This segment is in no cluster: there is no cluster to name.");
-    else if (segment) this.naming.value = which;
+    else if (segment) this.naming.value = target;
   }
 
   name(segment: Segment, label: string): void {
@@ -153,7 +153,7 @@ export class Editor {
     command: () => Edit | null,
     place: () => number | undefined,
     otherwise: string,
-    then: (edit: Edit) => void = () => undefined,
+    after: (edit: Edit) => void = () => undefined,
   ): void {
     this.session.edited.value?.whenShown(() => {
       const edit = command();
@@ -164,7 +164,7 @@ export class Editor {
       else
         batch(() => {
           this.send(edit);
-          then(edit);
+          after(edit);
         });
     });
   }

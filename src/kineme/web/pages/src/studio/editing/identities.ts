@@ -10,7 +10,7 @@ import type { ByHand, Edit, Level, Segment, Segments } from "../../messages";
 import { levelOf } from "./foreseen/clusters";
 
 /** A table and who its rows are. */
-export interface Known {
+export interface IdentifiedTable {
   readonly segmentation: Segments;
   readonly ids: readonly string[];
 }
@@ -18,7 +18,7 @@ export interface Known {
 const LONGEST_ORIGIN = 8;
 
 /** Who the rows of a table are that an edit makes of another. */
-export function idsAfter(before: Known, now: Segments, name: string): string[] {
+export function idsAfter(before: IdentifiedTable, now: Segments, name: string): string[] {
   const rows = before.segmentation.segments;
   const mine = new Map(rows.map((row, i) => [placeOf(row), before.ids[i]!]));
   const same = new Map<string, string>();
@@ -32,19 +32,19 @@ export function idsAfter(before: Known, now: Segments, name: string): string[] {
 
 /** Where the segments that start now started before; new ones are left out. */
 export function descent(before: readonly number[], now: readonly number[]): Map<number, number> {
-  const there = new Set(before);
-  const staying = new Set(now.filter((start) => there.has(start)));
+  const starts = new Set(before);
+  const staying = new Set(now.filter((start) => starts.has(start)));
   const found = new Map([...staying].map((start) => [start, start]));
-  let gone = before.filter((start) => !staying.has(start));
+  let moved = before.filter((start) => !staying.has(start));
   for (const start of now.filter((each) => !staying.has(each))) {
     const low = Math.max(-1, ...[...staying].filter((each) => each < start));
     const high = Math.min(Infinity, ...[...staying].filter((each) => each > start));
-    const near = gone.filter((each) => low < each && each < high);
+    const near = moved.filter((each) => low < each && each < high);
     if (!near.length) continue;
     const far = (each: number): number => Math.abs(each - start);
     const nearest = near.reduce((best, each) => (far(each) < far(best) ? each : best));
     found.set(start, nearest);
-    gone = gone.filter((each) => each > nearest);
+    moved = moved.filter((each) => each > nearest);
   }
   return found;
 }
@@ -57,7 +57,7 @@ interface Place {
 }
 
 /** Who an edit is made on, in the order of the frames it names; null where there is nobody. */
-export function madeOn(edit: Edit, { segmentation, ids }: Known): (string | null)[] {
+export function madeOn(edit: Edit, { segmentation, ids }: IdentifiedTable): (string | null)[] {
   return placesOf(edit, segmentation).map((place) => {
     const row = segmentation.segments.findIndex((each) => isAt(each, place));
     return ids[row] ?? null;
@@ -68,7 +68,7 @@ export function madeOn(edit: Edit, { segmentation, ids }: Known): (string | null
 export function readdressed(
   edit: Edit,
   on: readonly (string | null)[],
-  { segmentation, ids }: Known,
+  { segmentation, ids }: IdentifiedTable,
 ): Edit | null {
   const frames = placesOf(edit, segmentation).map((place, i): number | null => {
     const id = on[i] ?? null;
@@ -127,9 +127,9 @@ function withFrames(edit: Edit, frames: readonly number[]): Edit {
     case "together": {
       let rest = frames;
       const edits = edit.edits.map((each) => {
-        const own = countOf(each);
-        const now = withFrames(each, rest.slice(0, own));
-        rest = rest.slice(own);
+        const count = countOf(each);
+        const now = withFrames(each, rest.slice(0, count));
+        rest = rest.slice(count);
         return now;
       });
       return { ...edit, edits };

@@ -1,22 +1,22 @@
 /** What the edits on their way will make of the table that was confirmed, without doing it twice. */
 import type { Recording } from "../../messages";
-import type { Known } from "./identities";
+import type { IdentifiedTable } from "./identities";
 import { expected, isSame, storyOf, withPresent, type Story } from "./story";
 import type { Unsent } from "./unsent";
 
 /** A story, and what it was told of: the table of a revision. */
-interface Told {
+interface Latest {
   of: Recording["segmentation"];
   story: Story;
 }
 
 export class Outlook {
-  private told: Told | null = null;
+  private latest: Latest | null = null;
   /** By the name of an edit: what it made of what. */
   private readonly made = new Map<string, { from: Story; to: Story | null }>();
 
   /** The table once all these edits are made; those that cannot be foreseen change nothing yet. */
-  after(confirmed: Recording, unsent: readonly Unsent[]): Known {
+  after(confirmed: Recording, unsent: readonly Unsent[]): IdentifiedTable {
     return this.stories(confirmed, unsent).at(-1)!.present;
   }
 
@@ -35,14 +35,14 @@ export class Outlook {
   /** The server has made an edit of a table; `now` is what it made. */
   confirm({ name, edit }: Unsent, before: Recording, now: Recording): void {
     const from = this.storyAt(before);
-    const came: Known = { segmentation: now.segmentation, ids: now.ids ?? [] };
+    const table: IdentifiedTable = { segmentation: now.segmentation, ids: now.ids ?? [] };
     const next = now.revision === before.revision + 1;
-    const story = next ? withPresent(from, edit, came) : storyOf(came);
+    const story = next ? withPresent(from, edit, table) : storyOf(table);
     const guess = this.made.get(name);
     this.made.delete(name);
-    if (guess?.to && guess.from === from && isSame(guess.to.present, came))
+    if (guess?.to && guess.from === from && isSame(guess.to.present, table))
       for (const each of this.made.values()) if (each.from === guess.to) each.from = story;
-    this.told = { of: now.segmentation, story };
+    this.latest = { of: now.segmentation, story };
   }
 
   /** Where the edits lead, one after the other, from what is confirmed on. */
@@ -50,20 +50,20 @@ export class Outlook {
     const stories = [this.storyAt(confirmed)];
     for (const { name, edit } of unsent) {
       const from = stories.at(-1)!;
-      let known = this.made.get(name);
-      if (known?.from !== from) {
-        known = { from, to: expected(from, edit, name) };
-        this.made.set(name, known);
+      let step = this.made.get(name);
+      if (step?.from !== from) {
+        step = { from, to: expected(from, edit, name) };
+        this.made.set(name, step);
       }
-      stories.push(known.to ?? from);
+      stories.push(step.to ?? from);
     }
     return stories;
   }
 
   /** A table that came from elsewhere has no story. */
   private storyAt({ segmentation, ids = [] }: Recording): Story {
-    if (this.told?.of !== segmentation)
-      this.told = { of: segmentation, story: storyOf({ segmentation, ids }) };
-    return this.told.story;
+    if (this.latest?.of !== segmentation)
+      this.latest = { of: segmentation, story: storyOf({ segmentation, ids }) };
+    return this.latest.story;
   }
 }

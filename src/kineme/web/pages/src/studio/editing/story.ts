@@ -1,15 +1,15 @@
 /** The table a page works on, those before it and those undone, as far as the page has seen them. */
 import type { Edit } from "../../messages";
 import { foreseen } from "./foreseen/foreseen";
-import { idsAfter, type Known } from "./identities";
+import { idsAfter, type IdentifiedTable } from "./identities";
 
 export interface Story {
-  readonly present: Known;
-  readonly past: readonly Known[];
-  readonly future: readonly Known[];
+  readonly present: IdentifiedTable;
+  readonly past: readonly IdentifiedTable[];
+  readonly future: readonly IdentifiedTable[];
 }
 
-export function storyOf(present: Known): Story {
+export function storyOf(present: IdentifiedTable): Story {
   return { present, past: [], future: [] };
 }
 
@@ -25,7 +25,11 @@ export function expected(story: Story, edit: Edit, name: string): Story | null {
 }
 
 /** The story after an edit that made this table. */
-export function withPresent({ past, present, future }: Story, edit: Edit, now: Known): Story {
+export function withPresent(
+  { past, present, future }: Story,
+  edit: Edit,
+  now: IdentifiedTable,
+): Story {
   if (edit.kind === "undo")
     return { present: now, past: past.slice(0, -1), future: [present, ...future] };
   if (edit.kind === "redo")
@@ -34,7 +38,7 @@ export function withPresent({ past, present, future }: Story, edit: Edit, now: K
 }
 
 /** Whether what was expected came: the same rows, who are the same. */
-export function isSame(a: Known, b: Known): boolean {
+export function isSame(a: IdentifiedTable, b: IdentifiedTable): boolean {
   if (a === b) return true;
   const { segmentation: one, ids } = a;
   const { segmentation: other } = b;
@@ -48,7 +52,7 @@ export function isSame(a: Known, b: Known): boolean {
 }
 
 /** Which of the edits after an edit takes it back; -1: none. */
-export function takenBackBy(later: readonly Edit[]): number {
+export function undoneBy(later: readonly Edit[]): number {
   let made = 0; // since then, and not taken back
   for (const [i, { kind }] of later.entries()) {
     if (kind === "undo" && made === 0) return i;

@@ -50,8 +50,8 @@ export function store(folder: string, recording: string, unsent: Unsent[]): void
 
 /** The edits of this tab before it was reloaded, or of tabs that died; they are this tab's now. */
 export async function takeOver(folder: string, recording: string): Promise<Unsent[]> {
-  const { held = [] } = await navigator.locks.query();
-  const living = new Set(held.map((lock) => lock.name?.slice(PREFIX.length + 1)));
+  const { held: locks = [] } = await navigator.locks.query();
+  const living = new Set(locks.map((lock) => lock.name?.slice(PREFIX.length + 1)));
   living.delete(tab);
   const found = Object.keys(localStorage)
     .filter((key) => key.startsWith(`${PREFIX}|${folder}|${recording}|`))

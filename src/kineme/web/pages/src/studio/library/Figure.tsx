@@ -1,7 +1,7 @@
 /** A small figure of a span: read when it comes into view, a strip, or one that plays. */
 import { useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useCallback, useEffect, useRef } from "preact/hooks";
 import { clusterColor, onPage } from "../../colors";
 import type { Span } from "../../messages";
 import { unpackMotion } from "../../motion";
@@ -16,21 +16,21 @@ const MOST_KEPT = 600;
 
 /** The sketches of a page, each asked for once. */
 export class Sketches {
-  private readonly known = new Map<string, Promise<Sketch>>();
+  private readonly kept = new Map<string, Promise<Sketch>>();
 
   constructor(private readonly api: LibraryApi) {}
 
   of(span: Span): Promise<Sketch> {
     const key = JSON.stringify([span.recording, span.start_s, span.stop_s]);
-    const known = this.known.get(key) ?? this.ask(span);
-    this.known.delete(key);
-    this.known.set(key, known); // the last one is the newest
-    known.catch(() => this.known.delete(key));
-    for (const old of this.known.keys()) {
-      if (this.known.size <= MOST_KEPT) break;
-      this.known.delete(old);
+    const kept = this.kept.get(key) ?? this.ask(span);
+    this.kept.delete(key);
+    this.kept.set(key, kept); // the last one is the newest
+    kept.catch(() => this.kept.delete(key));
+    for (const old of this.kept.keys()) {
+      if (this.kept.size <= MOST_KEPT) break;
+      this.kept.delete(old);
     }
-    return known;
+    return kept;
   }
 
   private async ask(span: Span): Promise<Sketch> {
@@ -54,23 +54,25 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
   const sketch = useSignal<Sketch | null>(null);
   const failure = useSignal("");
   const visible = useRef(false);
-  const strip = playing === undefined;
   const { recording, start_s, stop_s } = span;
 
-  const draw = (share: number): void => {
-    const shown = sketch.peek();
-    const pen = canvas.current && shown && sheet(canvas.current);
-    if (!pen) return;
-    const color = onPage(clusterColor(cluster), theme.peek());
-    if (shown.flat) drawPoses(pen, shown.flat, strip ? POSES : [share], color);
-    else drawCurves(pen, shown.curves, playing ? share : null, color);
-  };
+  const draw = useCallback(
+    (share: number): void => {
+      const shown = sketch.peek();
+      const pen = canvas.current && shown && sheet(canvas.current);
+      if (!pen) return;
+      const color = onPage(clusterColor(cluster), theme.peek());
+      if (shown.flat) drawPoses(pen, shown.flat, playing === undefined ? POSES : [share], color);
+      else drawCurves(pen, shown.curves, playing ? share : null, color);
+    },
+    [sketch, cluster, playing],
+  );
 
   useEffect(() => {
     sketch.value = null;
     failure.value = "";
     let here = true;
-    const seen = new IntersectionObserver((entries) => {
+    const inView = new IntersectionObserver((entries) => {
       visible.current = entries.at(-1)!.isIntersecting;
       if (!visible.current || sketch.peek()) return;
       sketches
@@ -78,15 +80,18 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
         .then((found) => here && (sketch.value = found))
         .catch((error: unknown) => here && (failure.value = explain(error)));
     });
-    seen.observe(canvas.current!);
-    const sized = new ResizeObserver(() => draw(0.5));
-    sized.observe(canvas.current!);
+    inView.observe(canvas.current!);
     return () => {
       here = false;
-      seen.disconnect();
-      sized.disconnect();
+      inView.disconnect();
     };
-  }, [recording, start_s, stop_s]);
+  }, [sketches, recording, start_s, stop_s, sketch, failure]);
+
+  useEffect(() => {
+    const sized = new ResizeObserver(() => draw(0.5));
+    sized.observe(canvas.current!);
+    return () => sized.disconnect();
+  }, [draw]);
 
   useSignalEffect(() => {
     if (sketch.value && theme.value) draw(0.5);
@@ -107,7 +112,7 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
     };
     picture = requestAnimationFrame(next);
     return () => cancelAnimationFrame(picture);
-  }, [playing, cluster]);
+  }, [playing, draw, sketch, start_s, stop_s]);
 
   return (
     <span class="figure" data-drawn={sketch.value !== null}>

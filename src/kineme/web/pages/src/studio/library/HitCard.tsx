@@ -2,16 +2,16 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import type { LibraryHit } from "../../messages";
+import { pageAddress } from "../server/address";
 import { Figure } from "./Figure";
 import { keyOf } from "./hits";
 import type { LibraryPage } from "./libraryPage";
-import { inStudio } from "./Recordings";
 
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
 export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): JSX.Element {
   const looked = useSignal(false);
-  const right = page.judged.value.get(keyOf(hit))?.right;
+  const right = page.verdicts.value.get(keyOf(hit))?.right;
   const front = page.hits.value[page.inFront.value] === hit;
   const { recording, start_s, stop_s, cluster, label, name } = hit;
   const id = page.state.value?.recordings.find((each) => each.recording === recording)?.id;
@@ -36,7 +36,9 @@ export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): 
         cluster={cluster}
         playing={page.playing.value || looked.value}
       />
-      <p class="name">{id ? <a href={inStudio(page, id, start_s)}>{recording}</a> : recording}</p>
+      <p class="name">
+        {id ? <a href={pageAddress(page.api.token, id, start_s)}>{recording}</a> : recording}
+      </p>
       <p class="quiet number">
         {time}
         <br />

@@ -1,6 +1,7 @@
 /** The recordings of a library: how long, how far, opened in the studio. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
+import { pageAddress } from "../server/address";
 import { seconds } from "./hits";
 import type { LibraryPage } from "./libraryPage";
 
@@ -11,8 +12,8 @@ const FIRST = 3;
 export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
   const filter = useSignal("");
   const { recordings = [], failed = {} } = page.state.value ?? {};
-  const wanted = filter.value.trim().toLowerCase();
-  const found = recordings.filter((each) => each.recording.toLowerCase().includes(wanted));
+  const text = filter.value.trim().toLowerCase();
+  const found = recordings.filter((each) => each.recording.toLowerCase().includes(text));
   return (
     <>
       <div class="tools">
@@ -43,7 +44,7 @@ export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
               <tr key={each.recording}>
                 <td>
                   {each.id ? (
-                    <a href={inStudio(page, each.id)}>{each.recording}</a>
+                    <a href={pageAddress(page.api.token, each.id)}>{each.recording}</a>
                   ) : (
                     <span title="Its file is not where it was">{each.recording}</span>
                   )}
@@ -84,11 +85,4 @@ export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
       )}
     </>
   );
-}
-
-/** The address of a recording in the studio, at a moment of it. */
-export function inStudio(page: LibraryPage, id: string, at = 0): string {
-  const address = new URLSearchParams({ token: page.api.token, open: id });
-  if (at) address.set("at", at.toFixed(3));
-  return `?${address}`;
 }

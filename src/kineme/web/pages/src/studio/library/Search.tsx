@@ -14,7 +14,7 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
   const { value: hits } = page.hits;
   const cards = useRef<HTMLUListElement>(null);
   useEffect(() => startHitKeys(page, () => cards.current), [page]);
-  const said = page.confirmed.value.length + page.refused.value.length;
+  const count = page.confirmed.value.length + page.refused.value.length;
   return (
     <>
       <SpanForm page={page} />
@@ -40,7 +40,7 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
           </span>
         </div>
       )}
-      {said > 0 && <Said page={page} />}
+      {count > 0 && <Verdicts page={page} />}
       {question && !page.searching.value && !hits.length && (
         <p class="quiet">Nothing is that near: try a larger distance.</p>
       )}
@@ -54,7 +54,7 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
 }
 
 /** What was said of the hits, and what may be done with that. */
-function Said({ page }: { page: LibraryPage }): JSX.Element {
+function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
   const [yes, no] = [page.confirmed.value.length, page.refused.value.length];
   return (
     <section class="said" aria-label="What you said">
@@ -102,8 +102,8 @@ function Said({ page }: { page: LibraryPage }): JSX.Element {
 
 function Downloads({ page }: { page: LibraryPage }): JSX.Element {
   const write = (name: string, text: typeof asCsv): void => {
-    const judged = page.judged.peek();
-    const content = text(page.hits.peek(), (hit) => judged.get(keyOf(hit))?.right);
+    const verdicts = page.verdicts.peek();
+    const content = text(page.hits.peek(), (hit) => verdicts.get(keyOf(hit))?.right);
     save({ name, data: new Blob([content], { type: "text/plain;charset=utf-8" }) });
   };
   return (

@@ -13,9 +13,9 @@ export function SpanForm({ page }: { page: LibraryPage }): JSX.Element {
     stop_s: Math.min(3, first?.duration_s ?? 3),
   };
   const change = (some: Partial<Span>): void => void (page.span.value = { ...span, ...some });
-  const known = recordings.some((each) => each.recording === span.recording);
+  const exists = recordings.some((each) => each.recording === span.recording);
   const { start_s, stop_s, recording } = span;
-  const valid = known && start_s >= 0 && stop_s > start_s;
+  const valid = exists && start_s >= 0 && stop_s > start_s;
   const title = `${recording} ${start_s} to ${stop_s} s`;
   return (
     <form

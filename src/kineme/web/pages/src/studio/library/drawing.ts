@@ -1,4 +1,4 @@
-/** Small figures on a canvas: one moment, several beside each other, or curves. */
+/** Small figures on a canvas: one pose, several beside each other, or curves. */
 import type { Flat } from "./flat";
 
 /** What is drawn of a span: a body, or channels from 0 to 1. */

@@ -1,7 +1,7 @@
 /** Motions as flat figures, seen from the side from which they move most. Pure functions. */
 import { poseAt, rootOf, type Motion } from "../../motion";
 
-/** Poses of a body, to the right and up, around where it stands at each moment. */
+/** Poses of a body, to the right and up, around where it stands at each sample. */
 export interface Flat {
   bones: readonly (readonly [number, number])[];
   fps: number;
@@ -51,11 +51,11 @@ export function sideOf(bodies: readonly Float32Array[]): number {
   let [xx, zz, xz] = [0, 0, 0];
   const n = bodies[0]?.length ?? 0;
   for (let at = 0; at < n; at += 3) {
-    const seen = bodies.filter((body) => !Number.isNaN(body[at]! + body[at + 2]!));
+    const visible = bodies.filter((body) => !Number.isNaN(body[at]! + body[at + 2]!));
     const mean = (axis: number): number =>
-      seen.reduce((sum, body) => sum + body[at + axis]!, 0) / (seen.length || 1);
+      visible.reduce((sum, body) => sum + body[at + axis]!, 0) / (visible.length || 1);
     const [x, z] = [mean(0), mean(2)];
-    for (const body of seen) {
+    for (const body of visible) {
       const [dx, dz] = [body[at]! - x, body[at + 2]! - z];
       xx += dx * dx;
       zz += dz * dz;

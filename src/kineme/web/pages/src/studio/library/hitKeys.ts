@@ -30,7 +30,7 @@ export function startHitKeys(page: LibraryPage, cards: () => HTMLElement | null)
 
 /** Arrows up and down scroll the page, but from card to card. */
 function stepOf(key: string, onCard: boolean): number {
-  const along: Record<string, number> = { arrowright: 1, arrowleft: -1 };
+  const sideways: Record<string, number> = { arrowright: 1, arrowleft: -1 };
   const across: Record<string, number> = { arrowdown: 1, arrowup: -1 };
-  return along[key] ?? (onCard ? across[key] : undefined) ?? 0;
+  return sideways[key] ?? (onCard ? across[key] : undefined) ?? 0;
 }

@@ -31,21 +31,21 @@ export function ordered(clusters: readonly LibraryCluster[], by: Order): Library
 
 const COLUMNS = ["recording", "start_s", "stop_s", "distance", "cluster", "label", "name"] as const;
 
-type Said = (hit: LibraryHit) => boolean | undefined;
+type Verdict = (hit: LibraryHit) => boolean | undefined;
 
 /** The hits with what was said of them, as `kineme library search --json` has them. */
-export function asJson(hits: readonly LibraryHit[], said: Said): string {
+export function asJson(hits: readonly LibraryHit[], verdict: Verdict): string {
   return hits
-    .map((hit) => JSON.stringify({ ...hit, confirmed: said(hit) ?? null }) + "\n")
+    .map((hit) => JSON.stringify({ ...hit, confirmed: verdict(hit) ?? null }) + "\n")
     .join("");
 }
 
-export function asCsv(hits: readonly LibraryHit[], said: Said): string {
-  const cell = (value: unknown): string => {
+export function asCsv(hits: readonly LibraryHit[], verdict: Verdict): string {
+  const cell = (value: string | number | boolean | null | undefined): string => {
     const text = String(value ?? "");
     return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
   };
-  const rows = hits.map((hit) => [...COLUMNS.map((name) => hit[name]), said(hit)]);
+  const rows = hits.map((hit) => [...COLUMNS.map((name) => hit[name]), verdict(hit)]);
   return [[...COLUMNS, "confirmed"], ...rows].map((row) => row.map(cell).join(",") + "\n").join("");
 }
 

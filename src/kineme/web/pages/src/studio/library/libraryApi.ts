@@ -13,28 +13,23 @@ import { Api } from "../server/api";
 
 export class LibraryApi extends Api {
   library(): Promise<LibraryState> {
-    return this.json("/api/library");
+    return this.get("/api/library", {});
   }
 
   editLibrary(edit: LibraryEdit): Promise<LibraryState> {
-    return this.json("/api/library/edits", edit);
+    return this.post("/api/library/edits", {}, edit);
   }
 
   nameHits(sent: CallHits): Promise<NamedHits> {
-    return this.json("/api/library/names", sent);
+    return this.post("/api/library/names", {}, sent);
   }
 
   /** Refused with status 409 where a newer search was asked for meanwhile. */
   search(sent: SearchRequest): Promise<LibraryHits> {
-    return this.json("/api/library/search", sent);
+    return this.post("/api/library/search", {}, sent);
   }
 
   figure({ recording, start_s, stop_s }: Span): Promise<LibraryFigure> {
-    const asked = new URLSearchParams({
-      recording,
-      start: String(start_s),
-      stop: String(stop_s),
-    });
-    return this.json(`/api/library/figure?${asked}`);
+    return this.get("/api/library/figure", {}, { recording, start: start_s, stop: stop_s });
   }
 }

@@ -31,15 +31,15 @@ export class LibraryPage {
   /** The span that the form of the search shows. */
   readonly span = signal<Span | null>(null);
   /** The hits of which somebody has said whether they are right, by `keyOf`. */
-  readonly judged = signal<ReadonlyMap<string, { hit: LibraryHit; right: boolean }>>(new Map());
+  readonly verdicts = signal<ReadonlyMap<string, { hit: LibraryHit; right: boolean }>>(new Map());
   /** The hit that keys are about, by `keyOf`; the first where it is none of those shown. */
   readonly front = signal("");
   readonly inFront = computed(() => {
     const at = this.hits.value.findIndex((hit) => keyOf(hit) === this.front.value);
     return at < 0 ? 0 : at;
   });
-  readonly confirmed = computed(() => this.said(true));
-  readonly refused = computed(() => this.said(false));
+  readonly confirmed = computed(() => this.hitsOf(true));
+  readonly refused = computed(() => this.hitsOf(false));
   readonly shares = computed(() => sharesOf(this.confirmed.value));
   readonly sketches: Sketches;
   private asked = 0;
@@ -83,7 +83,7 @@ export class LibraryPage {
 
   /** Searches anew; what was said of the hits before is forgotten. */
   async ask(question: Question): Promise<void> {
-    this.judged.value = new Map();
+    this.verdicts.value = new Map();
     this.news.value = "";
     this.tab.value = "search";
     this.hits.value = [];
@@ -104,10 +104,10 @@ export class LibraryPage {
 
   /** Says of a hit whether it is right; the same again takes that back. */
   judge(hit: LibraryHit, right: boolean): void {
-    const judged = new Map(this.judged.value);
-    if (judged.get(keyOf(hit))?.right === right) judged.delete(keyOf(hit));
-    else judged.set(keyOf(hit), { hit, right });
-    this.judged.value = judged;
+    const verdicts = new Map(this.verdicts.value);
+    if (verdicts.get(keyOf(hit))?.right === right) verdicts.delete(keyOf(hit));
+    else verdicts.set(keyOf(hit), { hit, right });
+    this.verdicts.value = verdicts;
     this.news.value = ""; // it was of others
   }
 
@@ -142,9 +142,9 @@ export class LibraryPage {
     }));
   }
 
-  private said(which: boolean): LibraryHit[] {
-    return [...this.judged.value.values()]
-      .filter(({ right }) => right === which)
+  private hitsOf(verdict: boolean): LibraryHit[] {
+    return [...this.verdicts.value.values()]
+      .filter(({ right }) => right === verdict)
       .map(({ hit }) => hit);
   }
 

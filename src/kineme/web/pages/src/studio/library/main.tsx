@@ -4,12 +4,13 @@ import "../../styles/index.css";
 import "../studio.css";
 import "./library.css";
 import { watchFocus } from "../../focus";
-import { pageToken, shareToken } from "../server/token";
+import { tokenInAddress } from "../server/address";
+import { shareToken } from "../server/token";
 import { LibraryApi } from "./libraryApi";
 import { LibraryPage } from "./libraryPage";
 import { LibraryView } from "./LibraryView";
 
-const api = new LibraryApi(pageToken());
+const api = new LibraryApi(tokenInAddress());
 const page = new LibraryPage(api);
 shareToken(api);
 document.title = "Library · kineme studio";

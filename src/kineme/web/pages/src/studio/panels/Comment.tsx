@@ -1,18 +1,16 @@
 /** What people say about the segment. */
 import type { JSX } from "preact";
+import { useStudio } from "../context";
 import type { Segment } from "../../messages";
-import type { Editor } from "../editing/editor";
-import type { Session } from "../session";
 
 interface Props {
-  session: Session;
-  editor: Editor;
   segment: Segment;
 }
 
-export function Comment({ session, editor, segment }: Props): JSX.Element {
-  const said = session.store.recording.value?.segmentation.comments ?? [];
-  const text = said
+export function Comment({ segment }: Props): JSX.Element {
+  const { session, editor } = useStudio();
+  const comments = session.store.recording.value?.segmentation.comments ?? [];
+  const text = comments
     .filter(({ level, frame }) => level === segment.level && isIn(frame, segment))
     .map((each) => each.text)
     .join("\n");

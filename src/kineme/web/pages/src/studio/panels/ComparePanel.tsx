@@ -1,20 +1,20 @@
 /** How well the shown result agrees with the one it is compared with. */
 import type { JSX } from "preact";
-import type { Session } from "../session";
+import { useStudio } from "../context";
 
-interface Props {
-  session: Session;
-  choose: () => void;
-}
-
-export function ComparePanel({ session, choose }: Props): JSX.Element {
+export function ComparePanel(): JSX.Element {
+  const { session, front } = useStudio();
   const comparison = session.beside.comparison.value;
   if (!comparison)
     return (
       <div class="compare-panel">
         <p class="quiet">Lay another preset’s result, or an annotation, below this one.</p>
         <p>
-          <button type="button" disabled={!session.edited.value} onClick={choose}>
+          <button
+            type="button"
+            disabled={!session.edited.value}
+            onClick={() => front.show("compare")}
+          >
             Compare…
           </button>
         </p>

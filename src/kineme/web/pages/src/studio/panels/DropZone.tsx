@@ -2,15 +2,10 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
-import type { Session } from "../session";
-import type { Uploads } from "../server/uploads";
+import { useStudio } from "../context";
 
-interface Props {
-  session: Session;
-  uploads: Uploads;
-}
-
-export function DropZone({ session, uploads }: Props): JSX.Element | null {
+export function DropZone(): JSX.Element | null {
+  const { session, uploads } = useStudio();
   const over = useSignal(false);
   useEffect(() => {
     const holdsFiles = (event: DragEvent): boolean =>
@@ -37,7 +32,7 @@ export function DropZone({ session, uploads }: Props): JSX.Element | null {
       removeEventListener("dragleave", onLeave);
       removeEventListener("drop", onDrop);
     };
-  }, [uploads]);
+  }, [uploads, over]);
   if (!over.value) return null;
   return (
     <div class="drop-zone" aria-hidden="true">

@@ -1,8 +1,9 @@
 /** The buttons that cut and join, for those without a keyboard at hand. */
 import type { JSX } from "preact";
-import type { Editor } from "../editing/editor";
+import { useStudio } from "../context";
 
-export function EditTools({ editor }: { editor: Editor }): JSX.Element {
+export function EditTools(): JSX.Element {
+  const { editor } = useStudio();
   const disabled = !editor.segment.value;
   return (
     <span class="group edit-tools" role="group" aria-label="Segments">

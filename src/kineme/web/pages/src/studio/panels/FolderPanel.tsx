@@ -1,20 +1,15 @@
 /** The recordings of the folder: search, open, show beside, add. */
 import type { JSX } from "preact";
+import { useStudio } from "../context";
 import type { Listing } from "../../messages";
 import type { Order, Status } from "../recordingList";
-import type { Session } from "../session";
-import type { Uploads } from "../server/uploads";
 
 const SIGNS: Record<Status, string> = { new: "", corrected: "✎", labelled: "◐", checked: "✓" };
 const TAIL = 12; // letters at the end of a name that are always seen
 
-interface Props {
-  session: Session;
-  uploads: Uploads;
-}
-
-export function FolderPanel({ session, uploads }: Props): JSX.Element {
-  const { search, wanted } = session.list;
+export function FolderPanel(): JSX.Element {
+  const { session, uploads } = useStudio();
+  const { search, status } = session.list;
   const all = session.state.value?.recordings ?? [];
   const found = session.list.listed.value;
   const done = all.filter((each) => session.list.statusOf(each) === "checked").length;
@@ -51,8 +46,8 @@ export function FolderPanel({ session, uploads }: Props): JSX.Element {
           />
           <select
             aria-label="Show recordings that are"
-            value={wanted.value}
-            onChange={(event) => (wanted.value = event.currentTarget.value as Status | "")}
+            value={status.value}
+            onChange={(event) => (status.value = event.currentTarget.value as Status | "")}
           >
             <option value="">all</option>
             <option value="new">new</option>
@@ -78,7 +73,7 @@ export function FolderPanel({ session, uploads }: Props): JSX.Element {
       )}
       <ul class="recordings">
         {found.map((listing) => (
-          <Row key={listing.id} session={session} listing={listing} />
+          <Row key={listing.id} listing={listing} />
         ))}
       </ul>
       {uploads.running.value.map(({ name, share }) => (
@@ -92,7 +87,8 @@ export function FolderPanel({ session, uploads }: Props): JSX.Element {
   );
 }
 
-function Row({ session, listing }: { session: Session; listing: Listing }): JSX.Element {
+function Row({ listing }: { listing: Listing }): JSX.Element {
+  const { session } = useStudio();
   const { id, name } = listing;
   const { store } = session;
   const open = store.opened.value.find((each) => each.recording.value.id === id)?.recording.value;
@@ -100,7 +96,7 @@ function Row({ session, listing }: { session: Session; listing: Listing }): JSX.
   const status = session.list.statusOf(listing);
   const checked = open?.segmentation.checked.length ?? listing.checked;
   const segments = open?.segmentation.segments.length ?? listing.segments;
-  const said = [
+  const facts = [
     megabytes(listing.bytes),
     status,
     ...(status === "corrected" ? [`${checked} of ${segments} segments checked`] : []),
@@ -116,7 +112,7 @@ function Row({ session, listing }: { session: Session; listing: Listing }): JSX.
         class="recording"
         aria-current={current ? "true" : undefined}
         aria-busy={opening}
-        title={`${name}: ${said.join(", ")}`}
+        title={`${name}: ${facts.join(", ")}`}
         onClick={() => void session.open(id, { beside: shown })}
       >
         <MiddleShortened name={name} />

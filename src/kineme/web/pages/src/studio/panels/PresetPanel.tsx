@@ -4,20 +4,21 @@
  */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useCallback, useEffect, useRef } from "preact/hooks";
+import { useStudio } from "../context";
 import type { Parameter, PresetChoice, Segments } from "../../messages";
 import type { EditedRecording } from "../editing/editedRecording";
 import { DetailSlider } from "../../layout/DetailSlider";
 import type { Choice } from "../editing/beside";
 import { ParameterSlider } from "./ParameterSlider";
 import { Proposed } from "./Proposed";
-import type { Session } from "../session";
 
 const PAUSE = 120; // milliseconds without a change before the server is asked
 
 type Values = Record<string, number>;
 
-export function PresetPanel({ session }: { session: Session }): JSX.Element | null {
+export function PresetPanel(): JSX.Element | null {
+  const { session } = useStudio();
   const state = session.state.value;
   const edited = session.edited.value;
   if (!state || !edited) return null;
@@ -25,7 +26,7 @@ export function PresetPanel({ session }: { session: Session }): JSX.Element | nu
   return (
     <Presets
       key={edited.id}
-      session={session}
+
       edited={edited}
       presets={signals ? state.presets.map(ofSignals) : state.presets}
       fallback={state.default_preset}
@@ -35,14 +36,14 @@ export function PresetPanel({ session }: { session: Session }): JSX.Element | nu
 }
 
 interface Props {
-  session: Session;
   edited: EditedRecording;
   presets: PresetChoice[];
   fallback: string;
   details: number[];
 }
 
-function Presets({ session, edited, presets, fallback, details }: Props): JSX.Element {
+function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
+  const { session } = useStudio();
   const draft = useSignal<Choice | null>(null);
   const keep = useSignal(true);
   const timer = useRef(0);
@@ -53,19 +54,22 @@ function Presets({ session, edited, presets, fallback, details }: Props): JSX.El
   const { preset, values, detail } = draft.value ?? proposal?.choice ?? used;
   const choice = presets.find((each) => each.name === preset)!;
 
-  const again = (next: Choice, pause: number): void => {
-    draft.value = next;
-    window.clearTimeout(timer.current);
-    timer.current = window.setTimeout(() => {
-      void session.beside.propose(next, keep.value).then(() => {
-        if (draft.value === next) draft.value = null;
-      });
-    }, pause);
-  };
+  const again = useCallback(
+    (next: Choice, pause: number): void => {
+      draft.value = next;
+      window.clearTimeout(timer.current);
+      timer.current = window.setTimeout(() => {
+        void session.beside.propose(next, keep.value).then(() => {
+          if (draft.value === next) draft.value = null;
+        });
+      }, pause);
+    },
+    [session, draft, keep],
+  );
   useEffect(() => () => window.clearTimeout(timer.current), []);
   useEffect(() => {
-    if (proposal && proposal.revision !== revision) again(proposal.choice, 0); // of another table
-  }, [revision]);
+    if (proposal && proposal.revision !== revision) again(draft.peek() ?? proposal.choice, 0); // of another table
+  }, [proposal, revision, again, draft]);
   const change = (parameter: Parameter, value: number): void => {
     const { minimum, maximum } = parameter;
     if (!Number.isFinite(value)) return;
@@ -78,7 +82,7 @@ function Presets({ session, edited, presets, fallback, details }: Props): JSX.El
     choose: (next: number) => again({ preset, values, detail: next }, PAUSE),
   };
   useEffect(() => void (session.store.levels.value = levels));
-  useEffect(() => () => void (session.store.levels.value = null), []);
+  useEffect(() => () => void (session.store.levels.value = null), [session]);
   return (
     <section class="preset-panel" aria-label="Segmentation" aria-busy={busy}>
       <div class="panel-head">
@@ -110,7 +114,7 @@ function Presets({ session, edited, presets, fallback, details }: Props): JSX.El
             </option>
           ))}
         </select>
-        <DetailSlider store={session.store} />
+        <DetailSlider />
         {choice.parameters.map((parameter) => (
           <ParameterSlider
             key={`${preset}.${parameter.name}`}
@@ -122,11 +126,10 @@ function Presets({ session, edited, presets, fallback, details }: Props): JSX.El
       </div>
       {proposal && (
         <Proposed
-          session={session}
           proposal={proposal}
           keep={keep.value}
-          setKeep={(wanted) => {
-            keep.value = wanted;
+          setKeep={(keeps) => {
+            keep.value = keeps;
             again(proposal.choice, 0);
           }}
         />

@@ -1,18 +1,18 @@
 /** What a segmentation that is shown would do to the table, and the choice to make it. */
 import type { JSX } from "preact";
+import { useStudio } from "../context";
 import type { Proposal } from "../editing/beside";
 import { counted } from "../editing/words";
-import type { Session } from "../session";
 
 export function Proposed(props: {
-  session: Session;
   proposal: Proposal;
   keep: boolean;
   setKeep: (keep: boolean) => void;
 }): JSX.Element {
-  const { session, proposal, keep, setKeep } = props;
+  const { session } = useStudio();
+  const { proposal, keep, setKeep } = props;
   const { preview } = proposal;
-  const own = `${counted(preview.corrections, "correction")}, ${counted(preview.names, "name")}`;
+  const counts = `${counted(preview.corrections, "correction")}, ${counted(preview.names, "name")}`;
   const some = preview.corrections + preview.names > 0;
   return (
     <div class="proposed" role="group" aria-label="Preview">
@@ -24,7 +24,7 @@ export function Proposed(props: {
               checked={keep}
               onChange={(event) => setKeep(event.currentTarget.checked)}
             />
-            Take over {own}
+            Take over {counts}
           </label>
         )}
         {some && keep && preview.lost.length > 0 && (
@@ -51,7 +51,7 @@ export function Proposed(props: {
           disabled={keep !== proposal.keep}
           onClick={() => session.beside.apply()}
         >
-          {some ? (keep ? "Apply" : `Apply: replaces ${own}`) : "Apply"}
+          {some ? (keep ? "Apply" : `Apply: replaces ${counts}`) : "Apply"}
         </button>
       </p>
     </div>

@@ -2,32 +2,40 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import type { JSX, TargetedEvent } from "preact";
-import type { Session } from "../session";
+import { useStudio } from "../context";
 
 const UNITS = ["m", "cm", "mm", "inch", "cmu"];
 const AXES = ["x", "y", "z", "-x", "-y", "-z"];
 
-export function ReadingPanel({ session }: { session: Session }): JSX.Element | null {
+export function ReadingPanel(): JSX.Element | null {
+  const { session } = useStudio();
   const { value: recording } = session.store.recording;
   const { value: unread } = session.unread;
   const people = useSignal<readonly string[]>([]);
   const busy = useSignal(false);
   const id = unread?.id ?? recording?.id;
   const reading = (!unread && recording?.reading) || {};
-  const said = (name: string): string => String(reading[name] ?? "");
+  const option = (name: string): string => {
+    const value = reading[name];
+    return typeof value === "string" || typeof value === "number" ? String(value) : "";
+  };
+  const person = option("person");
   useEffect(() => {
     people.value = unread?.people ?? [];
-    if (!unread && id && said("person"))
+    if (!unread && id && person)
       void session.api.people(id).then(
         (found) => (people.value = found),
         () => undefined,
       );
-  }, [id, unread]);
+  }, [id, unread, person, people, session]);
   if (!id) return null;
   const read = async (event: TargetedEvent<HTMLFormElement, Event>): Promise<void> => {
     event.preventDefault();
     const form = new FormData(event.currentTarget);
-    const text = (name: string): string => String(form.get(name) ?? "").trim();
+    const text = (name: string): string => {
+      const value = form.get(name);
+      return typeof value === "string" ? value.trim() : "";
+    };
     busy.value = true;
     await session.readAs(id, {
       person: text("person"),
@@ -51,17 +59,12 @@ export function ReadingPanel({ session }: { session: Session }): JSX.Element | n
             title="Person"
             none={unread ? "choose one" : "the only one"}
             values={people.value}
-            value={said("person")}
+            value={person}
           />
         ) : (
           <label class="field" title="Which of several people, by name or number">
             <span>Person</span>
-            <input
-              type="text"
-              name="person"
-              placeholder="the only one"
-              defaultValue={said("person")}
-            />
+            <input type="text" name="person" placeholder="the only one" defaultValue={person} />
           </label>
         )}
         <label class="field">
@@ -72,12 +75,12 @@ export function ReadingPanel({ session }: { session: Session }): JSX.Element | n
             min="0"
             step="any"
             placeholder="as the file says"
-            defaultValue={said("fps")}
+            defaultValue={option("fps")}
           />
         </label>
         <div class="pair">
-          <Choice name="unit" title="Unit" values={UNITS} value={said("unit")} />
-          <Choice name="up" title="Up" values={AXES} value={said("up")} />
+          <Choice name="unit" title="Unit" values={UNITS} value={option("unit")} />
+          <Choice name="up" title="Up" values={AXES} value={option("up")} />
         </div>
         <p class="actions">
           <button

@@ -1,32 +1,27 @@
 /** The segment one works on: its times, name and cluster, and the name of the cluster. */
 import type { JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
+import { useStudio } from "../context";
 import { clusterColor, NO_COLOR } from "../../colors";
 import type { Kind, Segment } from "../../messages";
 import { NameInput } from "../../layout/NameInput";
 import { durationOf, nameOf } from "../../segments";
-import { surenessOf } from "../../sureness";
-import type { Editor } from "../editing/editor";
+import { confidenceOf } from "../../confidence";
 import { counted } from "../editing/words";
-import type { Review } from "../review/review";
 import type { Session } from "../session";
 import { Comment } from "./Comment";
 import { Vocabulary } from "./Vocabulary";
 
-interface Props {
-  session: Session;
-  editor: Editor;
-}
-
-export function SegmentPanel({ session, editor, review }: Props & { review: Review }): JSX.Element {
+export function SegmentPanel(): JSX.Element {
+  const { session, editor, review } = useStudio();
   const segment = editor.segment.value;
   if (!segment) return <p class="hint quiet">Open a recording to see its segments.</p>;
   const { store } = session;
   const called = store.recording.value?.segmentation.cluster_names[segment.cluster] ?? "";
-  const own = segment.label !== called ? segment.label : "";
+  const label = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
   const table = store.recording.value?.segmentation;
-  const sureness = table && surenessOf(table).get(segment);
+  const confidence = table && confidenceOf(table).get(segment);
   return (
     <div class="segment-panel">
       <p class="times number">
@@ -41,17 +36,17 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
         <br />
         <span class="quiet">
           frames {segment.start_frame} – {segment.stop_frame}
-          {sureness?.text && <span title={sureness.why}>, {sureness.text}</span>}
+          {confidence?.text && <span title={confidence.why}>, {confidence.text}</span>}
         </span>
       </p>
       <NameField
-        key={`segment ${segment.level} ${segment.start_frame} ${own}`}
+        key={`segment ${segment.level} ${segment.start_frame} ${label}`}
         title="Name of its own"
         placeholder={called ? `called “${called}” by its cluster` : "no name"}
-        value={own}
+        value={label}
         names={namesOf(session)}
-        focus={editor.naming.value === "segment"}
-        onDone={() => (editor.naming.value = null)}
+        naming="segment"
+
         onName={(label) => editor.name(segment, label)}
       />
       <label class="check">
@@ -76,7 +71,7 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
         <label class="field">
           <span>Cluster</span>
           <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
-          <ClusterChoice session={session} editor={editor} segment={segment} />
+          <ClusterChoice segment={segment} />
         </label>
       </div>
       {segment.cluster >= 0 && (
@@ -86,22 +81,22 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
           placeholder="no name"
           value={called}
           names={namesOf(session)}
-          focus={editor.naming.value === "cluster"}
-          onDone={() => (editor.naming.value = null)}
+          naming="cluster"
+
           onName={(label) => editor.nameCluster(segment.cluster, label)}
         />
       )}
-      <Comment key={`${segment.level} ${segment.start_frame}`} {...{ session, editor, segment }} />
-      <Vocabulary session={session} editor={editor} />
+      <Comment key={`${segment.level} ${segment.start_frame}`} segment={segment} />
+      <Vocabulary />
     </div>
   );
 }
 
-function ClusterChoice(props: Props & { segment: Segment }): JSX.Element {
-  const { session, editor, segment } = props;
+function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
+  const { session, editor } = useStudio();
   const rows = session.store.recording.value?.segmentation.segments ?? [];
   const next = rows.reduce((most, row) => Math.max(most, row.cluster), -1) + 1;
-  const known = new Set([-1, next, ...rows.map((row) => row.cluster)]);
+  const clusters = new Set([-1, next, ...rows.map((row) => row.cluster)]);
   const title = (id: number): string => {
     const label = session.store.recording.value?.segmentation.cluster_names[id];
     if (id < 0) return "none";
@@ -114,7 +109,7 @@ function ClusterChoice(props: Props & { segment: Segment }): JSX.Element {
       value={segment.cluster}
       onChange={(event) => editor.setCluster(segment, Number(event.currentTarget.value))}
     >
-      {[...known]
+      {[...clusters]
         .sort((a, b) => a - b)
         .map((id) => (
           <option key={id} value={id}>
@@ -130,9 +125,9 @@ function bulkOf(session: Session, cluster: number): string {
   const table = session.store.recording.value?.segmentation;
   const called = table?.cluster_names[cluster] ?? "";
   const members = table?.segments.filter((row) => row.cluster === cluster) ?? [];
-  const own = members.filter((row) => row.label && row.label !== called).length;
-  const all = counted(members.length - own, "segment");
-  return own ? `${all}; ${own} with their own name` : all;
+  const named = members.filter((row) => row.label && row.label !== called).length;
+  const all = counted(members.length - named, "segment");
+  return named ? `${all}; ${named} with their own name` : all;
 }
 
 interface NameProps {
@@ -141,27 +136,21 @@ interface NameProps {
   value: string;
   /** Names in use, offered while one types. */
   names: string[];
-  focus: boolean;
-  onDone: () => void;
+  /** Which name it is, as the editor says when one wants to type it. */
+  naming: "segment" | "cluster";
   onName: (label: string) => void;
 }
 
-function NameField({
-  title,
-  placeholder,
-  value,
-  names,
-  focus,
-  onDone,
-  onName,
-}: NameProps): JSX.Element {
+function NameField({ title, placeholder, value, names, naming, onName }: NameProps): JSX.Element {
+  const { editor } = useStudio();
   const field = useRef<HTMLInputElement>(null);
+  const focus = editor.naming.value === naming;
   useLayoutEffect(() => {
     if (!focus) return;
     field.current?.focus();
     field.current?.select();
-    onDone();
-  }, [focus]);
+    editor.naming.value = null;
+  }, [focus, editor]);
   const list = `names-${title.replaceAll(" ", "-")}`;
   return (
     <label class="field">

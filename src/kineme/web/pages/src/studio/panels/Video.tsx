@@ -2,47 +2,40 @@
 import { useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import type { JSX } from "preact";
+import { useStudio } from "../context";
 import { explain } from "../server/api";
-import type { Session } from "../session";
 
 const APART = 0.12; // seconds that picture and figure may be apart while they play
 
-export function Video({ session }: { session: Session }): JSX.Element | null {
+export function Video(): JSX.Element | null {
+  const { session } = useStudio();
   const recording = session.store.recording.value;
   const video = recording?.video;
   if (!video) return null;
-  return (
-    <Player
-      key={recording.id}
-      session={session}
-      id={recording.id}
-      name={video.name}
-      offset={video.offset_s}
-    />
-  );
+  return <Player key={recording.id} id={recording.id} name={video.name} offset={video.offset_s} />;
 }
 
 interface Props {
-  session: Session;
   id: string;
   name: string;
   offset: number;
 }
 
-function Player({ session, id, name, offset }: Props): JSX.Element {
+function Player({ id, name, offset }: Props): JSX.Element {
+  const { session } = useStudio();
   const { store, api } = session;
   const element = useRef<HTMLVideoElement>(null);
   const start = useRef(offset);
   const follow = (): void => {
     const shown = element.current;
     if (!shown) return;
-    const wanted = Math.max(store.playhead.value + start.current, 0);
+    const target = Math.max(store.playhead.value + start.current, 0);
     const playing = store.playing.value;
     if (shown.readyState === 0) return;
     shown.playbackRate = Math.min(Math.max(store.speed.value, 0.0625), 16);
-    if (Math.abs(shown.currentTime - wanted) > (playing ? APART * store.speed.value : 1e-3))
-      shown.currentTime = wanted;
-    if (playing && shown.paused && wanted < shown.duration)
+    if (Math.abs(shown.currentTime - target) > (playing ? APART * store.speed.value : 1e-3))
+      shown.currentTime = target;
+    if (playing && shown.paused && target < shown.duration)
       void shown.play().catch(() => undefined);
     if (!playing && !shown.paused) shown.pause();
   };

@@ -1,13 +1,13 @@
 /** The labels that all recordings of the folder share; the first nine are on the keys 1 to 9. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import type { Editor } from "../editing/editor";
+import { useStudio } from "../context";
 import { explain } from "../server/api";
-import type { Session } from "../session";
 
 const KEYS = 9;
 
-export function Vocabulary({ session, editor }: { session: Session; editor: Editor }): JSX.Element {
+export function Vocabulary(): JSX.Element {
+  const { session, editor } = useStudio();
   const labels = session.state.value?.labels ?? [];
   const name = useSignal("");
   const keep = async (next: string[]): Promise<void> => {
@@ -48,9 +48,9 @@ export function Vocabulary({ session, editor }: { session: Session; editor: Edit
       <form
         onSubmit={(event) => {
           event.preventDefault();
-          const wanted = name.value.trim();
+          const label = name.value.trim();
           name.value = "";
-          if (wanted) void keep([...labels, wanted]);
+          if (label) void keep([...labels, label]);
         }}
       >
         <input

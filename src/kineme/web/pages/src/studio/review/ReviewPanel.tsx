@@ -1,21 +1,16 @@
 /** What to look at next, why, and how far one is. */
 import type { JSX } from "preact";
+import { useStudio } from "../context";
 import { NO_COLOR } from "../../colors";
 import type { Level } from "../../messages";
 import { nameOf } from "../../segments";
 import { clock } from "../../view";
-import type { Session } from "../session";
 import { progressOf } from "./doubts";
-import type { Review } from "./review";
 
 const MOST = 100; // rows; the rest comes when these are checked
 
-interface Props {
-  session: Session;
-  review: Review;
-}
-
-export function ReviewPanel({ session, review }: Props): JSX.Element {
+export function ReviewPanel(): JSX.Element {
+  const { session, review } = useStudio();
   const { store } = session;
   const table = store.recording.value?.segmentation;
   if (!table) return <p class="hint quiet">Open a recording to look through its segments.</p>;
@@ -42,7 +37,7 @@ export function ReviewPanel({ session, review }: Props): JSX.Element {
         {present
           ? present.why
           : doubts.length
-            ? "“Next” goes to where the result is least sure."
+            ? "“Next” goes to where confidence is lowest."
             : "Every segment of this recording is checked."}
       </p>
       <ol class="doubts">

@@ -1,20 +1,20 @@
-/** Where a result is unsure, the least sure first. Pure functions. */
+/** What to look at, lowest confidence first. Pure functions. */
 import type { Level, Segment, Segments } from "../../messages";
-import { surenessOf, type Sureness } from "../../sureness";
+import { confidenceOf, type Confidence } from "../../confidence";
 
-/** A segment to look at, how sure it is, and why. */
-export interface Doubt extends Sureness {
+/** A segment to look at, its confidence, and why. */
+export interface Doubt extends Confidence {
   segment: Segment;
 }
 
-/** The segments that are not checked: those of known sureness first, then the others in time. */
+/** The segments that are not checked: those with a confidence first, then the others in time. */
 export function doubtsOf(table: Segments): Doubt[] {
   const checked = new Set(table.checked);
-  const sureness = surenessOf(table);
+  const confidences = confidenceOf(table);
   return table.segments
     .filter((_, row) => !checked.has(row))
-    .map((segment) => ({ segment, ...sureness.get(segment)! }))
-    .sort((a, b) => (a.sure ?? 2) - (b.sure ?? 2) || before(a.segment, b.segment));
+    .map((segment) => ({ segment, ...confidences.get(segment)! }))
+    .sort((a, b) => (a.value ?? 2) - (b.value ?? 2) || before(a.segment, b.segment));
 }
 
 /** How many segments of a level there are, and how many of them are checked. */

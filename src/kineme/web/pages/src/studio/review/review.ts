@@ -23,7 +23,7 @@ export class Review {
     private readonly editor: Editor,
   ) {}
 
-  /** Goes to the least sure segment that has not been looked at. */
+  /** Goes to the segment of lowest confidence that has not been looked at. */
   next(): void {
     const { value: doubts } = this.doubts;
     const { present } = this;

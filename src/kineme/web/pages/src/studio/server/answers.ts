@@ -25,8 +25,8 @@ export class Unreachable extends Error {
 
 /** Whether a recording could not be read, and of which people one is to be chosen. */
 export function notRead(error: unknown): string[] | null {
-  const said = error instanceof Refused ? (error.body as Partial<Failure> | null) : null;
-  return said?.reading ? (said.people ?? []) : null;
+  const failure = error instanceof Refused ? (error.body as Partial<Failure> | null) : null;
+  return failure?.reading ? (failure.people ?? []) : null;
 }
 
 /** What to tell a person about anything thrown by this page. */

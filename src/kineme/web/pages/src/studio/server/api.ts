@@ -29,6 +29,7 @@ import type {
   VideoRequest,
 } from "../../messages";
 
+import { addressOf, type Parts, type Query } from "./address";
 import {
   filename,
   orNull,
@@ -39,6 +40,7 @@ import {
   unbroken,
   type Download,
 } from "./answers";
+import type { GetPath, PostPath } from "./paths";
 
 export { explain, Refused, Unreachable, type Download } from "./answers";
 
@@ -50,106 +52,106 @@ export class Api {
   constructor(public token: string) {}
 
   state(): Promise<State> {
-    return this.json("/api/state");
+    return this.get("/api/state", {});
   }
 
   recording(id: string): Promise<Recording> {
-    return this.json(`/api/recordings/${encodeURIComponent(id)}`);
+    return this.get("/api/recordings/{id}", { id });
   }
 
   async motion(id: string, poses: number): Promise<ArrayBuffer> {
-    const path = `/api/recordings/${encodeURIComponent(id)}/motion?poses=${poses}`;
-    const answer = await this.ask(path);
+    const answer = await this.ask(addressOf("/api/recordings/{id}/motion", { id }, { poses }));
     return unbroken(answer.arrayBuffer());
   }
 
   /** A tile of the matrix; null where the server has none. */
   tile(id: string, level: number, row: number, column: number): Promise<Blob | null> {
-    const path = `/api/recordings/${encodeURIComponent(id)}/matrix/${level}/${row}/${column}`;
-    return orNull(this.ask(path).then((answer) => unbroken(answer.blob())));
+    const path = "/api/recordings/{id}/matrix/{level}/{row}/{column}";
+    const asked = this.ask(addressOf(path, { id, level, row, column }));
+    return orNull(asked.then((answer) => unbroken(answer.blob())));
   }
 
   curves(id: string): Promise<CurveList> {
-    return this.json(`/api/recordings/${encodeURIComponent(id)}/curves`);
+    return this.get("/api/recordings/{id}/curves", { id });
   }
 
   /** Part of a curve; null where the server has none. */
-  piece(id: string, curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
-    const path = `/api/recordings/${encodeURIComponent(id)}/curves/${curve}/${level}/${number}`;
-    return orNull(this.ask(path).then((answer) => unbroken(answer.arrayBuffer())));
+  curveTile(id: string, curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
+    const path = "/api/recordings/{id}/curves/{curve}/{level}/{number}";
+    const asked = this.ask(addressOf(path, { id, curve, level, number }));
+    return orNull(asked.then((answer) => unbroken(answer.arrayBuffer())));
   }
 
   edit(id: string, request: EditRequest): Promise<Edited> {
-    return this.json(`/api/recordings/${encodeURIComponent(id)}/edits`, request);
+    return this.post("/api/recordings/{id}/edits", { id }, request);
   }
 
   preview(id: string, request: PreviewRequest): Promise<Preview> {
-    return this.json(`/api/recordings/${encodeURIComponent(id)}/preview`, request);
+    return this.post("/api/recordings/{id}/preview", { id }, request);
   }
 
   /** The tables that were replaced. */
   async versions(id: string): Promise<Version[]> {
-    const address = `/api/recordings/${encodeURIComponent(id)}/versions`;
-    return (await this.json<Versions>(address)).versions;
+    const answer: Versions = await this.get("/api/recordings/{id}/versions", { id });
+    return answer.versions;
   }
 
   version(id: string, number: number): Promise<Comparison> {
-    return this.json(`/api/recordings/${encodeURIComponent(id)}/versions/${number}`);
+    return this.get("/api/recordings/{id}/versions/{number}", { id, number });
   }
 
   compare(id: string, request: CompareRequest): Promise<Comparison> {
-    return this.json(`/api/recordings/${encodeURIComponent(id)}/compare`, request);
+    return this.post("/api/recordings/{id}/compare", { id }, request);
   }
 
   /** The segments of a level, or of all that the format holds, as a file named by the server. */
   exported(id: string, format: string, level: Level | ""): Promise<Download> {
-    const path = `/api/recordings/${encodeURIComponent(id)}/export/${encodeURIComponent(format)}`;
-    return this.download(`${path}?level=${level}`);
+    const path = "/api/recordings/{id}/export/{format}";
+    return this.download(addressOf(path, { id, format }, { level }));
   }
 
   /** The same of all recordings that are checked. */
   exportedTogether(format: string, level: Level | ""): Promise<Download> {
-    return this.download(`/api/export/${encodeURIComponent(format)}?level=${level}`);
+    return this.download(addressOf("/api/export/{format}", { format }, { level }));
   }
 
   /** Some rows of the table as motion files. */
   clips(id: string, request: ClipsRequest): Promise<Download> {
-    return this.download(`/api/recordings/${encodeURIComponent(id)}/clips`, request);
+    return this.download(addressOf("/api/recordings/{id}/clips", { id }), request);
   }
 
   shareLabels(request: LabelsRequest): Promise<string[]> {
-    return this.json("/api/labels", request);
+    return this.post("/api/labels", {}, request);
   }
 
   makeKnowledge(request: KnowledgeRequest): Promise<FileChoice> {
-    return this.json("/api/knowledge", request);
+    return this.post("/api/knowledge", {}, request);
   }
 
   /** How a recording is read from now on. */
   readAs(id: string, request: ReadingRequest): Promise<unknown> {
-    return this.json(`/api/recordings/${encodeURIComponent(id)}/reading`, request);
+    return this.post("/api/recordings/{id}/reading", { id }, request);
   }
 
   /** The people in a recording, where one of them was chosen. */
   people(id: string): Promise<string[]> {
-    return this.json(`/api/recordings/${encodeURIComponent(id)}/people`);
+    return this.get("/api/recordings/{id}/people", { id });
   }
 
   /** Where the video of a recording comes from. */
   videoAddress(id: string): string {
-    const path = `/api/recordings/${encodeURIComponent(id)}/video`;
-    return `${path}?token=${encodeURIComponent(this.token)}`;
+    return addressOf("/api/recordings/{id}/video", { id }, { token: this.token });
   }
 
   placeVideo(id: string, request: VideoRequest): Promise<VideoRequest> {
-    return this.json(`/api/recordings/${encodeURIComponent(id)}/video`, request);
+    return this.post("/api/recordings/{id}/video", { id }, request);
   }
 
   /** A file into the folder; `progress` is told the share sent, 0 to 1. */
   upload(file: File, progress: (share: number) => void): Promise<Listing> {
     return new Promise((resolve, reject) => {
       const request = new XMLHttpRequest(); // fetch cannot tell how much is sent
-      request.open("POST", `/api/recordings?name=${encodeURIComponent(file.name)}`);
+      request.open("POST", addressOf("/api/recordings", {}, { name: file.name }));
       request.setRequestHeader("X-Kineme-Token", this.token);
       request.setRequestHeader("Content-Type", "application/octet-stream");
       request.upload.onprogress = (event) => {
@@ -167,7 +169,7 @@ export class Api {
 
   /** Calls back for every change, and when the line drops or returns; it is set up again by itself. */
   listen(changed: (change: Changed) => void, line: (up: boolean) => void, up = true): void {
-    const source = new EventSource(`/api/events?token=${encodeURIComponent(this.token)}`);
+    const source = new EventSource(addressOf("/api/events", {}, { token: this.token }));
     source.onmessage = (event) => changed(JSON.parse(event.data as string) as Changed);
     source.onopen = () => {
       if (!up) line(true);
@@ -180,22 +182,31 @@ export class Api {
     };
   }
 
-  private async download(path: string, body?: unknown): Promise<Download> {
-    const answer = await this.ask(path, body);
+  private async download(address: string, body?: unknown): Promise<Download> {
+    const answer = await this.ask(address, body);
     const name = filename(answer.headers.get("content-disposition") ?? "") || "kineme";
     return { name, data: await unbroken(answer.blob()) };
   }
 
-  protected async json<T>(path: string, body?: unknown): Promise<T> {
-    const answer = await this.ask(path, body);
+  protected async get<T, P extends GetPath>(path: P, parts: Parts<P>, query?: Query): Promise<T> {
+    const answer = await this.ask(addressOf(path, parts, query));
     return (await unbroken(answer.json())) as T;
   }
 
-  private async ask(path: string, body?: unknown): Promise<Response> {
+  protected async post<T, P extends PostPath>(
+    path: P,
+    parts: Parts<P>,
+    request: unknown,
+  ): Promise<T> {
+    const answer = await this.ask(addressOf(path, parts), request);
+    return (await unbroken(answer.json())) as T;
+  }
+
+  private async ask(address: string, body?: unknown): Promise<Response> {
     const headers: Record<string, string> = { "X-Kineme-Token": this.token };
     if (body !== undefined) headers["Content-Type"] = "application/json";
     const answer = await unbroken(
-      fetch(path, {
+      fetch(address, {
         method: body === undefined ? "GET" : "POST",
         headers,
         body: body === undefined ? null : JSON.stringify(body),
@@ -203,7 +214,7 @@ export class Api {
       }),
     );
     if (answer.ok) return answer;
-    const said = parsed(await unbroken(answer.text()));
-    throw new Refused(answer.status, sentence(said, answer.status), said);
+    const failure = parsed(await unbroken(answer.text()));
+    throw new Refused(answer.status, sentence(failure, answer.status), failure);
   }
 }

@@ -25,7 +25,7 @@ export class ServerData implements RecordingData {
     return this.api.curves(this.id);
   }
 
-  piece(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
-    return this.api.piece(this.id, curve, level, number);
+  curveTile(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
+    return this.api.curveTile(this.id, curve, level, number);
   }
 }

@@ -4,12 +4,8 @@
  * A server that is started anew has a new one, and so has the tab it opens.
  * Tabs of the old server, which may hold unsent edits, go on with it.
  */
+import { tokenToAddress } from "./address";
 import { Api, Refused } from "./api";
-
-/** The token in this page's address. */
-export function pageToken(): string {
-  return new URLSearchParams(location.search).get("token") ?? "";
-}
 
 /** Tells other tabs the token if it is good, and takes theirs if its own no longer is. */
 export function shareToken(api: Api): void {
@@ -22,9 +18,7 @@ export function shareToken(api: Api): void {
   channel.onmessage = async ({ data: token }: MessageEvent<string>) => {
     if (token === api.token || (await isGood(api.token)) || !(await isGood(token))) return;
     api.token = token;
-    const address = new URLSearchParams(location.search);
-    address.set("token", token);
-    history.replaceState(null, "", `?${address}`);
+    tokenToAddress(token);
   };
   channel.postMessage(api.token);
 }

@@ -17,7 +17,7 @@ export class Uploads {
   /** Sends files one after the other, then opens the first that is a recording. */
   async add(files: readonly File[]): Promise<void> {
     const { session } = this;
-    const came: string[] = [];
+    const ids: string[] = [];
     const uploads = files.map((file) => ({ name: file.name, share: 0 }));
     this.running.value = [...this.running.value, ...uploads];
     for (const [i, file] of files.entries()) {
@@ -28,7 +28,7 @@ export class Uploads {
         upload = now;
       };
       try {
-        came.push((await session.api.upload(file, progress)).id);
+        ids.push((await session.api.upload(file, progress)).id);
         session.bulletin.solved(`upload ${file.name}`);
       } catch (error) {
         session.bulletin.problem(`${file.name}: ${explain(error)}`, `upload ${file.name}`);
@@ -36,8 +36,8 @@ export class Uploads {
       this.running.value = this.running.value.filter((each) => each !== upload);
     }
     await session.refresh();
-    const known = new Set(session.state.value?.recordings.map((each) => each.id));
-    const first = came.find((id) => known.has(id));
+    const listed = new Set(session.state.value?.recordings.map((each) => each.id));
+    const first = ids.find((id) => listed.has(id));
     if (first) await session.open(first);
   }
 }

@@ -1,21 +1,14 @@
 /** What is done to all chosen rows of the table, as one step. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
+import { useStudio } from "../context";
 import type { ByHand } from "../../messages";
-import type { Editor } from "../editing/editor";
 import { explain } from "../server/api";
 import { save } from "../server/save";
-import type { Session } from "../session";
 import { type Row, spansToMerge } from "./rows";
 
-interface Props {
-  session: Session;
-  editor: Editor;
-  rows: Row[];
-}
-
-export function Actions(props: Props): JSX.Element {
-  const { session, editor, rows } = props;
+export function Actions({ rows }: { rows: Row[] }): JSX.Element {
+  const { session, editor } = useStudio();
   const busy = useSignal(false);
   const clips = async (loops: boolean): Promise<void> => {
     const { edited, api, bulletin } = session;

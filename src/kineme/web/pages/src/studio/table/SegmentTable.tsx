@@ -5,11 +5,10 @@
 import { computed, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useMemo, useRef } from "preact/hooks";
+import { useStore } from "../../context";
 import { NO_COLOR } from "../../colors";
 import { durationOf, nameOf } from "../../segments";
 import { clock } from "../../view";
-import type { Editor } from "../editing/editor";
-import type { Session } from "../session";
 import { between, EVERYTHING, type Filter, type Order, type Row, rowsOf } from "./rows";
 import { Actions } from "./Actions";
 import { TableFilter } from "./TableFilter";
@@ -20,16 +19,11 @@ const COLUMNS: readonly (readonly [Order, string])[] = [
   ["start", "Start"],
   ["duration", "Length"],
   ["name", "Name"],
-  ["sure", "Sure"],
+  ["confidence", "Confidence"],
 ];
 
-interface Props {
-  session: Session;
-  editor: Editor;
-}
-
-export function SegmentTable({ session, editor }: Props): JSX.Element {
-  const { store } = session;
+export function SegmentTable(): JSX.Element {
+  const store = useStore();
   const filter = useSignal<Filter>(EVERYTHING);
   const order = useSignal<[Order, boolean]>(["start", false]);
   const chosen = useSignal<ReadonlySet<number>>(new Set());
@@ -43,7 +37,7 @@ export function SegmentTable({ session, editor }: Props): JSX.Element {
         const table = store.recording.value?.segmentation;
         return table ? rowsOf(table, filter.value, ...order.value) : [];
       }),
-    [store],
+    [store, filter, order],
   );
   // What is chosen on the timeline is chosen here, too.
   useSignalEffect(() => {
@@ -89,7 +83,7 @@ export function SegmentTable({ session, editor }: Props): JSX.Element {
   return (
     <div class="segment-table">
       <TableFilter filter={filter} />
-      <Actions session={session} editor={editor} rows={many} />
+      <Actions rows={many} />
       <div class="table-head" role="presentation">
         {COLUMNS.map(([id, title]) => (
           <button
@@ -149,7 +143,7 @@ function TableRow(props: {
   go: (at: number, many: "one" | "range" | "more") => void;
 }): JSX.Element {
   const { row, at, color, chosen, go } = props;
-  const { segment, checked, sureness } = row;
+  const { segment, checked, confidence: confidence } = row;
   return (
     <div
       role="row"
@@ -174,7 +168,7 @@ function TableRow(props: {
         {checked ? (
           <span title="checked">✓</span>
         ) : (
-          <span title={sureness.why}>{sureness.short}</span>
+          <span title={confidence.why}>{confidence.short}</span>
         )}
       </span>
     </div>

@@ -69,9 +69,11 @@ export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element
           min="0"
           max="1"
           step="0.05"
-          placeholder="sure <"
-          aria-label="Less sure than"
-          onInput={(event) => change({ sureBelow: number(event.currentTarget.value, Infinity) })}
+          placeholder="confidence <"
+          aria-label="Confidence below"
+          onInput={(event) =>
+            change({ confidenceBelow: number(event.currentTarget.value, Infinity) })
+          }
         />
       </span>
     </div>

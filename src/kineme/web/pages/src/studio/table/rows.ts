@@ -1,10 +1,10 @@
 /** Which segments the table shows, in which order; pure functions. */
 import type { Level, Segment, Segments } from "../../messages";
 import { durationOf, nameOf } from "../../segments";
-import { surenessOf, type Sureness } from "../../sureness";
+import { confidenceOf, type Confidence } from "../../confidence";
 
 /** A column by which rows are ordered. */
-export type Order = "start" | "duration" | "name" | "cluster" | "sure";
+export type Order = "start" | "duration" | "name" | "cluster" | "confidence";
 
 export interface Filter {
   level: Level | "";
@@ -15,8 +15,8 @@ export interface Filter {
   /** Seconds. */
   shortest: number;
   longest: number;
-  /** Only those less sure than that, 0 to 1. */
-  sureBelow: number;
+  /** Only those whose confidence is below that, 0 to 1. */
+  confidenceBelow: number;
 }
 
 export const EVERYTHING: Filter = {
@@ -26,26 +26,26 @@ export const EVERYTHING: Filter = {
   text: "",
   shortest: 0,
   longest: Infinity,
-  sureBelow: Infinity,
+  confidenceBelow: Infinity,
 };
 
-/** A segment, the number of its row in the table, whether it is checked, and how sure it is. */
+/** A segment, the number of its row in the table, whether it is checked, and its confidence. */
 export interface Row {
   segment: Segment;
   number: number;
   checked: boolean;
-  sureness: Sureness;
+  confidence: Confidence;
 }
 
 export function rowsOf(table: Segments, filter: Filter, order: Order, down: boolean): Row[] {
   const checked = new Set(table.checked);
-  const known = surenessOf(table);
+  const confidences = confidenceOf(table);
   const rows = table.segments
     .map((segment, number) => ({
       segment,
       number,
       checked: checked.has(number),
-      sureness: known.get(segment)!,
+      confidence: confidences.get(segment)!,
     }))
     .filter((row) => passes(row, filter));
   const sign = down ? -1 : 1;
@@ -74,8 +74,8 @@ export function spansToMerge(
   return spans.filter(({ n }) => n > 1).map(({ level, start, stop }) => ({ level, start, stop }));
 }
 
-function passes({ segment, checked, sureness }: Row, filter: Filter): boolean {
-  const { level, kind, text, shortest, longest, sureBelow } = filter;
+function passes({ segment, checked, confidence }: Row, filter: Filter): boolean {
+  const { level, kind, text, shortest, longest, confidenceBelow } = filter;
   const duration = durationOf(segment);
   return (
     (!level || segment.level === level) &&
@@ -84,7 +84,7 @@ function passes({ segment, checked, sureness }: Row, filter: Filter): boolean {
     isCalled(segment, text.trim().toLowerCase()) &&
     duration >= shortest &&
     duration <= longest &&
-    (sureBelow === Infinity || (sureness.sure ?? Infinity) < sureBelow)
+    (confidenceBelow === Infinity || (confidence.value ?? Infinity) < confidenceBelow)
   );
 }
 
@@ -107,5 +107,5 @@ const COMPARE: Record<Order, (a: Row, b: Row) => number> = {
   duration: (a, b) => durationOf(a.segment) - durationOf(b.segment),
   name: (a, b) => nameOf(a.segment).localeCompare(nameOf(b.segment)),
   cluster: (a, b) => a.segment.cluster - b.segment.cluster,
-  sure: (a, b) => (a.sureness.sure ?? 2) - (b.sureness.sure ?? 2),
+  confidence: (a, b) => (a.confidence.value ?? 2) - (b.confidence.value ?? 2),
 };

@@ -60,8 +60,8 @@ function merged(draft: Draft, level: Level, first: number, last: number, like: n
     if (primitive[first]!.activity !== primitive[last]!.activity) throw new Impossible();
     return withRows(draft, activity, joined(primitive, first, last, like));
   }
-  const whole = joined(activity, first, last, like);
-  const into = whole[first]!;
+  const activities = joined(activity, first, last, like);
+  const into = activities[first]!;
   const isInside = (each: number): boolean => first <= each && each <= last;
   const inside = primitive.flatMap((row, i) => (isInside(row.activity) ? [i] : []));
   let parts = primitive.map((row) =>
@@ -69,5 +69,5 @@ function merged(draft: Draft, level: Level, first: number, last: number, like: n
   );
   if (inside.length && into.kind === "transition")
     parts = [...joined(parts, inside[0]!, inside.at(-1)!, inside[0]!)];
-  return withRows(draft, whole, parts);
+  return withRows(draft, activities, parts);
 }

@@ -1,6 +1,6 @@
 /** What segments are: their clusters and kinds, as `kineme/segments/editing/clusters.py` has it. */
 import type { Kind, Level, Segment } from "../../../messages";
-import { isCalledByCluster, knownNames, membersOf, withNames } from "./names";
+import { isCalledByCluster, namesIn, membersOf, withNames } from "./names";
 import {
   allRows,
   eachRow,
@@ -32,13 +32,19 @@ export function mergeClusters(draft: Draft, cluster: number, into: number): Draf
 export function splitCluster(draft: Draft, cluster: number, frames: readonly number[]): Draft {
   const rows = membersOf(draft, cluster);
   const level = levelOf(rows);
-  const own = rows.filter((row) => row.level === level);
-  const gone = own.filter((row) => frames.includes(row.start_frame));
-  if (!gone.length || gone.length === own.length) throw new Impossible();
-  const staying = new Set(own.filter((row) => !gone.includes(row)).map((row) => row.activity));
-  const leaving = new Set(gone.map((row) => row.activity).filter((each) => !staying.has(each)));
-  const whole = draft.activity.filter((row, i) => leaving.has(i) && row.cluster === cluster);
-  return movedTo(draft, level === "primitive" ? [...gone, ...whole] : gone, following(draft));
+  const divisible = rows.filter((row) => row.level === level);
+  const leavers = divisible.filter((row) => frames.includes(row.start_frame));
+  if (!leavers.length || leavers.length === divisible.length) throw new Impossible();
+  const staying = new Set(
+    divisible.filter((row) => !leavers.includes(row)).map((row) => row.activity),
+  );
+  const leaving = new Set(leavers.map((row) => row.activity).filter((each) => !staying.has(each)));
+  const activities = draft.activity.filter((row, i) => leaving.has(i) && row.cluster === cluster);
+  return movedTo(
+    draft,
+    level === "primitive" ? [...leavers, ...activities] : leavers,
+    following(draft),
+  );
 }
 
 /** The level on which a cluster is divided: that of primitives where it has any. */
@@ -47,12 +53,13 @@ export function levelOf(members: readonly Segment[]): Level {
 }
 
 export function orderClusters(draft: Draft, order: readonly number[]): Draft {
-  const there = new Set(allRows(draft).map((row) => row.cluster));
-  there.delete(-1);
-  const whole = order.length === there.size && order.every((cluster) => there.has(cluster));
-  if (!whole || new Set(order).size !== there.size) throw new Impossible();
+  const clusters = new Set(allRows(draft).map((row) => row.cluster));
+  clusters.delete(-1);
+  const activities =
+    order.length === clusters.size && order.every((cluster) => clusters.has(cluster));
+  if (!activities || new Set(order).size !== clusters.size) throw new Impossible();
   const numbered = (cluster: number): number => order.indexOf(cluster);
-  const names = [...knownNames(draft)].map(([id, name]) => [numbered(id), name] as const);
+  const names = [...namesIn(draft)].map(([id, name]) => [numbered(id), name] as const);
   const rows = eachRow(draft, (row) => ({ ...row, cluster: numbered(row.cluster) }));
   return withNames(rows, new Map(names));
 }
@@ -93,7 +100,7 @@ function movedTo(
   cluster: number,
   kind = (row: Segment): Kind => row.kind,
 ): Draft {
-  const names = knownNames(draft);
+  const names = namesIn(draft);
   const chosen = new Set(members);
   const rows = eachRow(draft, (row) => {
     if (!chosen.has(row)) return row;

@@ -2,7 +2,7 @@
 import type { ByHand, Edit, Segments } from "../../../messages";
 import { deleteBorder, merge, moveBorder, split } from "./borders";
 import { mergeClusters, orderClusters, setCluster, setKind, splitCluster } from "./clusters";
-import { nameCluster, nameSegment, knownNames } from "./names";
+import { nameCluster, nameSegment, namesIn } from "./names";
 import { check, comment, commentsIn, keyOf, markedIn, noted } from "./notes";
 import { allRows, draftOf, Impossible, type Draft } from "./rows";
 
@@ -66,13 +66,13 @@ function made(draft: Draft, edit: ByHand): Draft {
 function tableOf(before: Segments, draft: Draft): Segments {
   const segments = [...allRows(draft)];
   const [checked, byHand] = [markedIn(draft, "checked"), markedIn(draft, "by_hand")];
-  const among = (marks: ReadonlySet<string>): number[] =>
-    segments.flatMap((row, i) => (marks.has(keyOf(row)) ? [i] : []));
+  const among = (keys: ReadonlySet<string>): number[] =>
+    segments.flatMap((row, i) => (keys.has(keyOf(row)) ? [i] : []));
   return {
     ...before,
     annotation: draft.annotation,
     segments,
-    cluster_names: Object.fromEntries([...knownNames(draft)].filter(([, name]) => name)),
+    cluster_names: Object.fromEntries([...namesIn(draft)].filter(([, name]) => name)),
     checked: among(checked),
     by_hand: among(byHand),
     comments: commentsIn(draft).map(([level, frame, text]) => ({ level, frame, text })),

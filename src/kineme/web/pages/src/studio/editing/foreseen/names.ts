@@ -6,7 +6,7 @@ export type Names = ReadonlyMap<number, string>;
 
 export function nameSegment(draft: Draft, level: Level, frame: number, label: string): Draft {
   const row = starting(draft, level, frame);
-  const names = knownNames(draft);
+  const names = namesIn(draft);
   const called = label || (names.get(row.cluster) ?? "");
   const named = eachRow(draft, (each) => (each === row ? { ...each, label: called } : each));
   return row.cluster < 0 ? named : withNames(named, new Map([[row.cluster, ""], ...names]));
@@ -14,7 +14,7 @@ export function nameSegment(draft: Draft, level: Level, frame: number, label: st
 
 export function nameCluster(draft: Draft, cluster: number, label: string): Draft {
   if (!membersOf(draft, cluster).length) throw new Impossible();
-  const names = knownNames(draft);
+  const names = namesIn(draft);
   const named = eachRow(draft, (row) =>
     row.cluster === cluster && isCalledByCluster(row, names) ? { ...row, label } : row,
   );
@@ -32,15 +32,15 @@ export function membersOf(draft: Draft, cluster: number): Segment[] {
 
 /** The same segments, whose clusters have these names and no others; labels stay as they are. */
 export function withNames(draft: Draft, names: Names): Draft {
-  const there = new Set(allRows(draft).map((row) => row.cluster));
-  const kept = [...names].filter(([cluster]) => there.has(cluster));
+  const clusters = new Set(allRows(draft).map((row) => row.cluster));
+  const kept = [...names].filter(([cluster]) => clusters.has(cluster));
   const annotation = { ...draft.annotation, cluster_names: Object.fromEntries(kept) };
   return { ...draft, annotation };
 }
 
 /** The names of clusters by number; empty for those that are said to have none. */
-export function knownNames(draft: Draft): Map<number, string> {
-  const said = draft.annotation.cluster_names;
+export function namesIn(draft: Draft): Map<number, string> {
+  const chosen = draft.annotation.cluster_names;
   const labels = new Map<number, Map<string, number>>();
   for (const { cluster, label } of allRows(draft)) {
     if (cluster < 0) continue;
@@ -52,7 +52,7 @@ export function knownNames(draft: Draft): Map<number, string> {
     const counts = [...labels.get(cluster)!];
     const total = counts.reduce((sum, [, count]) => sum + count, 0);
     const most = counts.find(([label, count]) => label && 2 * count > total);
-    const name = said[cluster] ?? most?.[0];
+    const name = chosen[cluster] ?? most?.[0];
     if (name !== undefined) names.set(cluster, name);
   }
   return names;

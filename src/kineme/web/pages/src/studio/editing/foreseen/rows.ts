@@ -87,8 +87,8 @@ export function joined(rows: Rows, first: number, last: number, like: number): R
 export function adopted(row: Segment, before: Segment, after: Segment): Segment {
   const same = (row.kind === "transition") === (before.kind === "transition");
   const kind = same ? kindOf(row.level, after.kind === "transition") : row.kind;
-  const own = row.cluster !== before.cluster || before.cluster < 0;
-  const cluster = own ? row.cluster : after.cluster;
+  const kept = row.cluster !== before.cluster || before.cluster < 0;
+  const cluster = kept ? row.cluster : after.cluster;
   const label = row.label === before.label && before.label !== "" ? after.label : row.label;
   const unchanged = kind === row.kind && cluster === row.cluster;
   return { ...row, kind, cluster, label, confidence: unchanged ? row.confidence : null };
@@ -120,8 +120,8 @@ export function handedOver(
     isInside(row) ? adopted(row, before[gave]!, after[took]!) : row,
   );
   if (!inside.length || after[took]!.kind !== "transition") return primitives;
-  const own = to < frame ? inside.at(-1)! + 1 : inside[0]! - 1;
-  return joined(primitives, Math.min(own, inside[0]!), Math.max(own, inside.at(-1)!), own);
+  const kept = to < frame ? inside.at(-1)! + 1 : inside[0]! - 1;
+  return joined(primitives, Math.min(kept, inside[0]!), Math.max(kept, inside.at(-1)!), kept);
 }
 
 /** Where one row stops and the next starts. */

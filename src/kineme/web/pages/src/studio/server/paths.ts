@@ -1,0 +1,34 @@
+// Made from the routes of kineme/studio by make_messages.py; change them there.
+
+/** What is asked for; names in braces are filled in. */
+export type GetPath =
+  | "/api/events"
+  | "/api/export/{format}"
+  | "/api/library"
+  | "/api/library/figure"
+  | "/api/recordings/{id}"
+  | "/api/recordings/{id}/curves"
+  | "/api/recordings/{id}/curves/{curve}/{level}/{number}"
+  | "/api/recordings/{id}/export/{format}"
+  | "/api/recordings/{id}/matrix/{level}/{row}/{column}"
+  | "/api/recordings/{id}/motion"
+  | "/api/recordings/{id}/people"
+  | "/api/recordings/{id}/versions"
+  | "/api/recordings/{id}/versions/{number}"
+  | "/api/recordings/{id}/video"
+  | "/api/state";
+
+/** Where something is sent to. */
+export type PostPath =
+  | "/api/knowledge"
+  | "/api/labels"
+  | "/api/library/edits"
+  | "/api/library/names"
+  | "/api/library/search"
+  | "/api/recordings"
+  | "/api/recordings/{id}/clips"
+  | "/api/recordings/{id}/compare"
+  | "/api/recordings/{id}/edits"
+  | "/api/recordings/{id}/preview"
+  | "/api/recordings/{id}/reading"
+  | "/api/recordings/{id}/video";

@@ -1,0 +1,54 @@
+/** What a browser has and happy-dom has not: sizes, and canvases that tell what is written on them. */
+import { vi } from "vitest";
+import { ticker } from "../../src/ticker";
+
+/** Of every element, CSS pixels. */
+export const WIDTH = 478;
+export const HEIGHT = 180;
+
+const written = new WeakMap<object, string[]>();
+
+/** Texts on a canvas as it is now. */
+export function textsOn(canvas: Element): string[] {
+  ticker.drawNow();
+  return written.get(canvas) ?? [];
+}
+
+/** Draws nothing, but keeps what it writes since the canvas was last empty. */
+function penOf(canvas: object): object {
+  const commands: Record<string, (...given: unknown[]) => unknown> = {
+    clearRect: () => void written.set(canvas, []),
+    fillText: (text) => void written.get(canvas)?.push(String(text)),
+    measureText: (text) => ({ width: 6 * String(text).length }),
+  };
+  return new Proxy<Record<string, unknown>>(
+    {},
+    { get: (set, name: string) => set[name] ?? commands[name] ?? (() => null) },
+  );
+}
+
+const pens = new WeakMap<object, object>();
+
+function getContext(this: object): object {
+  if (!pens.has(this)) pens.set(this, penOf(this));
+  return pens.get(this)!;
+}
+
+Object.assign(HTMLCanvasElement.prototype, { getContext });
+Object.assign(Element.prototype, {
+  setPointerCapture: () => undefined,
+  getBoundingClientRect: () => new DOMRect(0, 0, WIDTH, HEIGHT),
+});
+Object.defineProperty(HTMLElement.prototype, "clientWidth", { get: () => WIDTH });
+Object.defineProperty(HTMLElement.prototype, "clientHeight", { get: () => HEIGHT });
+Object.defineProperty(navigator, "locks", {
+  value: { query: () => Promise.resolve({ held: [] }) },
+});
+vi.stubGlobal(
+  "ResizeObserver",
+  class {
+    constructor(private readonly resized: () => void) {}
+    observe = (): void => this.resized();
+    disconnect = (): void => undefined;
+  },
+);

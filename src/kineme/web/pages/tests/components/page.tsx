@@ -1,0 +1,44 @@
+/** Components of the studio on a page, with a recording open and a server that edits it. */
+import { render, type RenderResult } from "@testing-library/preact";
+import type { JSX } from "preact";
+import { StoreProvider } from "../../src/context";
+import type { Segments, State } from "../../src/messages";
+import { Store } from "../../src/store";
+import { Front, StudioProvider, type StudioParts } from "../../src/studio/context";
+import { Editor } from "../../src/studio/editing/editor";
+import { Review } from "../../src/studio/review/review";
+import type { Api } from "../../src/studio/server/api";
+import { Uploads } from "../../src/studio/server/uploads";
+import { Session } from "../../src/studio/session";
+import { Server } from "../studio/server";
+import { recording } from "../studio/tables";
+
+export interface Page extends RenderResult {
+  store: Store;
+  parts: StudioParts;
+  server: Server;
+}
+
+export async function show(component: JSX.Element, table: Segments): Promise<Page> {
+  const server = new Server(recording(table));
+  const state = () => Promise.resolve({ recordings: [], labels: [] } as unknown as State);
+  const api = Object.assign(server, { state }) as unknown as Api;
+  const store = new Store();
+  const session = new Session(api, store);
+  const editor = new Editor(session);
+  const review = new Review(session, editor);
+  const parts = { session, editor, review, uploads: new Uploads(session), front: new Front() };
+  store.edits.value = {
+    moveBorder: (...move) => editor.moveBorder(...move),
+    nameCluster: () => undefined,
+    mergeClusters: () => undefined,
+    orderClusters: () => undefined,
+  };
+  await session.open("take");
+  const page = render(
+    <StoreProvider value={store}>
+      <StudioProvider value={parts}>{component}</StudioProvider>
+    </StoreProvider>,
+  );
+  return { ...page, store, parts, server };
+}
