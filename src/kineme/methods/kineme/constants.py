@@ -171,7 +171,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     same: float = constant(
         "likeness from which clusters are one movement, at another pace or phase; 1: never",
-        limits=SOME_SHARE, default=0.66,
+        limits=SOME_SHARE, default=0.75,
     )  # fmt: skip
     # Events.
     event_scale: float = constant(
