@@ -66,7 +66,7 @@ def named(take: Take) -> Segmentation:
     """The recording as it is segmented, what lasts longest in it called by its exercise."""
     found = kineme.segment(take.motion)
     rows = found.activities
-    lasting = np.bincount(rows.cluster + 1, rows.stop_frame - rows.start_frame)
+    lasting = np.bincount(rows.cluster + 1, rows.stop_frame - rows.start_frame, minlength=2)
     return name_cluster(found, int(lasting[1:].argmax()), take.spans[0][2])
 
 

@@ -96,7 +96,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     cluster_cost: float = constant(
         "what a cluster must explain: time at the median distance", unit="s", limits=TIME,
-        slider=(0.1, 5.0, 0.1), default=0.75,
+        slider=(0.1, 5.0, 0.1), default=0.66,
     )  # fmt: skip
     spread_share: float = constant(
         "clusters are nearer than their samples by this share of the distances within them",
