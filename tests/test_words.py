@@ -66,7 +66,6 @@ NOT_DONE = {
     "formats": 99,
     "labels": 25,
     "library": 132,
-    "methods": 87,
     "reproduction": 4,
     "segments": 14,
     "studio": 46,
