@@ -16,7 +16,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.baselines.constants import ToldConstants
+from kineme.methods.baselines.constants import ClassCountConstants
 from kineme.methods.baselines.presets import BaselinePreset
 from kineme.methods.baselines.segments import Segments, unclustered
 from kineme.methods.presets import register
@@ -56,7 +56,7 @@ class ClapPreset(RivalPreset):
 
 
 @dataclass(frozen=True, kw_only=True)
-class KernelChangePreset(ToldConstants, RivalPreset):
+class KernelChangePreset(ClassCountConstants, RivalPreset):
     """Change points of an RBF kernel, log n for each, as it is usual; clusters as said above."""
 
     package: ClassVar[str] = "ruptures"
@@ -66,11 +66,11 @@ class KernelChangePreset(ToldConstants, RivalPreset):
 
         search = ruptures.KernelCPD(kernel="rbf", min_size=round(RATE / 2)).fit(features)
         ends = search.predict(pen=float(np.log(len(features))))
-        return grouped(np.asarray(ends[:-1], np.int64), features, self.told())
+        return grouped(np.asarray(ends[:-1], np.int64), features, self.required_classes())
 
 
 @dataclass(frozen=True, kw_only=True)
-class HiddenMarkovPreset(ToldConstants, RivalPreset):
+class HiddenMarkovPreset(ClassCountConstants, RivalPreset):
     """A hidden Markov model with a Gaussian for each state, told how many there are."""
 
     package: ClassVar[str] = "tsseg"
@@ -78,7 +78,7 @@ class HiddenMarkovPreset(ToldConstants, RivalPreset):
     def segments(self, features: Floats) -> Segments:
         from tsseg.algorithms import GaussianHMMDetector
 
-        model = GaussianHMMDetector(n_states=self.told(), random_state=self.seed)
+        model = GaussianHMMDetector(n_states=self.required_classes(), random_state=self.seed)
         states = np.asarray(model.fit_predict(features), np.int64)
         cuts = np.flatnonzero(np.diff(states)) + 1
         return Segments(cuts, by_first_appearance(states[np.append(0, cuts)]), len(features))

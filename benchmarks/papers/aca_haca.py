@@ -64,7 +64,7 @@ def stage_seconds(
     def first(classes: int, lengths: tuple[int, int], starts: int) -> list[aca.State]:
         return list(aca.initial_states(kernel, classes, lengths, starts, one, random))
 
-    classes, fine_classes, fine_lengths = one.told(), two.fine_classes, two.fine_lengths
+    classes, fine_classes, fine_lengths = one.required_classes(), two.fine_classes, two.fine_lengths
     blocks = timed("reduce", lambda: block_starts(features, one, random))
     kernel = timed("kernel", lambda: frame_kernel(features[blocks], one.nearest_share))
     weights = np.ones(len(blocks))

@@ -49,15 +49,15 @@ OFF: Mapping[str, Mapping[str, Any]] = {
         name: {name: 0.0}
         for name in (
             "velocity_weight", "ride_weight", "segment_cost", "cluster_cost",
-            "spread_share", "min_action", "alike", "two_movements", "border_shift", "noise_share",
-            "centering", "length_cost", "same_cost", "event_scale", "event_velocity",
+            "spread_share", "min_action", "min_explained", "two_movements", "border_shift",
+            "noise_share", "centering", "length_cost", "same_cost", "event_scale", "event_velocity",
             "event_cost",
         )
     },
     **{name: {name: TINY} for name in ("chance_count", "chance_period", "event_cover")},
     "min_recurrence": {"min_recurrence": TINY},
     **{name: {name: NEVER} for name in ("part", "compared_within", "max_repetition")},
-    "same": {"same": 1.0},
+    "min_similarity": {"min_similarity": 1.0},
     **{name: {name: 1.0} for name in ("end_distance", "max_unexplained", "event_rest")},
     **{name: {name: 1000.0} for name in ("uneven", "end_scatter")},
 }  # fmt: skip

@@ -659,7 +659,7 @@ def merged_cuts(main, mirrored, gap):
 
 
 def division_cost(similarity, borders, penalty):
-    """What a division costs: per segment its length, less its mean sum of likeness, and more."""
+    """What a division costs: per segment its length, less its mean similarity, plus the penalty."""
     return sum(
         stop - start - similarity[start:stop, start:stop].sum() / (stop - start) + penalty
         for start, stop in pairwise(borders)
@@ -696,12 +696,11 @@ def dips(row, least):
     return sorted(found, reverse=True)
 
 
-def matched_lengths(gains, whole):
-    """The largest sum of a warped path through the gains, and what gathers it.
+def matched_lengths(gains, full):
+    """The largest sum of a warping path through the gains, and the paths that have it.
 
-    That is the length of each such path, and how much of it counts, by gains as shares of the
-    whole. Paths begin before the corner; steps of (1, 1) weigh 2, those of (1, 2) and (2, 1)
-    weigh 3.
+    Of each such path, its length, and how much of it counts, by gains as shares of ``full``.
+    Paths begin before the corner; steps of (1, 1) weigh 2, those of (1, 2) and (2, 1) weigh 3.
     """
 
     def ends(i, j, total, counted):
@@ -710,7 +709,7 @@ def matched_lengths(gains, whole):
         for down, right in ((1, 1), (1, 2), (2, 1)):
             a, b = i + down, j + right
             if a < len(gains) and b < len(gains[0]):
-                share = min(max(gains[a][b] / whole, 0), 1)
+                share = min(max(gains[a][b] / full, 0), 1)
                 sums = total + (down + right) * gains[a][b]
                 yield from ends(a, b, sums, counted + right * share)
 
@@ -743,9 +742,9 @@ def explained(poses, path, visits, repetitions):
     for k, (first, last) in enumerate(pairwise(visits)):
         mean = np.mean(repetitions[:k] + repetitions[k + 1 :], axis=0)
         size = max((repetitions[k] * mean).sum(), 0) / max((mean**2).sum(), 1e-12)
-        along = (path[first:last] - path[first]) / max(path[last] - path[first], 1e-12)
-        there = [np.interp(along, (np.arange(places) + 0.5) / places, each) for each in mean.T]
-        rest = poses[first:last] - size * np.array(there).T
+        phases = (path[first:last] - path[first]) / max(path[last] - path[first], 1e-12)
+        fitted = [np.interp(phases, (np.arange(places) + 0.5) / places, each) for each in mean.T]
+        rest = poses[first:last] - size * np.array(fitted).T
         share = rest.var(axis=0).sum() * (count - 1) / count / poses[first:last].var(axis=0).sum()
         left += min(share, 1.0) * (last - first)
     return 1 - left / (visits[-1] - visits[0])
@@ -762,13 +761,25 @@ def left_of(repetitions):
     return left
 
 
-def best_parted(repetitions):
+def best_parting(repetitions):
     """The least share that means of the first and of the last leave of what one mean leaves."""
     cuts = range(2, len(repetitions) - 1)
     rough = 0.02 * np.square(repetitions).sum()
-    whole = left_of(repetitions) + rough
-    parted = [left_of(repetitions[:cut]) + left_of(repetitions[cut:]) + rough for cut in cuts]
-    return min([1.0, *(each / whole for each in parted)])
+    one = left_of(repetitions) + rough
+    two = [left_of(repetitions[:cut]) + left_of(repetitions[cut:]) + rough for cut in cuts]
+    return min([1.0, *(each / one for each in two)])
+
+
+def similarities(movements):
+    """One minus the least squared distance of two movements, rolled, over their variances."""
+    spreads = [((each - each.mean(axis=0)) ** 2).sum() for each in movements]
+    return [
+        [
+            1 - min(((np.roll(a, by, axis=0) - b) ** 2).sum() for by in range(len(a))) / (s + t)
+            for b, t in zip(movements, spreads)
+        ]
+        for a, s in zip(movements, spreads)
+    ]
 
 
 def spread(view, start, stop):
@@ -777,12 +788,12 @@ def spread(view, start, stop):
     return sum(np.linalg.norm(a - b) for a in inside for b in inside) / (2 * len(inside))
 
 
-def followed(poses, path, lengths, mean, near, alike):
+def follow_end(poses, path, lengths, mean, near, full):
     gains = [
         [near - ((pose - place) ** 2).sum() for place in mean]
         for pose in poses_at(poses, path, lengths)
     ]
-    return matched_lengths(gains, near - alike)
+    return matched_lengths(gains, near - full)
 
 
 def similarity_band(features, unit, width):
@@ -814,9 +825,9 @@ def smoothed(rows, smoothing):
     return poses, [np.linalg.norm(poses[b] - poses[a]) / max(b - a, 1) for a, b in around]
 
 
-def judged(poses, path, visits, places, near, followed_for, centering, scattered):
+def division(poses, path, visits, places, near, followed_for, centering, scattered):
     """Ends before the first visit and after the last, what counts, is unexplained."""
-    whole, at = path[-1], np.array([path[visit] for visit in visits])
+    end, at = path[-1], np.array([path[visit] for visit in visits])
     lengths = np.diff(at)
     length = sorted(lengths)[len(lengths) // 2]
     inner = [
@@ -825,23 +836,26 @@ def judged(poses, path, visits, places, near, followed_for, centering, scattered
     ]
     steps = (np.arange(int(places * followed_for)) + 0.5) / places
     ends, mean = [], np.mean(inner, axis=0)
-    alike = 0.9 * near
+    full = 0.9 * near
     if len(inner) > 1:  # the usual variance of places, of all but one
-        alike = min(scattered * np.var(inner, axis=0, ddof=1).sum(axis=1).mean(), alike)
-    for there, expected in ((at[0] - steps * length, mean[::-1]), (at[-1] + steps * length, mean)):
-        inside = there[(there >= 0) & (there <= whole)]
-        there = poses_at(poses, path, inside)
-        gains = near - ((there[:, None] - expected) ** 2).sum(axis=2) if len(there) else []
-        ends.append(np.divide(_longest(gains, near - alike), places))
+        full = min(scattered * np.var(inner, axis=0, ddof=1).sum(axis=1).mean(), full)
+    for reached, expected in (
+        (at[0] - steps * length, mean[::-1]),
+        (at[-1] + steps * length, mean),
+    ):
+        inside = reached[(reached >= 0) & (reached <= end)]
+        found = poses_at(poses, path, inside)
+        gains = near - ((found[:, None] - expected) ** 2).sum(axis=2) if len(found) else []
+        ends.append(np.divide(_longest(gains, near - full), places))
     (before, counted_before), (after, counted_after) = ends
-    outside = max(at[0] - before * length, 0) + max(whole - at[-1] - after * length, 0)
+    outside = max(at[0] - before * length, 0) + max(end - at[-1] - after * length, 0)
     if len(inner) == 1:
-        ahead = at[-1] + (whole - length) * steps[:places]
-        inner.append(poses_at(poses, path, [a if a < whole else a - whole for a in ahead]))
+        ahead = at[-1] + (end - length) * steps[:places]
+        inner.append(poses_at(poses, path, [a if a < end else a - end for a in ahead]))
     shares = np.array(unexplained(inner, centering)[: len(lengths)])
-    known = max(whole - outside - lengths.sum(), 0)
-    weights = np.maximum(lengths / whole, 1 / (len(lengths) + before + after))
-    total = weights @ shares + (shares.mean() * known + outside) / whole
+    between = max(end - outside - lengths.sum(), 0)
+    weights = np.maximum(lengths / end, 1 / (len(lengths) + before + after))
+    total = weights @ shares + (shares.mean() * between + outside) / end
     counted = counted_before + counted_after
     return before, after, counted, total
 
@@ -849,19 +863,19 @@ def judged(poses, path, visits, places, near, followed_for, centering, scattered
 WARPING = ((1, 1), (1, 2), (2, 1))
 
 
-def _longest(gains, whole):
-    """The length of the best warped path, and what counts of it, as `matched_lengths` by rows."""
-    best, found, ways = 0.0, (0, 0.0), {(-1, -1): (0.0, 0.0)}
+def _longest(gains, full):
+    """The length of the best warping path, and what counts of it, as `matched_lengths` by rows."""
+    best, found, paths = 0.0, (0, 0.0), {(-1, -1): (0.0, 0.0)}
     for i in range(len(gains)):
         for j in range(len(gains[i])):
-            share = min(max(gains[i][j] / whole, 0), 1)
-            befores = [(ways.get((i - a, j - b), (-np.inf, 0)), a, b) for a, b in WARPING]
-            ways[i, j] = max(
+            share = min(max(gains[i][j] / full, 0), 1)
+            befores = [(paths.get((i - a, j - b), (-np.inf, 0)), a, b) for a, b in WARPING]
+            paths[i, j] = max(
                 (total + (a + b) * gains[i][j], counted + b * share)
                 for (total, counted), a, b in befores
             )
-            if ways[i, j][0] > best:
-                best, found = ways[i, j][0], (j + 1, ways[i, j][1])
+            if paths[i, j][0] > best:
+                best, found = paths[i, j][0], (j + 1, paths[i, j][1])
     return found
 
 

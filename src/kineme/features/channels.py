@@ -140,8 +140,7 @@ def in_mixtures(
     at, width = sampled_at(len(channels), fps, rate), max(1, round(window * fps))
     first = np.clip(at - width // 2, 0, len(channels))
     last = np.clip(at - width // 2 + width, 0, len(channels))
-    told = [low < NYQUIST * fps for low in bands[:-1]]
-    edges = [None, *(each for each, known in zip(pairwise(bands), told, strict=True) if known)]
+    edges = [None, *(edge for edge in pairwise(bands) if edge[0] < NYQUIST * fps)]
     groups = []
     for edge in edges:
         band = channels if edge is None else _band(channels, fps, *edge)

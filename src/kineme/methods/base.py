@@ -63,11 +63,11 @@ class Found(Protocol):
         """Columns of a segment table: ``level``, ``kind``, ``start_frame``, ``stop_frame``.
 
         Frames count samples. ``cluster`` and ``score`` go with them, and
-        ``border_confidence`` where the method knows how sure borders are.
+        ``border_confidence`` where the method has probabilities of borders.
         """
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """A sentence for each thing that the method is not sure of, the worst first.
+        """A sentence for each result of low confidence, the lowest first.
 
         Parameters
         ----------
@@ -116,11 +116,11 @@ class Preset(ABC):
 
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "metres", "standard deviations", "any")
     """What its lengths can be in."""
-    told_bodies: ClassVar[bool] = False
-    """Whether channels that are places of a body's points are seen by the distances of these, and
-    `analyze` takes ``joints``: whether that is so."""
-    told_rides: ClassVar[bool] = False
-    """Whether `analyze` takes ``carried``: 1 in samples of a ride upwards, -1 downwards, else 0."""
+    accepts_joints: ClassVar[bool] = False
+    """Whether channels that are positions of joints become the distances between these.
+    Then `analyze` takes ``joints``: whether the features are such distances."""
+    accepts_rides: ClassVar[bool] = False
+    """Whether `analyze` takes ``carried``: per sample 1 in a lift upwards, -1 downwards, else 0."""
 
     name: str
     help: str
@@ -205,10 +205,10 @@ class Preset(ABC):
         >>> kineme.PRESETS["kineme"].replace(min_action=2.0).min_action
         2.0
         """
-        known = list(self.parameters())
+        names = list(self.parameters())
         for name in overrides:
-            if name not in known:
+            if name not in names:
                 raise ParameterError(
-                    f"{self.name} has no parameter {name!r:.60}; {unknown(name, known)}"
+                    f"{self.name} has no parameter {name!r:.60}; {unknown(name, names)}"
                 )
         return replace(self, **overrides) if overrides else self

@@ -118,24 +118,24 @@ class Constant:
         Examples
         --------
         >>> import kineme
-        >>> known = {each.name: each for each in kineme.PRESETS["voegele2014"].constants()}
-        >>> known["radius"].allowed, known["growth"].allowed, known["max_lag"].allowed
-        ('above 0 to 10000', 'squares, scan_lines', 'above 0 to 3600, none')
+        >>> constants = {each.name: each for each in kineme.PRESETS["voegele2014"].constants()}
+        >>> [constants[name].allowed for name in ("radius", "growth", "max_lag")]
+        ['above 0 to 10000', 'squares, scan_lines', 'above 0 to 3600, none']
         """
         members = get_args(self.hint)
         optional = NoneType in members
         hint = next((each for each in members if each is not NoneType), None)
         hint = hint if optional else self.hint
         if get_origin(hint) is Literal:
-            told = ", ".join(get_args(hint))
+            words = ", ".join(get_args(hint))
         elif hint is bool:
-            told = "yes, no"
+            words = "yes, no"
         elif self.limits is None:
-            told = ""
+            words = ""
         else:
             above = "above " if self.limits.above else ""
-            told = f"{above}{self.limits.minimum:.9g} to {self.limits.maximum:.9g}"
-        return ", ".join(filter(None, (told, "none" if optional else "")))
+            words = f"{above}{self.limits.minimum:.9g} to {self.limits.maximum:.9g}"
+        return ", ".join(filter(None, (words, "none" if optional else "")))
 
 
 def constant(
@@ -147,7 +147,7 @@ def constant(
     fine: bool = False,
     default: Any = MISSING,
 ) -> Any:
-    """A field of a preset, with what people are told of it.
+    """A field of a preset, with its help, unit and limits.
 
     Parameters
     ----------
@@ -164,42 +164,42 @@ def constant(
     default : Any
         Of all presets of the class; none if each has to say.
     """
-    told = {
+    details = {
         "help": text,
         "unit": unit,
         "limits": limits,
         "slider": None if slider is None else Slider(*slider),
         "fine": fine,
     }
-    return field(default=default, metadata={"constant": told})
+    return field(default=default, metadata={"constant": details})
 
 
 def constants_of(preset: Any) -> tuple[Constant, ...]:
     """The constants of a preset, in the order of its fields."""
     hints = _hints(preset.__class__)
-    defaults = {known.name: known.default for known in fields(preset)}
+    defaults = {each.name: each.default for each in fields(preset)}
     return tuple(
         Constant(
-            name, value=getattr(preset, name), hint=hints[name], default=defaults[name], **told
+            name, value=getattr(preset, name), hint=hints[name], default=defaults[name], **details
         )
-        for name, told in _told(preset.__class__).items()
+        for name, details in _details(preset.__class__).items()
     )
 
 
 def values_of(preset: Any) -> dict[str, Any]:
     """The value of each constant of a preset by name."""
-    return {name: getattr(preset, name) for name in _told(preset.__class__)}
+    return {name: getattr(preset, name) for name in _details(preset.__class__)}
 
 
 def check(preset: Any) -> None:
     """ParameterError for the first constant whose value it cannot take; a count of 3.0 is 3."""
-    for known in constants_of(preset):
-        _check(known.name, known.value, known.hint, known.limits, known.unit)
-        if known.hint is int and type(known.value) is not int:
-            object.__setattr__(preset, known.name, int(known.value))
+    for each in constants_of(preset):
+        _check(each.name, each.value, each.hint, each.limits, each.unit)
+        if each.hint is int and type(each.value) is not int:
+            object.__setattr__(preset, each.name, int(each.value))
 
 
-def unknown(name: str, known: Collection[str]) -> str:
+def unknown(name: str, names: Collection[str]) -> str:
     """What is said of a name that is none of these: the nearest, or all there are.
 
     Examples
@@ -209,8 +209,8 @@ def unknown(name: str, known: Collection[str]) -> str:
     >>> unknown("width", ["radius", "min_action"])
     'there are radius, min_action'
     """
-    near = get_close_matches(name, known, n=1)
-    return f"did you mean {near[0]}?" if near else f"there are {', '.join(known)}"
+    near = get_close_matches(name, names, n=1)
+    return f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"
 
 
 def _check(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
@@ -248,11 +248,11 @@ def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None, unit: 
 
 
 @cache
-def _told(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
+def _details(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
     return {
-        known.name: known.metadata["constant"]
-        for known in fields(cast(Any, kind))
-        if "constant" in known.metadata
+        each.name: each.metadata["constant"]
+        for each in fields(cast(Any, kind))
+        if "constant" in each.metadata
     }
 
 

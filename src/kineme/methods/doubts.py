@@ -1,4 +1,4 @@
-"""Doubts: sentences on what is not sure in a segment table, the least sure first."""
+"""Doubts: sentences on what has a low confidence in a segment table, the lowest first."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 from kineme.methods.base import Columns
 
 Doubt = tuple[float, str]
-"""How probable it is that something is right, and what."""
+"""The probability that something is right, and the sentence about it."""
 
 MOST = 5
-"""Sentences; who is told more looks at none."""
+"""Sentences at most: a longer list is not read."""
 UNSURE = 0.5
-"""Probability below which a sentence says to look at something."""
+"""Confidence below which there is a sentence."""
 
 
 def doubts(columns: Columns, fps: float) -> list[str]:
-    """A sentence for each cluster, count or border that is not sure, at most five.
+    """A sentence for each cluster, count or border of low confidence, at most five.
 
     Parameters
     ----------
@@ -38,10 +38,10 @@ def _of_activities(columns: Columns, fps: float) -> Iterator[Doubt]:
         border, link = (float(columns[name][row]) for name in ("border_confidence", "score"))
         if border < UNSURE:
             at = columns["start_frame"][row] / fps
-            yield border, _sure(f"look at the border at {at:.2f} s", border)
+            yield border, _with_confidence(f"look at the border at {at:.2f} s", border)
         if link < UNSURE:
             where = _span(columns, row, fps)
-            yield link, _sure(f"look at the cluster of the activity {where}", link)
+            yield link, _with_confidence(f"look at the cluster of the activity {where}", link)
 
 
 def _of_counts(columns: Columns, fps: float) -> Iterator[Doubt]:
@@ -54,10 +54,10 @@ def _of_counts(columns: Columns, fps: float) -> Iterator[Doubt]:
         count = float(columns["score"][inside].min(initial=1))
         if count < UNSURE and np.count_nonzero(inside) > 1:  # of one there is nothing to count
             where = _span(columns, row, fps)
-            yield count, _sure(f"look at the number of repetitions {where}", count)
+            yield count, _with_confidence(f"look at the number of repetitions {where}", count)
 
 
-def _sure(text: str, probability: float) -> str:
+def _with_confidence(text: str, probability: float) -> str:
     return f"{text} ({100 * probability:.0f} % sure)"
 
 

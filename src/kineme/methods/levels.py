@@ -1,6 +1,6 @@
 """Levels of detail: clusters joined one by one, so that each level is nested in the next.
 
-What a method finds by default is detail 1. Pieces finer than its segments are
+What a method finds by default is detail 1. Segments finer than these are
 clusters within its clusters. The two clusters whose union costs least, for what
 it saves, are joined, again and again: first within the clusters of detail 1,
 then these (weakest-link pruning, after Breiman, Friedman, Olshen and Stone
@@ -35,14 +35,14 @@ DETAILS = (*COARSER, *FINER)
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class FineSegments:
     """The segments of the finest level, and which cluster of detail 1 they lie in.
 
     Attributes
     ----------
-    borders : (pieces + 1,) array
+    borders : (segments + 1,) array
         Samples; those of detail 1 are among them.
-    labels : (pieces,) array
+    labels : (segments,) array
         Cluster at the finest level, from 0; -1 for transitions.
     parents : (clusters,) array
         The cluster at detail 1 of each cluster.
@@ -57,29 +57,29 @@ class Pieces:
 
 
 def clusters_at(
-    pieces: Pieces, details: tuple[float, ...], *, border_price: float, cluster_price: float
+    fine: FineSegments, details: tuple[float, ...], *, border_price: float, cluster_price: float
 ) -> dict[float, Ints]:
-    """The cluster of each piece at each detail, -1 for transitions.
+    """The cluster of each fine segment at each detail, -1 for transitions.
 
     Parameters
     ----------
-    pieces : Pieces
+    fine : FineSegments
     details : tuple of float
     border_price, cluster_price : float
         What a border and a cluster cost at detail 1.
     """
-    finer, coarser = _joins(pieces, border_price, cluster_price)
+    finer, coarser = _joins(fine, border_price, cluster_price)
     found = {}
-    of, done = np.arange(len(pieces.parents)), 0
+    of, done = np.arange(len(fine.parents)), 0
     for detail in sorted(details, reverse=True):  # each has the joins of the one before, and more
-        joins = [(kept, gone) for kept, gone, least in finer if detail < least]
+        joins = [(kept, joined) for kept, joined, least in finer if detail < least]
         if detail < 1:
             left = max(1, round(detail * (len(coarser) + 1)))
-            joins += [(kept, gone) for kept, gone, _ in coarser[: len(coarser) + 1 - left]]
-        for kept, gone in joins[done:]:
-            of[of == of[gone]] = of[kept]
+            joins += [(kept, joined) for kept, joined, _ in coarser[: len(coarser) + 1 - left]]
+        for kept, joined in joins[done:]:
+            of[of == of[joined]] = of[kept]
         done = len(joins)
-        found[detail] = np.where(pieces.labels < 0, -1, np.append(of, -1)[pieces.labels])
+        found[detail] = np.where(fine.labels < 0, -1, np.append(of, -1)[fine.labels])
     return {detail: found[detail] for detail in details}
 
 
@@ -95,7 +95,7 @@ def tables_at(
     columns : dict of str to array
         Of detail 1.
     borders, clusters
-        As in `Pieces`, and of `clusters_at`.
+        As in `FineSegments`, and of `clusters_at`.
     longest : float
         Samples: below 1, neighbours of one cluster are one activity even with a transition
         between them that is no longer than this over the detail.
@@ -123,7 +123,7 @@ def tables_at(
 
 
 def at_detail(before: Columns, inner: Columns, starts: Ints, clusters: Ints, end: int) -> Columns:
-    """The columns of a table with other activities: pieces joined, repetitions kept.
+    """The columns of a table with other activities: segments joined, repetitions kept.
 
     Every primitive border stays.
 
@@ -145,11 +145,11 @@ def at_detail(before: Columns, inner: Columns, starts: Ints, clusters: Ints, end
     activities = _rows(before, starts, end) | {"kind": kinds, "cluster": clusters}
     primitives = _rows(inner, cuts, end)
     parents = np.searchsorted(starts, cuts, side="right") - 1
-    own = primitives["kind"] == "activity"
+    in_cluster = primitives["kind"] == "activity"
     if _inherited(before, inner):
-        primitives["cluster"] = np.where(own, clusters[parents], -1)
+        primitives["cluster"] = np.where(in_cluster, clusters[parents], -1)
     else:
-        parts = own & ~_whole(primitives, inner)
+        parts = in_cluster & ~_same_spans(primitives, inner)
         pairs = np.column_stack([primitives["cluster"], clusters[parents]])[parts]
         numbers = np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
         primitives["cluster"][parts] = inner["cluster"].max(initial=-1) + 1 + numbers
@@ -161,23 +161,23 @@ Join = tuple[int, int, float]
 
 
 def _joins(
-    pieces: Pieces, border_price: float, cluster_price: float
+    fine: FineSegments, border_price: float, cluster_price: float
 ) -> tuple[list[Join], list[Join]]:
     """Joins within the clusters of detail 1, and of these, each in order."""
-    seen = pieces.labels[pieces.labels >= 0]
-    k = len(pieces.parents)
-    met = np.zeros((k, k))
-    np.add.at(met, (seen[:-1], seen[1:]), 1.0)
-    np.fill_diagonal(met, 0)
-    prices = border_price * (met + met.T)
-    lengths = np.diff(pieces.borders)[pieces.labels >= 0]
-    sizes = np.maximum(np.bincount(seen, lengths, k), 1.0)
-    state = (pieces.differences.copy(), prices, sizes)
+    labels = fine.labels[fine.labels >= 0]
+    k = len(fine.parents)
+    adjacent = np.zeros((k, k))
+    np.add.at(adjacent, (labels[:-1], labels[1:]), 1.0)
+    np.fill_diagonal(adjacent, 0)
+    prices = border_price * (adjacent + adjacent.T)
+    lengths = np.diff(fine.borders)[fine.labels >= 0]
+    sizes = np.maximum(np.bincount(labels, lengths, k), 1.0)
+    state = (fine.differences.copy(), prices, sizes)
     finer: list[Join] = []
-    for parent in np.unique(pieces.parents):
-        finer += _weakest(*state, np.flatnonzero(pieces.parents == parent), cluster_price)
-    finer = [(kept, gone, max(detail, np.nextafter(1, 2))) for kept, gone, detail in finer]
-    roots = np.setdiff1d(np.arange(k), [gone for _, gone, _ in finer])
+    for parent in np.unique(fine.parents):
+        finer += _weakest(*state, np.flatnonzero(fine.parents == parent), cluster_price)
+    finer = [(kept, joined, max(detail, np.nextafter(1, 2))) for kept, joined, detail in finer]
+    roots = np.setdiff1d(np.arange(k), [joined for _, joined, _ in finer])
     return sorted(finer, key=lambda join: -join[2]), _weakest(*state, roots, cluster_price)
 
 
@@ -186,15 +186,16 @@ def _weakest(
 ) -> list[Join]:
     """The joins of some clusters into one, those that cost least first; details never rise.
 
-    What is known of the clusters is joined in place.
+    The arrays are changed: rows and columns of joined clusters are summed.
     """
 
     def details(of: Ints) -> Floats:
         """The detail below which each of these clusters and each of all are one."""
-        own, others = np.diagonal(differences)[of][:, None], np.diagonal(differences)[among]
-        sums = own + others + 2 * differences[of[:, None], among]
+        within = np.diagonal(differences)
+        rows, others = within[of][:, None], within[among]
+        sums = rows + others + 2 * differences[of[:, None], among]
         size = sizes[of][:, None]
-        losses = sums / (size + sizes[among]) - own / size - others / sizes[among]
+        losses = sums / (size + sizes[among]) - rows / size - others / sizes[among]
         found: Floats = (prices[of[:, None], among] + cluster_price) / np.maximum(losses, 1e-9)
         return np.where(alive & (among != of[:, None]), found, -1.0)
 
@@ -205,16 +206,16 @@ def _weakest(
     for _ in range(len(among) - 1):
         first, second = sorted(divmod(int(np.argmax(matrix)), len(among)))
         detail = min(detail, float(matrix[first, second]))
-        kept, gone = int(among[first]), int(among[second])
+        kept, joined = int(among[first]), int(among[second])
         for sums in (differences, prices):
-            sums[kept] += sums[gone]
-            sums[:, kept] += sums[:, gone]
+            sums[kept] += sums[joined]
+            sums[:, kept] += sums[:, joined]
         prices[kept, kept] = 0
-        sizes[kept] += sizes[gone]
+        sizes[kept] += sizes[joined]
         alive[second] = False
         matrix[second] = matrix[:, second] = -1
         matrix[first] = matrix[:, first] = details(among[[first]])[0]
-        found.append((kept, gone, detail))
+        found.append((kept, joined, detail))
     return found
 
 
@@ -228,30 +229,30 @@ def _over_transitions(borders: Ints, labels: Ints, longest: float) -> Ints:
 
 
 def _rows(source: Columns, starts: Ints, end: int) -> Columns:
-    """Rows that begin there, like those of the source they lie in; what is unknown is nan."""
+    """Rows that begin there, like those of the source they lie in; confidence of others is nan."""
     order = np.argsort(source["start_frame"], kind="stable")
     at = order[np.searchsorted(source["start_frame"][order], starts, side="right") - 1]
     rows = {name: column[at] for name, column in source.items()}
-    begun = rows["start_frame"] == starts
+    same_start = rows["start_frame"] == starts
     rows["start_frame"] = starts
     stops = np.append(starts[1:], end)
-    whole = begun & (rows["stop_frame"] == stops)
+    same_span = same_start & (rows["stop_frame"] == stops)
     rows["stop_frame"] = stops
-    for name, same in (("score", whole), ("border_confidence", begun)):
+    for name, same in (("score", same_span), ("border_confidence", same_start)):
         if name in rows:
             rows[name] = np.where(same, rows[name], np.nan)
     return rows
 
 
-def _whole(rows: Columns, source: Columns) -> NDArray[np.bool_]:
+def _same_spans(rows: Columns, source: Columns) -> NDArray[np.bool_]:
     """Which rows have the span of one of the source."""
     spans = {*zip(source["start_frame"].tolist(), source["stop_frame"].tolist(), strict=True)}
-    own = zip(rows["start_frame"].tolist(), rows["stop_frame"].tolist(), strict=True)
-    return np.array([span in spans for span in own], bool)
+    found = zip(rows["start_frame"].tolist(), rows["stop_frame"].tolist(), strict=True)
+    return np.array([span in spans for span in found], bool)
 
 
 def _inherited(activities: Columns, primitives: Columns) -> bool:
     """Whether each primitive is in the cluster of its activity."""
     parents = np.searchsorted(activities["start_frame"], primitives["start_frame"], "right") - 1
-    own = primitives["kind"] == "activity"
-    return bool((activities["cluster"][parents] == primitives["cluster"])[own].all())
+    in_cluster = primitives["kind"] == "activity"
+    return bool((activities["cluster"][parents] == primitives["cluster"])[in_cluster].all())

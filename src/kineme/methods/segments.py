@@ -1,4 +1,4 @@
-"""From borders to columns of a segment table, whoever found them; clusters counted anew."""
+"""From borders to columns of a segment table; clusters numbered by appearance."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def columns_of(
     clusters, scores : pair of arrays
         Of the activities, and of the primitives.
     border_confidence : pair of arrays, optional
-        How sure their starts are, where the method knows.
+        The probability that their starts are right, where the method has one.
 
     Returns
     -------
@@ -67,8 +67,8 @@ def by_first_appearance(labels: NDArray[np.integer]) -> Ints:
     >>> by_first_appearance(np.array([7, 7, -1, 2, 7]))
     array([ 0,  0, -1,  1,  0])
     """
-    known = labels >= 0
-    _, first, inverse = np.unique(labels[known], return_index=True, return_inverse=True)
+    in_cluster = labels >= 0
+    _, first, inverse = np.unique(labels[in_cluster], return_index=True, return_inverse=True)
     numbered = np.full(len(labels), -1, np.int64)
-    numbered[known] = np.argsort(np.argsort(first))[inverse]
+    numbered[in_cluster] = np.argsort(np.argsort(first))[inverse]
     return numbered

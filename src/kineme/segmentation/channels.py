@@ -65,7 +65,7 @@ def view_of_signals(
         spans.append(RecordedSpan(start, stop, len(row)))
     notes = _notes(signals, values, emg=emg, standardize=standardize)
     descriptive = standardize and not emg  # what channels are may be told by their names and values
-    points = joints_among(signals) if preset.told_bodies and descriptive else None
+    points = joints_among(signals) if preset.accepts_joints and descriptive else None
     if points is not None:
         rows = by_distances(rows, points, preset.working_fps)
         notes.append(f"{len(points)} points with bones: seen by how far they are from each other")
@@ -79,7 +79,7 @@ def view_of_signals(
     elif preset.unit != "any":
         notes.append(f"lengths are in {named}")
     carried = None
-    if preset.told_rides and descriptive:
+    if preset.accepts_rides and descriptive:
         carried = _carried(signals, spans, preset.working_fps)
     if carried is not None:
         seconds = np.count_nonzero(carried) / preset.working_fps

@@ -9,11 +9,11 @@ import kineme
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
 from kineme.methods import PRESETS
-from kineme.methods.baselines.constants import ToldConstants
+from kineme.methods.baselines.constants import ClassCountConstants
 from kineme.methods.baselines.presets import BASELINES
 
 NAMES = [preset.name for preset in BASELINES]
-TOLD = [preset.name for preset in BASELINES if isinstance(preset, ToldConstants)]
+TOLD = [preset.name for preset in BASELINES if isinstance(preset, ClassCountConstants)]
 
 
 def told(name: str) -> dict[str, int]:

@@ -12,9 +12,7 @@ from hypothesis import given, settings
 import naive
 from gestures import stacked, wandering, with_gestures
 from kineme.methods.kineme import _event_kernels as kernels
-from kineme.methods.kineme import _event_kernels as set_kernels
-from kineme.methods.kineme.events import Occurrences, occurrences
-from kineme.methods.kineme.paths import followed
+from kineme.methods.kineme.events import Occurrences, occurrences, warped_path
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
 
@@ -80,7 +78,7 @@ def test_a_long_path_is_followed(walk, leg) -> None:
         rows = np.array([*pairs, each[:2]])[::-1, 0]
         assert (leg <= np.diff(rows)[:-1]).all()
         assert np.diff(rows).max() <= leg + 1  # a step is two samples at most
-        forth, sums, back, back_sums = followed(columns, costs, each, passed, 0.8)
+        forth, sums, back, back_sums = warped_path(columns, costs, each, passed, 0.8)
         assert forth[[0, -1]].tolist() == [each[1], each[3]]
         assert back[[0, -1]].tolist() == [each[0], each[2]]
         assert (np.diff(forth) > 0).all()
@@ -120,7 +118,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     totals: dict[tuple[int, int], float] = {}
     for start in range(n):
         for stop in start + lengths[start + lengths <= n]:
-            total, count = set_kernels.recurrences(
+            total, count = kernels.recurrences(
                 start, stop, starts, ptr, *flat, row_ptr, row_paths, free, cover, spans, gains
             )
             expected = naive.recurrences_of(start, stop, paths, free, cover)
@@ -130,7 +128,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
             if expected and free[start:stop].all():
                 covered = min(low for *_, low, _ in of), max(high for *_, high in of)
                 totals[covered] = max(total, totals.get(covered, 0))
-    places, _, ranks = set_kernels.best_sets(
+    places, _, ranks = kernels.best_sets(
         lengths, starts, ptr, *flat, row_ptr, row_paths, free, cover
     )
     if len(places):

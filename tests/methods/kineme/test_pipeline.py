@@ -140,7 +140,7 @@ for _ in range(2):
     for preset in (KINEME, KINEME.replace(part=15.0), SENSORS.replace(working_fps=30.0)):
         found = analyze(rows, preset)
         for part in (found.features, found.fine, found.borders, found.segments.labels,
-                     found.segments.clusters, found.segments.own, found.confidence.links,
+                     found.segments.clusters, found.segments.preference, found.confidence.links,
                      found.confidence.counts, found.confidence.borders, found.primitives,
                      found.confidence.cuts):
             digest.update(np.ascontiguousarray(part).tobytes())
@@ -247,7 +247,7 @@ def constants(draw: st.DrawFn) -> dict[str, float]:
         "spread_share": share,
         "min_action": none_or_some,
         "max_clusters": st.integers(1, 20),
-        "alike": share,
+        "min_explained": share,
         "two_movements": share,
         "chance_count": some,
         "chance_period": some,
@@ -279,7 +279,7 @@ def test_segments_tile_whatever_the_constants(overrides, frames) -> None:
         ("segment_cost", float("nan")),
         ("segment_cost", -0.1),
         ("max_clusters", 0),
-        ("alike", 1.5),
+        ("min_explained", 1.5),
         ("uneven", 0),
         ("min_recurrence", 0),
         ("bands", (0.0, -1.0)),

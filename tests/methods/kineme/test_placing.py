@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from kineme.methods.kineme.events import Occurrences
-from kineme.methods.kineme.placing import (
+from kineme.methods.kineme.primitives import (
     Segments,
-    given_up,
-    of_actions,
-    placed,
+    action_means,
+    with_occurrences,
+    without_repetitions,
     without_still,
 )
 
@@ -41,7 +41,7 @@ FREE = np.array([False, True, True, False])
 
 
 def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
-    found = placed(segments(), occurring((140, 180), (220, 260)), FREE)
+    found = with_occurrences(segments(), occurring((140, 180), (220, 260)), FREE)
     assert found.primitives.tolist() == [0, 50, 100, 130, 140, 180, 220, 260, 300, 400]
     assert found.clusters.tolist() == [0, 0, -1, -1, 2, -1, 2, -1, 0]
     assert found.repeats.tolist() == [True, True] + 6 * [False] + [True]
@@ -50,28 +50,28 @@ def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
 
 
 def test_without_occurrences_a_free_activity_has_no_primitive() -> None:
-    found = placed(segments(), occurring(), FREE)
+    found = with_occurrences(segments(), occurring(), FREE)
     assert found.clusters.tolist() == [0, 0, -1, -1, 0]
 
 
 def test_numbers_go_on_after_repetitions_that_are_another_movement() -> None:
     parts = replace(segments(), clusters=np.array([0, 3, -1, 2, 0]))
-    found = placed(parts, occurring((140, 180), (220, 260)), FREE)
+    found = with_occurrences(parts, occurring((140, 180), (220, 260)), FREE)
     assert found.clusters.tolist() == [0, 2, -1, -1, 3, -1, 3, -1, 0]
-    untouched = placed(parts, occurring(), np.zeros(4, np.bool_))
+    untouched = with_occurrences(parts, occurring(), np.zeros(4, np.bool_))
     assert untouched.clusters.tolist() == [0, 2, -1, 3, 0]
     assert untouched.not_periodic.size == 0
 
 
 def test_borders_go_to_the_nearer_end_of_an_occurrence() -> None:
-    found = placed(segments(), occurring((120, 180), (220, 260)), FREE)
+    found = with_occurrences(segments(), occurring((120, 180), (220, 260)), FREE)
     assert found.borders.tolist() == [0, 100, 120, 300, 400]
-    found = placed(segments(), occurring((100, 135), (220, 260)), FREE)
+    found = with_occurrences(segments(), occurring((100, 135), (220, 260)), FREE)
     assert found.borders.tolist() == [0, 100, 135, 300, 400]
 
 
 def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
-    found = placed(segments(), occurring((100, 270), (280, 300)), FREE)
+    found = with_occurrences(segments(), occurring((100, 270), (280, 300)), FREE)
     assert found.borders.tolist() == [0, 100, 300, 400]
     assert found.labels.tolist() == [0, 1, 0]
     assert found.clusters.tolist() == [0, 0, 2, -1, 2, 0]
@@ -98,19 +98,19 @@ def test_a_single_repetition_that_hardly_moves_is_none(near, kept) -> None:
 
 
 def test_repetitions_that_are_given_up_are_no_primitives() -> None:
-    found = given_up(alone(), np.array([1]))
+    found = without_repetitions(alone(), np.array([1]))
     assert found.clusters.tolist() == [0, -1, -1, -1, 3, -1]
     assert found.not_periodic.tolist() == [1, 2]
     assert found.counts.tolist() == [1, 0, 0]
     same = alone()
-    assert given_up(same, np.empty(0, np.int64)) is same
+    assert without_repetitions(same, np.empty(0, np.int64)) is same
 
 
 def test_shares_are_those_of_actions() -> None:
     shares = np.array([0.8, np.nan, 0.5, 0.2])
-    found = of_actions(shares, np.diff(BORDERS), LABELS)
+    found = action_means(shares, np.diff(BORDERS), LABELS)
     np.testing.assert_allclose(found, [0.5, 0, 0.5, 0.5])
-    found = of_actions(shares, np.diff(BORDERS) * [True, True, False, False], LABELS)
+    found = action_means(shares, np.diff(BORDERS) * [True, True, False, False], LABELS)
     np.testing.assert_allclose(found, [0.8, 0, 0, 0.8])
 
 

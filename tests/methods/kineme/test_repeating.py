@@ -20,7 +20,7 @@ seconds = settings(max_examples=60)
 FPS = round(KINEME.working_fps)
 
 
-def alike(seed: int, count: int, noise: float) -> np.ndarray:
+def similar(seed: int, count: int, noise: float) -> np.ndarray:
     """Repetitions of one movement, each of a size of its own, (count, places, dims)."""
     rng = np.random.default_rng(seed)
     shape = rng.normal(size=(6, 3)).cumsum(axis=0)
@@ -40,7 +40,7 @@ shapes = st.integers(0, 2**32 - 1), st.integers(2, 9), st.sampled_from([0.1, 0.5
 @given(*shapes)
 @seconds
 def test_repetitions_are_centered_each_on_its_own_mean(seed, count, noise) -> None:
-    repetitions = alike(seed, count, noise)
+    repetitions = similar(seed, count, noise)
     means = repetitions.mean(axis=1, keepdims=True)
     np.testing.assert_allclose(centered(repetitions), repetitions - means, atol=1e-12)
 
@@ -49,7 +49,7 @@ def test_repetitions_are_centered_each_on_its_own_mean(seed, count, noise) -> No
 @seconds
 def test_what_is_explained_is_that_of_the_naive_version(seed, count, noise) -> None:
     rng = np.random.default_rng(seed)
-    repetitions = alike(seed, count, noise)
+    repetitions = similar(seed, count, noise)
     visits = np.append(0, np.cumsum(rng.integers(4, 12, count)))
     poses = rng.normal(size=(visits[-1] + 3, 3)).cumsum(axis=0)
     path = np.append(0, np.cumsum(rng.uniform(0.1, 2, len(poses))))
@@ -62,12 +62,22 @@ def test_what_is_explained_is_that_of_the_naive_version(seed, count, noise) -> N
 @given(*shapes)
 @seconds
 def test_the_best_parting_is_that_of_the_naive_version(seed, count, noise) -> None:
-    repetitions = centered(alike(seed, count, noise))
-    found = kernels.best_parted(repetitions)
-    assert found == pytest.approx(naive.best_parted(list(repetitions)), abs=1e-9)
+    repetitions = centered(similar(seed, count, noise))
+    found = kernels.best_parting(repetitions)
+    assert found == pytest.approx(naive.best_parting(list(repetitions)), abs=1e-9)
     assert 0 <= found <= 1
     if count < 4:  # two of each are the fewest
         assert found == 1
+
+
+@given(st.integers(0, 99), st.integers(1, 5))
+@seconds
+def test_similarities_are_those_of_the_naive_version(seed: int, count: int) -> None:
+    movements = np.random.default_rng(seed).normal(size=(count, 6, 3)).cumsum(axis=1)
+    found = kernels.similarities(movements)
+    np.testing.assert_allclose(found, naive.similarities(list(movements)), atol=1e-9)
+    shifted = np.stack([movements[0], np.roll(movements[0], 2, axis=0)])
+    np.testing.assert_allclose(kernels.similarities(shifted), 1, atol=1e-9)  # at any phase
 
 
 @given(st.integers(0, 99), st.integers(1, 30), st.integers(0, 29), st.integers(1, 30))
@@ -155,7 +165,7 @@ def test_two_movements_one_after_the_other_save_nothing_as_one(seed: int) -> Non
     if found is not None:
         start, stop = found.start / KINEME.rate, found.stop / KINEME.rate
         assert 0 <= start < stop <= end + 1 / KINEME.rate
-        assert found.told < 0.05 or min(border - start, stop - border) < 2
+        assert found.share < 0.05 or min(border - start, stop - border) < 2
 
 
 def test_what_is_too_short_or_too_long_saves_nothing() -> None:

@@ -16,9 +16,9 @@ from kineme.errors import ParameterError
 from kineme.features.channels import channel_statistics
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.kineme import tree
-from kineme.methods.kineme.level import part_ends
 from kineme.methods.kineme.preset import SENSORS
-from kineme.methods.kineme.views import holding_down, mutual_information, seen
+from kineme.methods.kineme.tree import part_ends
+from kineme.methods.kineme.views import common_reduced, mutual_information, views_of
 
 FPS = 50.0
 DONE = ((0, 0, 0), (0, 1.8, 1), (0, 0, 0), (0, 2.8, 3), (2, 0, 0), (0, 1.8, 1))
@@ -201,10 +201,10 @@ def test_what_channels_share_is_held_down() -> None:
         return float(np.linalg.eigvalsh(np.corrcoef(of.T))[-1])
 
     assert shared(channels) > 4.5
-    held = channels @ holding_down(channels, 0.3)
+    held = channels @ common_reduced(channels, 0.3)
     assert shared(held) < 1.5
     np.testing.assert_allclose(held.std(axis=0), 1.0)
-    assert holding_down(channels, 1e4) is None
+    assert common_reduced(channels, 1e4) is None
 
 
 def test_the_order_of_channels_changes_nothing() -> None:
@@ -218,9 +218,9 @@ def test_the_order_of_channels_changes_nothing() -> None:
 
 def test_one_channel_has_no_halves_and_one_view_no_rivals() -> None:
     alone = SENSORS.replace(shared=(0.3,), weights=(1.0,), restless_over=(1.0,))
-    assert len(seen(worn()[0], SENSORS).halves) == 4
-    assert not seen(worn()[0][:, :1], SENSORS).halves
-    assert not seen(worn()[0], alone).halves
+    assert len(views_of(worn()[0], SENSORS).halves) == 4
+    assert not views_of(worn()[0][:, :1], SENSORS).halves
+    assert not views_of(worn()[0], alone).halves
 
 
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), min_size=2, max_size=40))
@@ -255,7 +255,7 @@ def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
     height = np.abs((t / 6) % 2 - 1)
     channels = np.column_stack([height, 2 * height**2])
     down, up, again = np.round(np.array([15, 21, 27]) * SENSORS.rate).astype(int)  # halfway each
-    joints, sensors = (seen(channels, SENSORS, joints=each).views for each in (True, False))
+    joints, sensors = (views_of(channels, SENSORS, joints=each).views for each in (True, False))
     for told, plain in zip(joints, sensors, strict=True):
         unit = tree.median_distance(plain, SENSORS.near)
         assert np.linalg.norm(plain[down] - plain[up]) < 0.05 * unit

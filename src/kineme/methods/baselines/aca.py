@@ -70,7 +70,7 @@ def aca(features: Floats, preset: AcaConstants) -> Segments:
     ParameterError
         The recording is too short for the classes or lengths.
     """
-    n_classes, shortest, longest = preset.told(), preset.shortest, preset.longest
+    n_classes, shortest, longest = preset.required_classes(), preset.shortest, preset.longest
     random = np.random.RandomState(preset.seed)
     blocks = block_starts(features, preset, random)
     check_room(len(blocks), n_classes, shortest, longest, preset.longest_block)

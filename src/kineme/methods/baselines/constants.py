@@ -43,16 +43,16 @@ class BaselineConstants(Preset):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ToldConstants(BaselineConstants):
-    """A baseline that has to be told the number of actions."""
+class ClassCountConstants(BaselineConstants):
+    """A baseline that needs the number of actions."""
 
     n_classes: int | None = constant(
         "number of actions, which the method has to be told", limits=SOME, default=None
     )
     seed: int = constant("of all random starts", limits=COUNT, default=0, fine=True)
 
-    def told(self) -> int:
-        """The number of actions; ParameterError if nobody said."""
+    def required_classes(self) -> int:
+        """`n_classes`; ParameterError where it is not given."""
         if self.n_classes is None:
             raise ParameterError(
                 f"{self.name} has to be told the number of actions: give n_classes "
@@ -62,7 +62,7 @@ class ToldConstants(BaselineConstants):
 
 
 @dataclass(frozen=True, kw_only=True)
-class AlignedConstants(ToldConstants):
+class AlignedConstants(ClassCountConstants):
     """What ACA and HACA share."""
 
     view: ClassVar[View] = "rotation vectors"
@@ -118,7 +118,7 @@ class HacaConstants(AlignedConstants):
 
 
 @dataclass(frozen=True, kw_only=True)
-class GmmConstants(ToldConstants):
+class GmmConstants(ClassCountConstants):
     """Of the Gaussian mixture."""
 
     variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.9)

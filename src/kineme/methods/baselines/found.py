@@ -58,5 +58,5 @@ class SegmentsFound:
         return neighbor_graph(self.features, radius=float(np.quantile(distances, 0.1)), k=PICTURED)
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:  # noqa: ARG002
-        """None: the baselines do not say how sure they are."""
+        """None: the baselines give no confidence."""
         return []

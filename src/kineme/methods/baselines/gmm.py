@@ -45,7 +45,7 @@ def gmm(features: Floats, preset: GmmConstants) -> Segments:
     ParameterError
         Fewer frames than Gaussians.
     """
-    frames, n_classes = checked(features), preset.told()
+    frames, n_classes = checked(features), preset.required_classes()
     if n_classes > len(frames):
         raise ParameterError(f"{len(frames)} frames cannot be told into {n_classes} classes")
     with threadpool_limits(1):  # sums, and so results, would change with the number of cores

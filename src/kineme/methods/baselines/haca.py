@@ -52,7 +52,11 @@ def haca_levels(features: Floats, preset: HacaConstants) -> tuple[Segments, Segm
     ParameterError
         The recording is too short for the classes or lengths.
     """
-    n_classes, fine_classes, lengths = preset.told(), preset.fine_classes, preset.fine_lengths
+    n_classes, fine_classes, lengths = (
+        preset.required_classes(),
+        preset.fine_classes,
+        preset.fine_lengths,
+    )
     random = np.random.RandomState(preset.seed)
     blocks = block_starts(features, preset, random)
     check_room(len(blocks), fine_classes, *lengths, preset.longest_block)

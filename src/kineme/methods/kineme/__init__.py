@@ -1,24 +1,22 @@
 """The method of ``kineme`` and ``sensors``: the shortest description of a recording by segments.
 
-A segment is told by its samples staying alike, or as a movement that repeats.
+A segment is described by the similarity of its samples, or by a movement that it repeats.
 
 ================= ========================================================================
-``constants``     what each does, in which unit, and its value for bodies
+``constants``     the constants, each with its unit and its value for bodies
 ``preset``        both presets
 ``pipeline``      the stages, one after the other
-``views``         posture and energy of movement (``features.channels``), and which view is taken
-``tree``          fine borders, neighbours joined, and the level of the shortest description
-``repeating``     what a segment saves by repeating itself
-``level``         segments of the parts of a recording, put together
-``borders``       borders to the frame
-``repetitions``   how often a segment repeats itself; ``rests``, where cuts lie at rest
+``views``         posture and energy of movement, and the choice among several views
+``tree``          fine borders, a tree of segments, and the level of the shortest description
+``repeating``     the share of its cost that a segment saves by repeating itself
+``borders``       borders to the frame, and transitions
+``repetitions``   the number of repetitions of a segment, and cuts between them
 ``ends``          where the first repetition begins and the last one ends
-``likeness``      which clusters are one movement at another pace
-``events``        what recurs now and then, along ``paths``; ``placing`` puts it among segments
-``primitives``    repetitions and events of all segments
-``confidence``    how sure all that is, which no stage reads
-``found``         what comes of it, at several levels of detail
+``events``        spans that recur now and then
+``primitives``    segments with their repetitions, clusters and events
+``confidence``    probabilities of all these, which no stage reads
+``found``         the results of all stages, and tables at several levels of detail
 ================= ========================================================================
 
-``docs/method.md`` tells each step, and what was tried.
+``docs/method.md`` explains each step.
 """

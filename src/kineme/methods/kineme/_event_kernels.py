@@ -1,8 +1,8 @@
-"""Compiled loops over pairs of samples: warping paths anywhere, and sets of what recurs.
+"""Compiled loops over pairs of samples: warping paths anywhere, and sets of spans that recur.
 
-A pair of samples scores ``1 - distance² / scale²`` less what stillness costs, a
-path the sum over its pairs; a step that passes over a sample counts its pair one
-and a half times. Samples are columns. Naive twins are in ``tests/helpers/naive.py``.
+A pair of samples scores ``1 - distance² / scale²`` less the mean cost of both. A path scores the
+sum over its pairs; a step that passes over a sample counts its pair one and a half times. Samples
+are columns. Naive twins are in ``tests/helpers/naive.py``.
 """
 
 from __future__ import annotations
@@ -14,20 +14,21 @@ from kineme._compiled import OPTIONS
 
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 BLOCK = 512
-"""Starts of stretches whose largest gain is known together."""
+"""Starts of spans that share one entry in the table of largest gains."""
 
 
 @njit("void(float64[:, ::1], float64[::1], int64, int64, float64, float64, float64[::1])", **SUMS)
 def pair_scores(samples, costs, i, start, scale, worst, found):
-    """Scores of a sample with so many from ``start`` on.
+    """Scores of sample i with as many from ``start`` on as ``found`` holds.
 
-    1 where two are equal, falling with the square of their distance to ``worst``.
+    1 where two are equal, less by the square of their distance, ``worst`` at least.
     """
+    # Square distances, dimension by dimension, as samples are columns.
     found[:] = 0
     for d in range(len(samples)):
-        own, others = samples[d, i], samples[d, start : start + len(found)]
+        value, others = samples[d, i], samples[d, start : start + len(found)]
         for j in range(len(found)):
-            difference = own - others[j]
+            difference = value - others[j]
             found[j] += difference * difference
     cost, others = costs[i], costs[start : start + len(found)]
     for j in range(len(found)):
@@ -44,11 +45,13 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
 
     Pairs are ``gap`` to ``width`` samples apart. A path steps by one sample on
     both sides or by two on one of them, never into a sample that ``begins`` a
-    stretch, and goes on for as long as its score is above 0. Of those that score
+    span, and goes on for as long as its score is above 0. Of those that score
     ``least`` or more, one for each branch of each first pair is kept, at its best.
     Beside its ends is the latest of the pairs that it passed, one after so many samples
     (``leg``), -1 if there is none; these are (i, j, the one before).
     """
+    # Three rows are enough, as a step goes back by two at most. Of the best path to each pair:
+    # its score, first pair (i * n + j), place in `found`, and latest pair passed.
     n = len(costs)
     line = np.empty(n)
     scores = np.zeros((3, n))
@@ -59,13 +62,15 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
     found = [(0, 0, 0, 0, np.int64(-1), 0.0)]
     passed = [(0, 0, np.int64(-1))]
     for i in range(n):
-        row, one, two = i % 3, (i - 1) % 3, (i - 2) % 3
+        row, one, two = i % 3, (i - 1) % 3, (i - 2) % 3  # this row, and those before it
+        # Pairs nearer than the gap hold scores of an earlier row.
         for j in range(max(i + gap - 3, 0), min(i + gap, n)):
             scores[row, j] = 0
         go, skip = i > 0 and not begins[i], i > 1 and not (begins[i] or begins[i - 1])
         near, far = min(i + gap, n), min(i + width + 1, n)
         pair_scores(samples, costs, i, near, scale, worst, line[near:far])
         for j in range(near, far):
+            # The best way here: a new path, or one of three steps.
             score = line[j]
             best, source, column = score, -1, -1
             if go and not begins[j]:
@@ -81,21 +86,25 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
             scores[row, j] = max(best, 0)
             if best <= 0:
                 continue
+            # What the path brings along.
             first, record, latest, start = i * n + j, np.int64(-1), np.int64(-1), i
             if source >= 0:
                 first, record = firsts[source, column], records[source, column]
                 latest, start = passes[source, column], since[source, column]
             firsts[row, j], records[row, j] = first, record
+            # Each branch has one record, its best pair so far.
             if best >= least:
                 if record < 0:
                     records[row, j] = len(found)
                     found.append((first // n, first % n, i, j, latest, best))
                 elif best > found[record][5]:
                     found[record] = (first // n, first % n, i, j, latest, best)
+            # Every leg leaves a pair behind, so that the path can be followed in legs.
             if i - start >= leg:
                 passed.append((i, j, latest))
                 latest, start = np.int64(len(passed) - 2), i
             passes[row, j], since[row, j] = latest, start
+    # Lists as arrays, without the entry that gave them their type.
     ends = np.empty((len(found) - 1, 5), np.int64)
     totals = np.empty(len(found) - 1)
     for k in range(len(totals)):
@@ -118,13 +127,14 @@ def follow(samples, costs, ends, scale, worst):
     """
     i0, j0 = ends[0], ends[1]
     rows, columns = ends[2] - i0 + 1, ends[3] - j0 + 1
+    # The best score up to each pair, and the step that leads to it: 1 straight, 2 and 3 bent.
     scores = np.full((rows, columns), -np.inf)
     steps = np.zeros((rows, columns), np.int8)
     line = np.empty(columns)
     pair_scores(samples, costs, i0, j0, scale, worst, line[:1])
     scores[0, 0] = line[0]
     for i in range(1, rows):
-        ahead = rows - 1 - i  # only what can be reached, and from where the end can be
+        ahead = rows - 1 - i  # only pairs that can be reached, and from which the end can be
         first = max(1, (i + 1) // 2, columns - 1 - 2 * ahead)
         last = min(columns, 2 * i + 1, columns - (ahead + 1) // 2)
         pair_scores(samples, costs, i0 + i, j0 + first, scale, worst, line[first:last])
@@ -135,6 +145,7 @@ def follow(samples, costs, ends, scale, worst):
                 scores[i, j], steps[i, j] = scores[i - 1, j - 2] + 1.5 * score, 2
             if i > 1 and scores[i - 2, j - 1] + 1.5 * score > scores[i, j]:
                 scores[i, j], steps[i, j] = scores[i - 2, j - 1] + 1.5 * score, 3
+    # Back from the end. A sample that is passed over lies between both pairs of the step.
     partners, sums = np.empty(rows), np.empty(rows)
     other_partners, other_sums = np.empty(columns), np.empty(columns)
     i, j = rows - 1, columns - 1
@@ -157,11 +168,11 @@ def follow(samples, costs, ends, scale, worst):
 
 
 @njit("int64(boolean[::1], int64, int64)", **OPTIONS)
-def set_in(marks, start, stop):
-    """How many marks of ``[start, stop)`` are set."""
+def set_in(flags, start, stop):
+    """How many flags of ``[start, stop)`` are set."""
     count = 0
     for i in range(start, stop):
-        count += marks[i]
+        count += flags[i]
     return count
 
 
@@ -173,21 +184,23 @@ def set_in(marks, start, stop):
 def recurrences(
     start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
 ):
-    """Where ``[start, stop)`` recurs, written to spans and gains: their sum and their number.
+    """The total gain and number of recurrences of ``[start, stop)``; spans and gains hold them.
 
-    Each is the partner of what a path covers of it, ``cover`` at least, and that comes
-    after it; the strongest are first, none reaches into another, into itself or into
-    samples that are not free.
+    Each is the partner of a part of the span, by a path that covers a share of ``cover`` at least
+    of it. Spans hold (start, stop) of the partner and of the part, the strongest first. None
+    reaches into another, into the span itself or into samples that are not free.
     """
     length = stop - start
     middle = (start + stop) // 2
     n = 0
+    # All that paths through the middle give, in order of their gain.
     for path in row_paths[row_ptr[middle] : row_ptr[middle + 1]]:
         first = starts[path]
         base = ptr[path] - first
         low, high = max(start, first), min(stop, first + ptr[path + 1] - ptr[path])
         if high - low < cover * length:
             continue
+        # Ends that gain nothing are left out.
         while low < high and low > first and sums[base + low] <= sums[base + low - 1]:
             low += 1
         while high - 1 > low and sums[base + high - 1] <= sums[base + high - 2]:
@@ -206,6 +219,7 @@ def recurrences(
             spans[place, 0], spans[place, 1], gains[place] = begin, end, score
             spans[place, 2], spans[place, 3] = low, high
             n += 1
+    # Of these the strongest that do not overlap, and of which four fifths are free.
     total, count = 0.0, 0
     for k in range(n):
         begin, end = spans[k, 0], spans[k, 1]
@@ -233,7 +247,7 @@ def largest(values, count):
 
 @njit("void(float64[::1], float64[::1], int64, int64)", **OPTIONS)
 def renew(tops, values, start, stop):
-    """Have the largest value of each block that holds some of these places."""
+    """Set the largest value of each block that holds some of these places."""
     for block in range(start // BLOCK, (stop + BLOCK - 1) // BLOCK):
         first = block * BLOCK
         tops[block] = values[first + largest(values[first:], min(BLOCK, len(values) - first))]
@@ -245,44 +259,49 @@ def renew(tops, values, start, stop):
     **OPTIONS,
 )
 def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, cover):
-    """Spans, gains and set of each occurrence: of all stretches the one that gains most, and so on.
+    """Spans, gains and set of each occurrence: the sets with the largest total gain, one by one.
 
-    Gains hardly ever rise as samples are taken, so that old ones do for all but the
-    best (lazy greedy, after Minoux 1978). Changes ``free``.
+    Gains hardly ever rise as samples are taken, so that only that of the best span is computed
+    anew (lazy greedy, after Minoux 1978). Changes ``free``.
+
+    ``lengths`` are the lengths of spans that are tried. The other arrays are those of
+    `events.matching_paths`, and ``cover`` is that of `recurrences`.
     """
     n, sizes = len(free), len(lengths)
     most = 0
     for i in range(n):
         most = max(most, row_ptr[i + 1] - row_ptr[i])
     spans, gains = np.empty((most, 4), np.int64), np.empty(most)
-    of_stretch = np.zeros((n, sizes))
-    known = np.zeros((n, sizes), np.int64)
+    totals = np.zeros((n, sizes))
+    versions = np.zeros((n, sizes), np.int64)  # the number of sets when a total was computed
     best = np.zeros(n)
     found = [(0, 0, 0.0, 0)]
     rank = 0
+    # Total gains of all spans that are free, the best for each start, and the best of each block.
     for start in range(n):
         for k in range(sizes):
             stop = start + lengths[k]
             if stop <= n and set_in(free, start, stop) == lengths[k]:
-                of_stretch[start, k] = recurrences(
+                totals[start, k] = recurrences(
                     start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover,
                     spans, gains,
                 )[0]  # fmt: skip
-        best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
+        best[start] = totals[start, largest(totals[start], sizes)]
     tops = np.empty((n + BLOCK - 1) // BLOCK)
     renew(tops, best, 0, n)
+    # The best span: taken if its total is up to date, else computed anew.
     while n > 0:
         block = largest(tops, len(tops)) * BLOCK
         start = block + largest(best[block:], min(BLOCK, n - block))
         if best[start] <= 0:
             break
-        k = largest(of_stretch[start], sizes)
+        k = largest(totals[start], sizes)
         stop = start + lengths[k]
         total, count = recurrences(
             start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
         )
-        if known[start, k] == rank and count > 0:
-            covered, stop = stop, start  # what recurs of it
+        if versions[start, k] == rank and count > 0:
+            covered, stop = stop, start  # of the span, the part that any partner matches
             for other in range(count):
                 covered, stop = min(covered, spans[other, 2]), max(stop, spans[other, 3])
             found.append((covered, stop, gains[largest(gains, count)], rank))
@@ -291,15 +310,16 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
             for covered, stop, _, _ in found[-1 - count :]:
                 free[covered:stop] = False
                 for begin in range(max(covered - lengths[sizes - 1] + 1, 0), stop):
-                    for k in range(sizes):  # what reaches into it gains nothing any more
-                        of_stretch[begin, k] *= begin + lengths[k] <= covered
-                    best[begin] = of_stretch[begin, largest(of_stretch[begin], sizes)]
+                    for k in range(sizes):  # spans that reach into it gain nothing
+                        totals[begin, k] *= begin + lengths[k] <= covered
+                    best[begin] = totals[begin, largest(totals[begin], sizes)]
                 renew(tops, best, max(covered - lengths[sizes - 1] + 1, 0), stop)
             rank += 1
         else:
-            of_stretch[start, k], known[start, k] = total, rank
-            best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
+            totals[start, k], versions[start, k] = total, rank
+            best[start] = totals[start, largest(totals[start], sizes)]
             renew(tops, best, start, start + 1)
+    # The list as arrays, without the entry that gave it its type.
     places = np.empty((len(found) - 1, 2), np.int64)
     scores, ranks = np.empty(len(places)), np.empty(len(places), np.int64)
     for k in range(len(places)):

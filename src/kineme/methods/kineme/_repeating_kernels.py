@@ -1,4 +1,7 @@
-"""Compiled loops that tell whether a segment repeats; twins are in ``tests/helpers/naive.py``."""
+"""Compiled loops of the description of a segment by one repetition, and similarity of movements.
+
+Naive twins are in ``tests/helpers/naive.py``.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +12,14 @@ from kineme._compiled import OPTIONS
 
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 LEAST = 2
-"""Repetitions of a movement."""
+"""Repetitions of a movement, at least."""
 ROUGH = 0.02
-"""Share of their variance by which repetitions of one movement differ anyhow."""
+"""Share of their variance that repetitions of one movement differ by in any case."""
 
 
 @njit("void(float64[:, :, ::1])", **OPTIONS)
 def center(repetitions):
-    """Takes its mean pose off each repetition, (repetitions, places, dims)."""
+    """Subtract its mean pose from each repetition, (repetitions, places, dims), in place."""
     count, places, dims = repetitions.shape
     for k in range(count):
         for d in range(dims):
@@ -29,9 +32,10 @@ def center(repetitions):
 
 @njit("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, :, ::1])", **SUMS)
 def explained(poses, path, visits, centered):
-    """The share of repetitions' variance that the mean of the others explains, in time.
+    """The share of the variance of repetitions that the mean of the others explains, in time.
 
-    Each about its own mean, and the mean of the others as large as fits it best.
+    The variance is about the mean of each repetition. The mean of the others is scaled by the
+    factor that fits best. ``centered`` are the repetitions, each with a mean of 0.
     """
     count, places, dims = centered.shape
     total = centered.sum(axis=0)
@@ -39,13 +43,15 @@ def explained(poses, path, visits, centered):
     expected, rest = np.empty(dims), np.empty(dims)
     left = 0.0
     for k in range(count):
-        product = square = 0.0
+        # The mean of the others, and its best size for this repetition.
+        product = mean_square = 0.0
         for p in range(places):
             for d in range(dims):
                 mean[p, d] = (total[p, d] - centered[k, p, d]) / (count - 1)
                 product += centered[k, p, d] * mean[p, d]
-                square += mean[p, d] * mean[p, d]
-        size = max(product, 0.0) / max(square, 1e-12)
+                mean_square += mean[p, d] * mean[p, d]
+        size = max(product, 0.0) / max(mean_square, 1e-12)
+        # What is left of each frame: the mean is interpolated at the place that it has reached.
         first, last = visits[k], visits[k + 1]
         length = max(path[last] - path[first], 1e-12)
         residuals = np.empty((last - first, dims))
@@ -55,8 +61,9 @@ def explained(poses, path, visits, centered):
             high = min(low + 1, places - 1)
             share = min(max(phase - low, 0.0), 1.0)
             for d in range(dims):
-                there = mean[low, d] * (1 - share) + mean[high, d] * share
-                residuals[f - first, d] = poses[f, d] - size * there
+                fitted = mean[low, d] * (1 - share) + mean[high, d] * share
+                residuals[f - first, d] = poses[f, d] - size * fitted
+        # Variances of what is left and of the poses, each about its mean.
         residual, variance = 0.0, 1e-12
         for d in range(dims):
             expected[d] = rest[d] = 0.0
@@ -73,48 +80,56 @@ def explained(poses, path, visits, centered):
 
 @njit("float64(float64[:, ::1], float64[::1], int64, int64)", **SUMS)
 def _left(rows, total, start, stop):
-    """What the mean of the others leaves of each of the rows, which have that total, summed."""
+    """Squares that the best multiple of the mean of the others leaves of rows, summed over rows.
+
+    ``total`` is the sum of the rows from start to stop.
+    """
     count = stop - start
     left = 0.0
     for k in range(start, stop):
-        product = square = own = 0.0
+        product = mean_square = square = 0.0
         for e in range(rows.shape[1]):
             mean = (total[e] - rows[k, e]) / (count - 1)
             product += mean * rows[k, e]
-            square += mean * mean
-            own += rows[k, e] * rows[k, e]
-        left += (own - max(product, 0.0) ** 2 / max(square, 1e-12)) * (count - 1) / count
+            mean_square += mean * mean
+            square += rows[k, e] * rows[k, e]
+        left += (square - max(product, 0.0) ** 2 / max(mean_square, 1e-12)) * (count - 1) / count
     return left
 
 
 @njit("float64(float64[:, :, ::1])", **OPTIONS)
-def best_parted(centered):
-    """The least share of what their mean leaves of repetitions that two means leave.
+def best_parting(centered):
+    """What two means leave of repetitions, as a share of what one mean leaves; the least share.
 
-    One mean is of the first repetitions, one of the last. 1 where there are too few.
+    One mean is of the first repetitions, the other of the last. 1 where there are too few.
     """
     count = len(centered)
+    # Sums up to each repetition, so that a total is one difference.
     rows = centered.copy().reshape(count, -1)
     sums = np.zeros((count + 1, rows.shape[1]))
     for k in range(count):
         for e in range(rows.shape[1]):
             sums[k + 1, e] = sums[k, e] + rows[k, e]
+    # Added to both, so that repetitions that are nearly equal are one movement.
     rough = 1e-12
     for k in range(count):
         for e in range(rows.shape[1]):
             rough += ROUGH * rows[k, e] * rows[k, e]
-    whole = _left(rows, sums[count], 0, count)
+    one_mean = _left(rows, sums[count], 0, count)
     best = 1.0
     for cut in range(LEAST, count - LEAST + 1):
-        parted = _left(rows, sums[cut], 0, cut)
-        parted += _left(rows, sums[count] - sums[cut], cut, count)
-        best = min(best, (parted + rough) / (whole + rough))
+        two_means = _left(rows, sums[cut], 0, cut)
+        two_means += _left(rows, sums[count] - sums[cut], cut, count)
+        best = min(best, (two_means + rough) / (one_mean + rough))
     return best
 
 
 @njit("float64(float32[:, ::1], int64, int64, int64)", **SUMS)
 def spread(view, start, stop, most):
-    """Half the summed distances of samples to the mean others of the span, by so many of them."""
+    """The cost of a span: half the mean distance of two samples, times its number of samples.
+
+    It is estimated from ``most`` of its samples at most.
+    """
     stop = min(stop, len(view))
     count = min(most, stop - start)
     total = 0.0
@@ -130,8 +145,11 @@ def spread(view, start, stop, most):
 
 
 @njit("float64[:, ::1](float64[:, :, ::1])", **SUMS)
-def likenesses(movements):
-    """Of each two movements, (movements, places, dims), at the phase at which they fit best."""
+def similarities(movements):
+    """Similarity of each two movements (movements, places, dims) at the phase that fits best.
+
+    It is 1 minus their squared distance over the sum of their variances.
+    """
     count, places, dims = movements.shape
     varied = np.zeros(count)
     for k in range(count):
@@ -141,6 +159,7 @@ def likenesses(movements):
                 mean += movements[k, p, d] / places
             for p in range(places):
                 varied[k] += (movements[k, p, d] - mean) ** 2
+    # Each phase in turn: the one is shifted by so many places against the other.
     found = np.ones((count, count))
     for k in range(count):
         for other in range(k):
@@ -152,6 +171,6 @@ def likenesses(movements):
                         difference = movements[k, (p + by) % places, d] - movements[other, p, d]
                         apart += difference * difference
                 least = min(least, apart)
-            alike = 1 - least / max(varied[k] + varied[other], 1e-12)
-            found[k, other] = found[other, k] = alike
+            similarity = 1 - least / max(varied[k] + varied[other], 1e-12)
+            found[k, other] = found[other, k] = similarity
     return found

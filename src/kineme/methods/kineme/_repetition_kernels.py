@@ -1,7 +1,8 @@
-"""Compiled loops that divide an activity into repetitions, judge that, and fit its ends.
+"""Compiled loops for divisions of an activity into repetitions, their cost, and their ends.
 
-Poses are those of an activity, ``path`` their length of path up to each frame
-and to the end. Naive twins are in ``tests/helpers/naive.py``.
+Poses are those of an activity; ``path`` is the length of its path up to each frame and to the
+end. A place is one of equally many positions on the path of each repetition. Naive twins are in
+``tests/helpers/naive.py``.
 """
 
 from __future__ import annotations
@@ -10,9 +11,8 @@ import numpy as np
 from numba import njit
 
 from kineme._compiled import OPTIONS
-from kineme.methods.kineme._following_kernels import followed, poses_at, steps_inside
 
-# Poses of an end that are farther than this share of the largest distance never count whole.
+# Poses of an end that are farther than this share of the largest distance never count in full.
 FARTHEST = 0.9
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 FAR = np.float32(np.inf)
@@ -37,7 +37,7 @@ def distances_to(features, references, start, stop):
 def turning_points(row, least):
     """Lowest, highest, ..., lowest columns of a row that rises and falls by ``least`` between."""
     turns = np.empty(len(row) + 1, np.int64)
-    count = low = high = 0
+    count = low = high = 0  # columns of the lowest and highest value since the last turn
     rising = falling = False
     for c in range(len(row)):
         low = c if row[c] < row[low] else low
@@ -70,13 +70,14 @@ def dips(distances, least):
     lowest = np.zeros((rows, columns // 2 + 1), np.int64)
     for r in range(rows):
         row = distances[r]
+        # Lows are at even turns, highs at odd ones.
         turns = turning_points(row, least[r])
         n = len(turns)
         found = np.zeros(n // 2 + 1, np.float32)
         where = np.zeros(n // 2 + 1, np.int64)
         count = 0
         while n > 1:
-            # The smallest climb is that out of the shallowest dip: take both away.
+            # The smallest climb is the depth of the shallowest dip: take its low and high away.
             at, climb = 0, FAR
             for t in range(n - 1):
                 if abs(row[turns[t + 1]] - row[turns[t]]) < climb:
@@ -86,10 +87,12 @@ def dips(distances, least):
             n -= 2
             for t in range(at, n):
                 turns[t] = turns[t + 2]
+        # The last low is the deepest dip: it is as deep as the row is high.
         top = row[0]
         for c in range(columns):
             top = max(top, row[c])
         found[count], where[count] = top - row[turns[0]], turns[0]
+        # Deepest first, without those at an end of the row.
         place = 0
         for _ in range(len(found)):
             i = 0
@@ -104,8 +107,9 @@ def dips(distances, least):
 
 @njit("Tuple((float64[:, ::1], float64[::1]))(float32[:, ::1], int64)", **OPTIONS)
 def smoothed(rows, smoothing):
-    """Rows averaged over so many before and after, and by how much these then change per frame."""
+    """Rows averaged over so many before and after, and the mean speed per frame over the same."""
     n, dims = rows.shape
+    # Sums up to each row, so that a mean is one difference.
     sums = np.zeros((n + 1, dims))
     for f in range(n):
         for d in range(dims):
@@ -125,17 +129,36 @@ def smoothed(rows, smoothing):
     return poses, speeds
 
 
+@njit("float64[:, ::1](float64[:, ::1], float64[::1], float64[::1])", **OPTIONS)
+def poses_at(poses, path, lengths):
+    """The poses at these lengths along the path."""
+    found = np.empty((len(lengths), poses.shape[1]))
+    for i in range(len(lengths)):
+        low, high = 0, len(path)  # the first frame that is farther
+        while low < high:
+            middle = (low + high) // 2
+            if path[middle] <= lengths[i]:
+                low = middle + 1
+            else:
+                high = middle
+        frame = min(max(low - 1, 0), len(poses) - 1)
+        for d in range(poses.shape[1]):
+            found[i, d] = poses[frame, d]
+    return found
+
+
 @njit("float64[::1](float64[:, :, ::1], float64)", **SUMS)
 def unexplained(repetitions, centering):
-    """What the mean of all others does not explain of each repetition, 0 to 1, size apart.
+    """The share of each repetition that the mean of all others does not explain, 0 to 1.
 
-    Repetitions are (places, dims) each, less so large a share of their mean; 1 minus the square
-    of a positive correlation.
+    It is 1 minus the square of their correlation if that is positive, and so does not depend on
+    size. Before, ``centering`` times its mean is subtracted from each repetition (places, dims).
     """
     count, places, dims = repetitions.shape
     rows = np.empty((count, places * dims))
     total = np.zeros(places * dims)
     mean = np.empty(dims)
+    # Repetitions as centered rows, and the sum of these.
     for k in range(count):
         mean[:] = 0
         for p in range(places):
@@ -146,15 +169,16 @@ def unexplained(repetitions, centering):
                 value = repetitions[k, p, d] - mean[d] * (centering / places)
                 rows[k, p * dims + d] = value
                 total[p * dims + d] += value
+    # Each row with the sum of the others, which correlates as their mean does.
     found = np.empty(count)
     for k in range(count):
-        product = own = other = 0.0
+        product = square = other = 0.0
         for each in range(places * dims):
             rest = total[each] - rows[k, each]
             product += rows[k, each] * rest
-            own += rows[k, each] * rows[k, each]
+            square += rows[k, each] * rows[k, each]
             other += rest * rest
-        found[k] = 1 - max(product, 0.0) ** 2 / max(own * other, 1e-24)
+        found[k] = 1 - max(product, 0.0) ** 2 / max(square * other, 1e-24)
     return found
 
 
@@ -167,10 +191,10 @@ def repetitions_between(poses, path, visits, places):
         first, last = path[visits[k]], path[visits[k + 1]]
         for p in range(places):
             lengths[p] = first + (last - first) * ((p + 0.5) / places)
-        there = poses_at(poses, path, lengths)
+        reached = poses_at(poses, path, lengths)
         for p in range(places):
             for d in range(poses.shape[1]):
-                found[k, p, d] = there[p, d]
+                found[k, p, d] = reached[p, d]
     return found
 
 
@@ -215,20 +239,91 @@ def scatter(repetitions, mean):
     return total / (places * max(count - 1, 1))
 
 
+@njit("Tuple((int64, float64))(float64[:, ::1], float64)", **OPTIONS)
+def matched(gains, full):
+    """Columns up to which the rows follow them, and how many of these count; 0 if no path gains.
+
+    They are those of the warping path with the largest gain. Paths begin before the first row and
+    column. Steps (1, 1) count a gain twice, (1, 2) and (2, 1) three times. A column counts by its
+    gain as a share of ``full``, 0 to 1.
+    """
+    rows, columns = gains.shape
+    sums = np.full((rows + 2, columns + 2), -np.inf)
+    sums[1, 1] = 0
+    best, row, column = 0.0, -1, -1
+    # The largest sum of a path to each entry; those of entry (i, j) are at (i + 2, j + 2).
+    for i in range(rows):
+        for j in range(columns):
+            straight = sums[i + 1, j + 1] + 2 * gains[i, j]
+            bent = max(sums[i, j + 1], sums[i + 1, j]) + 3 * gains[i, j]
+            sums[i + 2, j + 2] = max(straight, bent)
+            if sums[i + 2, j + 2] > best:
+                best, row, column = sums[i + 2, j + 2], i, j
+    # Back on the best path, step by step, adding up how much of its columns counts.
+    length, count = column + 1, 0.0
+    while row >= 0:
+        share = min(max(gains[row, column] / full, 0.0), 1.0)
+        bent = max(sums[row, column + 1], sums[row + 1, column])
+        if 2 * gains[row, column] + sums[row + 1, column + 1] >= 3 * gains[row, column] + bent:
+            count, row, column = count + share, row - 1, column - 1
+        elif sums[row, column + 1] >= sums[row + 1, column]:
+            count, row, column = count + share, row - 2, column - 1
+        else:
+            count, row, column = count + 2 * share, row - 1, column - 2
+    return length, count
+
+
+@njit("float64[::1](float64, float64, int64, int64, float64)", **OPTIONS)
+def steps_inside(begin, step, places, number, path_length):
+    """Lengths on the path, ``places`` a step from ``begin`` on: ``number``, less those off it."""
+    lengths = np.empty(number)
+    count = 0
+    for i in range(number):
+        length = begin + (i + 0.5) / places * step
+        if 0 <= length <= path_length:
+            lengths[count] = length
+            count += 1
+    return lengths[:count]
+
+
+@njit(
+    "Tuple((int64, float64))(float64[:, ::1], float64[::1], float64[::1], float64[:, ::1], float64,"
+    " float64)",
+    **SUMS,
+)
+def follow_end(poses, path, lengths, mean, near, full):
+    """Places of the mean that the poses at these lengths follow, and how many of these count.
+
+    ``near`` and ``full`` are squared distances from the mean: a pose gains by being nearer than
+    ``near``, and counts in full up to ``full``.
+    """
+    reached = poses_at(poses, path, lengths)
+    gains = np.full((len(reached), len(mean)), near)
+    for i in range(len(reached)):
+        for j in range(len(mean)):
+            square = 0.0
+            for d in range(mean.shape[1]):
+                difference = reached[i, d] - mean[j, d]
+                square += difference * difference
+            gains[i, j] -= square
+    return matched(gains, near - full)
+
+
 @njit(
     "Tuple((float64, float64, float64, float64))(float64[:, ::1], float64[::1],"
     " int64[::1], int64, float64, float64, float64, float64)",
     **OPTIONS,
 )
-def judged(poses, path, visits, places, near, followed_for, centering, scattered):
-    """Shares of a repetition at both ends, what of them counts, what is unexplained.
+def division(poses, path, visits, places, near, followed_for, centering, scattered):
+    """Lengths of both ends in repetitions, how much of them counts, and the unexplained share.
 
-    The ends are what lies before the first visit and after the last. They are followed for so
-    many repetitions, by poses nearer than ``near``, a squared distance, to the mean of those
-    between the visits, and count whole where they are as near to it as these are, ``scattered``
-    times their mean square distance. Unexplained is a share of the activity.
+    The ends lie before the first visit and after the last. An end is as long as it follows the
+    mean repetition between the visits, at most ``followed_for`` repetitions. Its poses are nearer
+    to the mean than ``near``, a squared distance. They count in full up to ``scattered`` times the
+    mean square distance of repetitions. The unexplained share is of the whole activity.
     """
-    whole = path[-1]
+    # Repetitions between the visits, their upper median length, and their mean.
+    total_length = path[-1]
     count = len(visits) - 1
     lengths = np.empty(count)
     for k in range(count):
@@ -237,34 +332,36 @@ def judged(poses, path, visits, places, near, followed_for, centering, scattered
     inner = repetitions_between(poses, path, visits, places)
     mean = mean_repetition(inner)
     first, last = path[visits[0]], path[visits[-1]]
+    # The ends: back from the first visit on the reversed mean, and on from the last visit.
     number_of_steps = int(places * followed_for)
-    before = steps_inside(first, -length, places, number_of_steps, whole)
-    after = steps_inside(last, length, places, number_of_steps, whole)
-    alike = FARTHEST * near
+    before = steps_inside(first, -length, places, number_of_steps, total_length)
+    after = steps_inside(last, length, places, number_of_steps, total_length)
+    full = FARTHEST * near
     if count > 1:
-        alike = min(scattered * scatter(inner, mean), alike)
-    to_head, in_head = followed(poses, path, before, np.ascontiguousarray(mean[::-1]), near, alike)
-    to_tail, in_tail = followed(poses, path, after, mean, near, alike)
+        full = min(scattered * scatter(inner, mean), full)
+    to_head, in_head = follow_end(poses, path, before, np.ascontiguousarray(mean[::-1]), near, full)
+    to_tail, in_tail = follow_end(poses, path, after, mean, near, full)
     head, tail = to_head / places, to_tail / places
-    outside = max(first - head * length, 0.0) + max(whole - last - tail * length, 0.0)
+    # The unexplained share: that of repetitions, and all that no repetition reaches.
+    outside = max(first - head * length, 0.0) + max(total_length - last - tail * length, 0.0)
     number = count + head + tail
-    if count == 1:  # compared with what comes after it, and goes on at the beginning
+    if count == 1:  # one repetition is compared with the rest, which goes on at the beginning
         ahead = np.empty(places)
         for p in range(places):
-            ahead[p] = last + (whole - length) * ((p + 0.5) / places)
-            if ahead[p] >= whole:
-                ahead[p] -= whole
-        there = poses_at(poses, path, ahead)
+            ahead[p] = last + (total_length - length) * ((p + 0.5) / places)
+            if ahead[p] >= total_length:
+                ahead[p] -= total_length
+        reached = poses_at(poses, path, ahead)
         both = np.empty((2, places, poses.shape[1]))
         for p in range(places):
             for d in range(poses.shape[1]):
-                both[0, p, d], both[1, p, d] = inner[0, p, d], there[p, d]
+                both[0, p, d], both[1, p, d] = inner[0, p, d], reached[p, d]
         inner = both
     shares = unexplained(inner, centering)[:count]
-    known = max(whole - outside - lengths.sum(), 0.0)
-    total = (shares.sum() / count * known + outside) / whole
-    for k in range(count):  # what lies between two visits counts as a repetition, however short
-        total += max(lengths[k] / whole, 1 / number) * shares[k]
+    inside = max(total_length - outside - lengths.sum(), 0.0)
+    total = (shares.sum() / count * inside + outside) / total_length
+    for k in range(count):  # a short repetition counts as much as one of mean length
+        total += max(lengths[k] / total_length, 1 / number) * shares[k]
     return head, tail, (in_head + in_tail) / places, total
 
 
@@ -280,7 +377,7 @@ def pose_at(rows, at, found):
 
 @njit("float64[:, :, ::1](float32[:, ::1], int64[::1], int64[::1], int64)", **OPTIONS)
 def evenly_in_time(rows, starts, lengths, places):
-    """(stretches, places, dims): rows evenly in time from each start on, over each length."""
+    """(spans, places, dims): rows evenly in time from each start on, over each length."""
     found = np.empty((len(starts), places, rows.shape[1]))
     for k in range(len(starts)):
         for p in range(places):
@@ -291,7 +388,7 @@ def evenly_in_time(rows, starts, lengths, places):
 
 @njit("int64(float32[:, ::1], int64, int64, int64, float64[:, ::1])", **SUMS)
 def best_length(rows, stop, shortest, longest, mean):
-    """How long the stretch up to a frame is that is nearest to the mean, evenly in time."""
+    """The length of the span up to a frame that is nearest to the mean, evenly in time."""
     places, dims = mean.shape
     pose = np.empty(dims)
     best, least = shortest, np.inf

@@ -17,7 +17,7 @@ SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 def similarity_band(features, unit, start, stop, similarity):
     """``similarity[i, j - i] = 1 - |x_i - x_j| / unit`` for the rows from start to stop."""
     n, width = similarity.shape
-    one, units = np.float32(1.0), np.float32(1.0 / unit)  # sums in doubles take twice the time
+    one, units = np.float32(1.0), np.float32(1.0 / unit)  # sums in doubles take twice as long
     for i in range(start, stop):
         for lag in range(width):
             j = i + lag
@@ -50,11 +50,13 @@ def change_points(similarity, penalty, min_length):
     for length in range(1, samples + 1):
         inverse[length] = 1 / length
     for end in range(1, samples + 1):
+        # The sample before the end is added to the sums of all starts within the band.
         last = end - 1
         first = max(0, end - width)
         row_sums[last] = similarity[last, 0]
         for start in range(first, last):
             row_sums[start] += 2 * similarity[start, last - start]
+        # The cheapest last segment: its similarities are summed while its start moves back.
         inside = 0.0
         for start in range(last, first - 1, -1):
             inside += row_sums[start]
@@ -64,6 +66,7 @@ def change_points(similarity, penalty, min_length):
                 if cost < best[end]:
                     best[end] = cost
                     before[end] = start
+    # Borders of the cheapest division, from the last one back.
     borders = [samples]
     while borders[-1] > 0:
         borders.append(before[borders[-1]])
@@ -93,7 +96,10 @@ def mean_distances(features, chosen, borders, start, stop, means):
 
 @njit("float64(float64[:, ::1], float64[::1], int64, int64, float64)", **OPTIONS)
 def _distance(sums, lengths, g, h, spread_share):
-    """The mean distance of two clusters, less a share of the mean distance within them."""
+    """The mean distance of two clusters, less a share of the mean distance within them.
+
+    ``sums`` are summed distances of the samples of each two clusters, ``lengths`` their numbers.
+    """
     within = sums[g, g] / lengths[g] ** 2 + sums[h, h] / lengths[h] ** 2
     return sums[g, h] / (lengths[g] * lengths[h]) - spread_share * within / 2
 
@@ -126,6 +132,7 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_sh
     each cluster, of which there are `most` at most. `sums` (summed distances of each two
     segments) and `lengths` are used up.
     """
+    # Of each cluster: the segment that it is named after, the nearest other, and how far that is.
     k = len(lengths)
     owner = np.arange(k)
     nearest = np.zeros(k, np.int64)
@@ -134,6 +141,7 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_sh
         _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
     cheapest = np.inf
     for clusters in range(k, 0, -1):
+        # The cost of this grouping, kept if it is the least.
         if clusters <= most:
             cost = cluster_cost * clusters
             for g in range(k):
@@ -147,6 +155,7 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_sh
                     labels[g] = owner[g]
         if clusters == 1:
             break
+        # Join the two nearest clusters: h becomes part of g.
         g = int(np.argmin(apart))
         h = nearest[g]
         if h < g:
@@ -159,6 +168,7 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_sh
                 owner[other] = g
         for other in range(k):
             sums[other, g] += sums[other, h]
+        # Only distances to g are new.
         _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
         for other in range(k):
             if owner[other] != other or other == g:

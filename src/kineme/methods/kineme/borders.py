@@ -1,16 +1,16 @@
 """Borders to the frame, and the transitions between two activities.
 
-Statistics are averaged over a second, so borders of the tree lie where half of that second is
-loud: late where somebody starts, early where somebody stops. Frames as they are tell more. Each
-channel on either side is a normal distribution with a mean and a variance of its own, learnt
-where nothing of the other side is averaged in. The channels of the whole recording are a third one.
+Statistics are averaged over a second, so borders of the tree lie where half of that second has
+strong movement: late at its start, early at its end. Single frames are more precise. On either
+side each channel is a normal distribution, with the mean and variance of frames whose averages
+hold nothing of the other side. The channels of the whole recording are a third distribution.
 
-A *transition* is what neither side explains: a stretch about the border, shorter than what is
-averaged over, that the whole recording tells better than either side. Where there is none, the
-border is where both sides together explain most. That is on the quiet side: what a quiet segment
-never does ends it at once. People put it a little farther, and so is the border set.
+A *transition* is a span about the border, shorter than the averaged time, under which the
+whole recording is likelier than either side. Where there is none, the border lies where the
+likelihood of both sides together is largest. That is on the quiet side: a movement that a quiet
+segment never has ends it at once. People set borders a little farther, and so does `border_shift`.
 
-Only the time that is averaged over is asked, and no segment comes or goes.
+Only frames within the averaged time of a border are considered. No segment is added or removed.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ Frames = NDArray[np.int64]
 Spans = tuple[Frames, Frames]
 
 LEARNT = 4.0
-"""Seconds of a side at most that tell how it moves."""
+"""Seconds of a side at most from which its distribution is estimated."""
 QUIETEST = 0.05
 """Least deviation of a channel, as a share of that in the whole recording."""
 SHARE = 3
-"""A border is looked for in one part of so many of a segment at most."""
+"""A border moves by one part of so many of a segment at most."""
 
 
 def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> Spans:
@@ -59,7 +59,7 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
     starts, stops = borders[:-1].copy(), borders[1:].copy()
     for i in range(1, len(borders) - 1):
         start, at, stop = borders[i - 1 : i + 2].tolist()
-        # Half of what is averaged over is mixed with what lies beyond the border.
+        # Half of the averaged time is mixed with the other side of the border.
         left_side = slice(max(start + averaged // 2 * (i > 1), at - learnt), at - averaged // 2)
         last = stop - averaged // 2 * (i < len(borders) - 2)
         right_side = slice(at + averaged // 2, min(last, at + learnt))
@@ -67,6 +67,8 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
             continue
         first = at - min(averaged, (at - start) // SHARE)
         near = scaled[first : at + min(averaged, (stop - at) // SHARE)]
+        # Log-likelihoods of both sides, less that of the whole recording: up to each frame by the
+        # left side, from it on by the right side.
         anything = -0.5 * (near**2).mean(axis=1)
         before = np.append(0.0, np.cumsum(_likelihoods(near, scaled[left_side]) - anything))
         gains = _likelihoods(near, scaled[right_side]) - anything
@@ -83,7 +85,7 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
 
 
 def _apart(before: Floats, behind: Floats, longest: int) -> tuple[int, int]:
-    """Where to end the first side and to begin the second, so that both explain most."""
+    """Where to end the first side and begin the second, at most so far apart: the likeliest."""
     rights = np.arange(len(before))
     firsts = np.maximum(rights - longest, 0)
     spans = zip(firsts.tolist(), rights.tolist(), strict=True)
@@ -115,7 +117,7 @@ def carried_over(fine: Frames, before: Frames, after: Frames) -> Frames:
 
     Parameters
     ----------
-    fine : (pieces + 1,) array
+    fine : (segments + 1,) array
         Samples, `before` among them.
     before, after : (segments + 1,) array
         Borders of the level, and where each is now.

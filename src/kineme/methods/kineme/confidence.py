@@ -1,16 +1,17 @@
-"""How sure: the probability that what was found is right.
+"""Confidence: the probability that a result is right.
 
-Four things may be wrong, and each has a probability of its own:
+Four things may be wrong, and each has its own probability:
 
 - the *link* of an activity: its cluster is not that of the same movement elsewhere,
 - a *border* of an activity: there is none close by,
 - its *count*: it has more repetitions, or fewer,
 - a *cut* between two repetitions: there is none close by.
 
-Two statistics tell all four: for how many seconds an activity prefers its own cluster to the next,
-and how much its repetitions correlate. Each probability is 1 / (1 + exp(-(constant + weight s))).
-The two numbers of each kind are learnt from recordings with a known truth and checked on sources
-that were left out, by ``benchmarks/confidence.py``. They describe: nothing above reads them.
+They follow from two statistics s: the length of an activity times its preference of its own
+cluster, in seconds, and the correlation of its repetitions. Each probability is
+1 / (1 + exp(-(constant + weight s))). The two numbers of each kind are fitted to recordings with a
+known truth and checked on sources that were left out, by ``benchmarks/truth/confidence.py``. No
+stage of the method reads them.
 """
 
 from __future__ import annotations
@@ -22,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import map_threads
-from kineme.methods.kineme import _repetition_kernels as kernels
-from kineme.methods.kineme.placing import Segments
-from kineme.methods.kineme.repetitions import PLACES, movement
+from kineme.methods.kineme._repetition_kernels import repetitions_between
+from kineme.methods.kineme.primitives import Segments
+from kineme.methods.kineme.repetitions import PLACES, movement_of
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -33,22 +34,22 @@ Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 
 LEAST = 0.02
-"""A segment is taken to prefer its own cluster by this share at least."""
+"""Least preference of a segment for its own cluster."""
 CLEAREST = 0.995
-"""Correlations are not told apart beyond this."""
+"""Largest correlation: all beyond it are equal."""
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What tells how sure each thing is.
+    """Statistics from which confidence is computed.
 
     Attributes
     ----------
     preferred : (segments,) array
         Logarithm of the seconds for which each prefers its own cluster; nan for transitions.
     repeated : (segments,) array
-        Mean correlation of any two repetitions, as Fisher's z: 0 of a single one, for which
-        nothing speaks; nan where primitives are no repetitions.
+        Mean correlation of any two repetitions, as Fisher's z: 0 of a single one; nan where
+        primitives are no repetitions.
     parents : (primitives,) array
         The segment that each primitive lies in.
     """
@@ -60,7 +61,7 @@ class Evidence:
 
 @dataclass(frozen=True, eq=False)
 class Confidence:
-    """Probabilities, nan where there is nothing to be right or wrong.
+    """Probabilities; nan where there is no cluster, count, border or cut.
 
     Attributes
     ----------
@@ -86,22 +87,19 @@ def evidence(rows: NDArray[np.float32], segments: Segments, preset: KinemeConsta
     segments : Segments
     preset : KinemeConstants
     """
-    parents, repeats = segments.parents, segments.repeats
+    parents, repeats, ends = segments.parents, segments.repeats, segments.firsts
     seconds = np.diff(segments.borders) / preset.working_fps
     repeated = np.full(len(seconds), np.nan)
-    ends = np.searchsorted(parents, np.arange(len(seconds) + 1))
 
-    def judge(segment: int) -> None:
+    def correlate(segment: int) -> None:
         first, last = ends[segment], ends[segment + 1]
         edges = segments.primitives[first : last + 1]
-        along = movement(rows[edges[0] : max(edges[-1], edges[0] + 1)], preset)
-        repetitions = kernels.repetitions_between(
-            along.poses, along.path, edges - edges[0], PLACES
-        )[repeats[first:last]]
-        repeated[segment] = mean_correlation(repetitions)
+        movement = movement_of(rows[edges[0] : max(edges[-1], edges[0] + 1)], preset)
+        found = repetitions_between(movement.poses, movement.path, edges - edges[0], PLACES)
+        repeated[segment] = mean_correlation(found[repeats[first:last]])
 
-    map_threads(judge, np.unique(parents[repeats]).tolist())
-    return Evidence(np.log(seconds * np.maximum(segments.own, LEAST)), repeated, parents)
+    map_threads(correlate, np.unique(parents[repeats]).tolist())
+    return Evidence(np.log(seconds * np.maximum(segments.preference, LEAST)), repeated, parents)
 
 
 def mean_correlation(repetitions: Floats) -> float:
@@ -116,7 +114,7 @@ def mean_correlation(repetitions: Floats) -> float:
 
 
 def confidence(evidence: Evidence, preset: KinemeConstants) -> Confidence:
-    """How probable it is that each thing found is right."""
+    """Probabilities from the statistics and the weights of the preset."""
     preferred = evidence.preferred
     lesser = np.append(np.nan, np.fmin(preferred[1:], preferred[:-1]))
     borders = probability(lesser, preset.border_weights)
@@ -131,7 +129,7 @@ def confidence(evidence: Evidence, preset: KinemeConstants) -> Confidence:
 
 
 def probability(statistic: Floats, weights: tuple[float, float]) -> Floats:
-    """Probability by a statistic, a constant, and its weight; nan where it is.
+    """Probability by a statistic, a constant, and its weight; nan where the statistic is.
 
     Examples
     --------

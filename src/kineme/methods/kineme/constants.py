@@ -1,8 +1,8 @@
 """The constants of the method, stage by stage, with their values for bodies.
 
-Costs are times at the median distance of two samples within a minute: a cost of 0.15 s is
-paid off by 0.15 s of samples as far apart as any two usually are. So they mean the same whatever
-is measured, and for however long. Lengths of events are in body sizes.
+Costs are times at the median distance, which is that of two samples within a minute: a second of
+samples that are so far from their cluster costs 1 s. So costs mean the same whatever is measured,
+and for however long. Lengths of events are in body sizes.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ class KinemeConstants(Preset):
 
     method: ClassVar[str] = "kineme"
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "any")
-    told_bodies: ClassVar[bool] = True
-    told_rides: ClassVar[bool] = True
+    accepts_joints: ClassVar[bool] = True
+    accepts_rides: ClassVar[bool] = True
 
     unit: Unit = "body sizes"
     working_fps: float = constant(
@@ -62,19 +62,19 @@ class KinemeConstants(Preset):
         limits=SOME_LENGTH, fine=True, default=(1e4,),
     )  # fmt: skip
     weights: tuple[float, ...] = constant(
-        "per view: power to which what statistics vary is divided out", limits=SHARE, fine=True,
-        default=(0.5,),
+        "per view: statistics are divided by their deviation to this power", limits=SHARE,
+        fine=True, default=(0.5,),
     )  # fmt: skip
     restless_over: tuple[float, ...] = constant(
-        "per view: a statistic varies as much as it changes over this; 0: as its band does",
+        "per view: the deviation of a statistic is its mean change over this; 0: that of its band",
         unit="s", limits=TIME, fine=True, default=(0.0,),
     )  # fmt: skip
     velocity_weight: float = constant(
-        "how much the velocity of joints counts, beside where they are", limits=FACTOR, fine=True,
-        default=0.5,
+        "weight of the velocities of joints; that of their positions is 1", limits=FACTOR,
+        fine=True, default=0.5,
     )  # fmt: skip
     ride_weight: float = constant(
-        "how far riding, as in a lift, is from standing, where all else deviates by 1",
+        "distance of riding in a lift from standing; the deviation of all else is 1",
         limits=FACTOR, fine=True, default=5.0,
     )  # fmt: skip
     # Segments: the tree and its shortest description.
@@ -87,19 +87,19 @@ class KinemeConstants(Preset):
         "finest segments", unit="s", limits=SOME_TIME, fine=True, default=60.0,
     )  # fmt: skip
     fine_cost: float = constant(
-        "what a border of the finest level must gain: time at the median distance", unit="s",
+        "cost of a border of the finest level: time at the median distance", unit="s",
         limits=TIME, fine=True, default=0.4,
     )  # fmt: skip
     segment_cost: float = constant(
-        "what a segment must explain: time at the median distance", unit="s", limits=TIME,
+        "cost of a segment: time at the median distance", unit="s", limits=TIME,
         slider=(0.02, 2.0, 0.02), default=0.15,
     )  # fmt: skip
     cluster_cost: float = constant(
-        "what a cluster must explain: time at the median distance", unit="s", limits=TIME,
+        "cost of a cluster: time at the median distance", unit="s", limits=TIME,
         slider=(0.1, 5.0, 0.1), default=0.66,
     )  # fmt: skip
     spread_share: float = constant(
-        "clusters are nearer than their samples by this share of the distances within them",
+        "share of the distances within two clusters that is subtracted from the one between them",
         limits=SHARE, fine=True, default=0.5,
     )  # fmt: skip
     min_action: float = constant(
@@ -107,23 +107,23 @@ class KinemeConstants(Preset):
     )
     max_clusters: int = constant("clusters at most", limits=SOME, fine=True, default=16)
     # A segment that repeats.
-    alike: float = constant(
+    min_explained: float = constant(
         "share of a repetition that the mean of the others explains, at least", limits=SHARE,
         default=0.5,
     )  # fmt: skip
     two_movements: float = constant(
-        "repetitions are two movements where the first ones and the last ones apart leave less "
-        "than this share of what they leave together", limits=SHARE, fine=True, default=0.65,
+        "repetitions are two movements where means of the first and of the last ones leave less "
+        "than this share of what one mean leaves", limits=SHARE, fine=True, default=0.65,
     )  # fmt: skip
     chance_count: float = constant(
-        "repetitions that may be alike by chance", limits=SOME_FACTOR, fine=True, default=4.0
+        "repetitions that may be similar by chance", limits=SOME_FACTOR, fine=True, default=4.0
     )
     chance_period: float = constant(
-        "what repeats within this is one thing to samples already", unit="s", limits=SOME_TIME,
-        fine=True, default=1.7,
+        "shorter repetitions make no difference between samples, and save nothing", unit="s",
+        limits=SOME_TIME, fine=True, default=1.7,
     )  # fmt: skip
     max_repetition: float = constant(
-        "longest repetition: what lasts longer is a course of activities", unit="s",
+        "longest repetition; what lasts longer is a series of activities", unit="s",
         limits=SOME_TIME, default=8.0,
     )  # fmt: skip
     uneven: float = constant(
@@ -132,8 +132,8 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     # Borders, to the frame.
     border_shift: float = constant(
-        "how far a border is moved from where means over `averaging` put it to where frames do",
-        limits=SHARE, fine=True, default=0.6,
+        "share by which a border is moved from where means over `averaging` put it to where single "
+        "frames do", limits=SHARE, fine=True, default=0.6,
     )  # fmt: skip
     transition_cost: float = constant(
         "what a transition must gain over a border: log-likelihood times seconds, of each channel",
@@ -145,20 +145,19 @@ class KinemeConstants(Preset):
         fine=True, default=0.05,
     )  # fmt: skip
     centering: float = constant(
-        "share of its mean pose taken off each repetition before it is compared with others: of 1, "
-        "only how it moves counts, of 0, where it is counts as much",
-        limits=SHARE, fine=True, default=1.0,
+        "share of its mean pose that is subtracted from each repetition before they are compared; "
+        "at 1 only movement counts, at 0 posture as much", limits=SHARE, fine=True, default=1.0,
     )  # fmt: skip
     end_distance: float = constant(
-        "an end belongs to a repetition as long as it is nearer than this share of the variance",
-        limits=SHARE, fine=True, default=0.55,
+        "an end belongs to a repetition while its square distance is below this share of the "
+        "variance", limits=SHARE, fine=True, default=0.55,
     )  # fmt: skip
     end_scatter: float = constant(
-        "an end counts whole where its square distance from the mean repetition is this times that "
-        "of repetitions at most, and less beyond", limits=FACTOR, fine=True, default=2.0,
+        "an end counts in full up to this many times the mean square distance of repetitions from "
+        "their mean, and less beyond", limits=FACTOR, fine=True, default=2.0,
     )  # fmt: skip
     length_cost: float = constant(
-        "cost of the repetition that the others are compared with, per share of the activity",
+        "cost of a division, over its number of repetitions: a share of the activity",
         limits=FACTOR, fine=True, default=1.5,
     )  # fmt: skip
     max_unexplained: float = constant(
@@ -166,28 +165,27 @@ class KinemeConstants(Preset):
         "similarity is chance", limits=SHARE, fine=True, default=0.7,
     )  # fmt: skip
     same_cost: float = constant(
-        "divisions that cost no more than this above the best say with it how long the ends are",
+        "divisions that cost no more than this above the best are averaged for the length of ends",
         limits=FACTOR, fine=True, default=0.1,
     )  # fmt: skip
-    same: float = constant(
-        "likeness from which clusters are one movement, at another pace or phase; 1: never",
+    min_similarity: float = constant(
+        "similarity from which clusters are one movement, at another pace or phase; 1: never",
         limits=SOME_SHARE, default=0.75,
     )  # fmt: skip
     # Events.
     event_scale: float = constant(
-        "distance from which two moments of an event are not similar; 0: events are not looked for",
+        "distance from which two samples of an event are not similar; 0: events are not looked for",
         unit="body sizes", limits=LENGTH, slider=(0.0, 0.8, 0.05), default=0.45,
     )  # fmt: skip
     event_velocity: float = constant(
-        "velocities count as much as poses that they change in this time", unit="s", limits=TIME,
-        fine=True, default=0.2,
-    )  # fmt: skip
+        "weight of velocities beside poses", unit="s", limits=TIME, fine=True, default=0.2
+    )
     event_rest: float = constant(
-        "share at which movement time goes by while nothing moves", limits=SOME_SHARE, fine=True,
-        default=0.1,
+        "speed of movement time while nothing moves; at the usual speed of movement it is about 1",
+        limits=SOME_SHARE, fine=True, default=0.1,
     )  # fmt: skip
     event_cost: float = constant(
-        "similarity that an event must gain for each moment that it lasts", limits=FACTOR,
+        "similarity that an event must gain for each sample that it lasts", limits=FACTOR,
         default=0.25,
     )  # fmt: skip
     event_cover: float = constant(
@@ -202,26 +200,25 @@ class KinemeConstants(Preset):
 
     # Confidence: a constant, and the weight of a statistic.
     link_weights: tuple[float, float] = constant(
-        "how sure a cluster is, by the seconds for which an activity prefers it", limits=WEIGHT,
+        "confidence of a cluster by the seconds for which an activity prefers it", limits=WEIGHT,
         fine=True, default=(1.661, 1.057),
     )  # fmt: skip
     border_weights: tuple[float, float] = constant(
-        "how sure a border is, by those of the less sure side", limits=WEIGHT, fine=True,
+        "confidence of a border by the same of the side with fewer", limits=WEIGHT, fine=True,
         default=(1.691, 0.5826),
     )  # fmt: skip
     count_weights: tuple[float, float] = constant(
-        "how sure a count is, by how much repetitions correlate", limits=WEIGHT, fine=True,
+        "confidence of a count by how much repetitions correlate", limits=WEIGHT, fine=True,
         default=(-0.016, 1.619),
     )  # fmt: skip
     cut_weights: tuple[float, float] = constant(
-        "how sure a border between repetitions is, by the same", limits=WEIGHT, fine=True,
+        "confidence of a border between repetitions by the same", limits=WEIGHT, fine=True,
         default=(0.047, 1.585),
     )  # fmt: skip
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        lengths = {len(self.shared), len(self.weights), len(self.restless_over)}
-        if lengths - {len(self.shared) or 1}:
+        if not len(self.shared) == len(self.weights) == len(self.restless_over):
             raise ParameterError(
                 "shared, weights and restless_over must have a number for each view, not "
                 f"{len(self.shared)}, {len(self.weights)} and {len(self.restless_over)}"

@@ -1,13 +1,12 @@
 """Ends: where the first repetition of an activity begins and where the last one ends.
 
-The repetitions between the first cut and the last say, by their mean over time,
-what a repetition is. The first one is the stretch before the first cut that fits
-this mean best, at whatever pace. Where it begins before the activity does, in a
-transition, the activity begins with it. Where it begins later, what lies before it
-is part of no repetition: a transition of the primitive level. The last repetition is
-found the same way, back in time.
+The repetitions between the first cut and the last have a mean over time. The first
+repetition is the span before the first cut that fits this mean best, at whatever pace.
+Where it begins before the activity does, in a transition, the activity begins with it.
+Where it begins later, the span before it is part of no repetition: a transition of the
+primitive level. The last repetition is found the same way, back in time.
 
-The method is ours. See ``docs/method.md`` for what it contributes.
+The method is ours; see ``docs/method.md``.
 """
 
 from __future__ import annotations
@@ -32,10 +31,9 @@ Frames = NDArray[np.int64]
 Features = NDArray[np.float32]
 
 SHORTEST, LONGEST = 0.5, 1.5
-"""The first and the last repetition last so many times as long as the mean: what is shorter is not
-counted, what is longer is counted twice."""
+"""Shortest and longest first or last repetition, times the mean length of the others."""
 ERROR = 0.1
-"""Seconds within which a border is where it is by chance."""
+"""Seconds that are no transition: the first repetition begins with its activity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,14 +71,10 @@ def fitted_ends(
     starts, stops : (activities,) array
         Frames of the activities, in time order.
     labels : (activities,) array
-        Their actions. Two of one action do not touch afterwards, if they did not before.
+        Their clusters. Two of one cluster do not touch afterwards, if they did not before.
     cuts : sequence of arrays of int
         Where the second, third, ... repetition of each begins.
     preset : KinemeConstants
-
-    Returns
-    -------
-    Ends
     """
     n = len(features)
     back = np.ascontiguousarray(features[::-1])
@@ -97,7 +91,7 @@ def fitted_ends(
         low, high = int(stops[left]), int(starts[right])
         if labels[left] == labels[right]:
             ends[left], begins[right] = low, high
-        elif ends[left] > begins[right]:  # both would have what lies between
+        elif ends[left] > begins[right]:  # both reach into the time between them
             middle = (ends[left] + begins[right]) // 2
             ends[left] = begins[right] = min(max(middle, low), high)
     error = preset.frames(ERROR)
@@ -118,7 +112,7 @@ def _begin(rows: Features, start: int, cuts: Frames) -> tuple[int, int]:
 
 
 def _first(rows: Features, cuts: Frames, mean: Floats) -> int:
-    """Where the stretch before the first cut begins that fits the mean best; 0 if none is."""
+    """Where the span before the first cut begins that fits the mean best; 0 if none fits."""
     usual, stop = float(np.diff(cuts).mean()), int(cuts[0])
     shortest, longest = max(1, ceil(SHORTEST * usual)), min(int(LONGEST * usual), stop)
     if shortest > longest:

@@ -1,27 +1,25 @@
-"""Occurrences: stretches of movement that recur anywhere, whether or not back to back.
+"""Occurrences: spans of movement that recur anywhere, whether or not back to back.
 
-What is looked at is not time but *movement time*: it goes by as fast as the body
-moves, hardly while it stands still, so that standing still twice is no event. A sample
-is a pose and its velocity, which nothing that merely passes the same pose shares: played
-backwards, no recording that was looked at recurs in itself.
+Spans are compared in *movement time*. It passes in proportion to the speed of the body, and hardly
+while the body stands still, so that standing still twice is no event. A sample is a pose with its
+velocity: a movement played backwards passes the same poses, but does not match.
 
-Two stretches match along a warping path, whose score is the time for which they
-are similar, in seconds of usual movement. A set is a stretch with all others that
-match it and do not overlap. Of all stretches the one whose matches score most is
-taken, then the next best of what is left (sets chosen greedily as in LoCoMotif,
-Van Wesenbeeck, Yurtman, Meert and Blockeel 2024; scores are ours).
+Two spans match by a warping path, whose score is the time for which they are similar, in seconds
+of usual movement. A set is a span with all others that match it and do not overlap. The span whose
+matches score most is taken first, then the best of what is left (sets chosen greedily as in
+LoCoMotif, Van Wesenbeeck, Yurtman, Meert and Blockeel 2024; scores are ours).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.kineme import _event_kernels as kernels
-from kineme.methods.kineme.paths import matching_paths
 from kineme.methods.segments import by_first_appearance
 
 if TYPE_CHECKING:
@@ -29,24 +27,27 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Paths = tuple[Ints, Ints, Floats, Floats, Ints, Ints]
 
 STEP = 0.1
-"""Seconds of usual movement from one moment to the next that is compared."""
+"""Seconds of usual movement from one sample to the next."""
 WINDOW = 300.0
 """Seconds of movement that two occurrences of an event are apart, at most."""
 LEG = 60.0
-"""Seconds of movement for which a path is followed at a time."""
+"""Seconds of movement of one leg of a path: its work grows with the square of that."""
 LENGTHS = 24
-"""Lengths of stretches that are tried, between the shortest and the longest."""
+"""Lengths of spans that are tried, between the shortest and the longest."""
 JOINS = 0.6
-"""Share of the recurrence that is no chance, from which one joins a set in which another has it."""
+"""Share of `min_recurrence` from which a span joins a set in which another has all of it."""
 PAIR = 2.0
-"""Sets of two must recur so many times as much as larger ones."""
+"""Times `min_recurrence` that a set of two must score."""
+WORST = -2.0
+"""Lowest score of a pair of samples, however far they are apart."""
 
 
 @dataclass(frozen=True, eq=False)
 class Occurrences:
-    """Stretches that recur, in time order; none overlaps another.
+    """Spans that recur, in time order; none overlaps another.
 
     Attributes
     ----------
@@ -55,7 +56,7 @@ class Occurrences:
     clusters : (occurrences,) array of int
         Equal numbers recur as each other; from 0 by first appearance.
     similarity : (occurrences,) array
-        How similar each is to the one that stands for its set, 0 to 1.
+        Similarity of each to the one that stands for its set, 0 to 1.
     """
 
     starts: Ints
@@ -67,22 +68,78 @@ class Occurrences:
         return len(self.starts)
 
     def explained(self, borders: Ints) -> Floats:
-        """The share of each segment that recurs, by how similarly: 0 to 1."""
+        """The share of each segment that recurs, weighted by similarity: 0 to 1."""
         lengths = (self.stops - self.starts) * self.similarity
         inside = np.bincount(self._segments(borders), lengths, len(borders) - 1)
         return inside / np.diff(borders)
 
-    def within(self, borders: Ints, wanted: NDArray[np.bool_]) -> Occurrences:
-        """Those with their middle in a segment that is wanted, as long as they recur there."""
-        kept = wanted[self._segments(borders)]
+    def within(self, borders: Ints, chosen: NDArray[np.bool_]) -> Occurrences:
+        """Those with their middle in one of the chosen segments that recur in these."""
+        kept = chosen[self._segments(borders)]
         kept &= np.bincount(self.clusters[kept], minlength=len(self))[self.clusters] > 1
         clusters = by_first_appearance(self.clusters[kept])
         return Occurrences(self.starts[kept], self.stops[kept], clusters, self.similarity[kept])
 
     def _segments(self, borders: Ints) -> Ints:
+        """The segment in which the middle of each lies."""
         middles = (self.starts + self.stops) // 2
         segments: Ints = np.searchsorted(borders, middles, side="right") - 1
         return segments
+
+
+def occurrences(
+    poses: NDArray[np.floating], free: NDArray[np.bool_], preset: KinemeConstants
+) -> Occurrences:
+    """What recurs among the frames that are free.
+
+    Parameters
+    ----------
+    poses : (frames, dims) array
+        At the working rate, in body sizes, without their neighbours in time.
+    free : (frames,) array of bool
+        Where occurrences may lie.
+    preset : KinemeConstants
+    """
+    per_second = preset.working_fps / _step(preset)
+
+    def in_samples(seconds: float) -> int:
+        return round(seconds * per_second)
+
+    samples = _samples(np.asarray(poses, np.float64), free, preset)
+    if len(samples.seconds) < 2:
+        none = np.empty(0, np.int64)
+        return Occurrences(none, none, none, np.empty(0))
+    shortest = max(1, in_samples(preset.min_recurrence))
+    starts, ptr, partners, sums, row_ptr, row_paths = matching_paths(
+        samples.columns,
+        preset.event_cost * samples.seconds,
+        samples.begins,
+        gap=shortest,
+        width=in_samples(WINDOW),
+        leg=max(1, in_samples(LEG)),
+        scale=preset.event_scale,
+        least=JOINS * preset.min_recurrence * per_second,
+    )
+    longest = max(shortest, in_samples(preset.max_repetition))
+    lengths = np.unique(np.geomspace(shortest, longest, LENGTHS).round().astype(np.int64))
+    all_free = np.ones(len(samples.seconds), np.bool_)
+    spans, scores, ranks = kernels.best_sets(
+        lengths, starts, ptr, partners, sums, row_ptr, row_paths, all_free, preset.event_cover
+    )
+    # A set is kept if its strongest path is no chance; of two spans there is no second witness.
+    strongest = np.zeros(len(ranks))
+    np.maximum.at(strongest, ranks, scores)
+    factors = np.where(np.bincount(ranks)[ranks] == 2, PAIR, 1.0)
+    strong = strongest[ranks] >= factors * preset.min_recurrence * per_second
+    order = np.flatnonzero(strong)[np.argsort(spans[strong, 0])]
+    spans, ranks = spans[order], ranks[order]
+    similarity = np.clip(scores[order] / np.maximum(np.diff(spans)[:, 0], 1), 0, 1)
+    starts, stops = samples.edges[spans[:, 0], 0], samples.edges[spans[:, 1] - 1, 1]
+    stops[:-1] = np.minimum(stops[:-1], starts[1:])
+    return Occurrences(starts, stops, by_first_appearance(ranks), similarity)
+
+
+# --- samples at equal steps of movement time ----------------------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +155,7 @@ class _Samples:
     seconds : (samples,) array
         How long each lasts, in steps: 1 where the body moves as fast as usual.
     begins : (samples,) array of bool
-        Whether it follows something that is not looked at.
+        Whether the frames before it are not free.
     """
 
     columns: Floats
@@ -106,109 +163,128 @@ class _Samples:
     seconds: Floats
     begins: NDArray[np.bool_]
 
-    def __len__(self) -> int:
-        return len(self.seconds)
-
-
-def occurrences(
-    poses: NDArray[np.floating], free: NDArray[np.bool_], preset: KinemeConstants
-) -> Occurrences:
-    """What recurs among the frames that are free.
-
-    Parameters
-    ----------
-    poses : (frames, dims) array
-        At the working rate, in body sizes, without their neighbours in time.
-    free : (frames,) array of bool
-        Where to look.
-    preset : KinemeConstants
-
-    Returns
-    -------
-    Occurrences
-    """
-    per_second = preset.working_fps / _step(preset)
-
-    def moments(seconds: float) -> int:
-        return round(seconds * per_second)
-
-    samples = _samples(np.asarray(poses, np.float64), free, preset)
-    if len(samples) < 2:
-        none = np.empty(0, np.int64)
-        return Occurrences(none, none, none, np.empty(0))
-    costs = preset.event_cost * samples.seconds
-    shortest = max(1, moments(preset.min_recurrence))
-    paths = matching_paths(
-        samples.columns,
-        costs,
-        samples.begins,
-        gap=shortest,
-        width=moments(WINDOW),
-        leg=max(1, moments(LEG)),
-        scale=preset.event_scale,
-        least=JOINS * preset.min_recurrence * per_second,
-    )
-    longest = max(shortest, moments(preset.max_repetition))
-    lengths = np.unique(np.geomspace(shortest, longest, LENGTHS).round().astype(np.int64))
-    spans, scores, ranks = kernels.best_sets(
-        lengths,
-        *paths,
-        np.ones(len(samples), np.bool_),
-        preset.event_cover,
-    )
-    strongest = np.zeros(len(ranks))
-    np.maximum.at(strongest, ranks, scores)
-    factors = np.where(np.bincount(ranks)[ranks] == 2, PAIR, 1.0)
-    sure = strongest[ranks] >= factors * preset.min_recurrence * per_second
-    order = np.flatnonzero(sure)[np.argsort(spans[sure, 0])]
-    spans, ranks = spans[order], ranks[order]
-    similarity = np.clip(scores[order] / np.maximum(np.diff(spans)[:, 0], 1), 0, 1)
-    starts, stops = samples.edges[spans[:, 0], 0], samples.edges[spans[:, 1] - 1, 1]
-    stops[:-1] = np.minimum(stops[:-1], starts[1:])
-    return Occurrences(starts, stops, by_first_appearance(ranks), similarity)
-
-
-def _velocities(poses: Floats, preset: KinemeConstants) -> Floats:
-    """Of each frame, body sizes a second."""
-    frames = np.arange(len(poses))
-    before, after = np.maximum(frames - 1, 0), np.minimum(frames + 1, len(poses) - 1)
-    elapsed = np.maximum(after - before, 1)[:, None] / preset.working_fps
-    velocities: Floats = (poses[after] - poses[before]) / elapsed
-    return velocities
-
-
-def _time_of(velocities: Floats, preset: KinemeConstants) -> Floats:
-    """Movement time where poses have these velocities."""
-    speeds = np.linalg.norm(velocities, axis=1)
-    rates = preset.event_rest + (1 - preset.event_rest) * speeds / max(speeds.mean(), 1e-12)
-    return np.append(0, np.cumsum(rates))
-
 
 def _samples(poses: Floats, free: NDArray[np.bool_], preset: KinemeConstants) -> _Samples:
     """The free frames at equal steps of movement time."""
     n = len(poses)
-    velocities = _velocities(poses, preset)
-    if np.linalg.norm(velocities, axis=1).mean() * preset.max_repetition < preset.event_scale:
+    frames = np.arange(n)
+    before, after = np.maximum(frames - 1, 0), np.minimum(frames + 1, n - 1)
+    elapsed = np.maximum(after - before, 1)[:, None] / preset.working_fps
+    velocities = (poses[after] - poses[before]) / elapsed
+    speeds = np.linalg.norm(velocities, axis=1)
+    if speeds.mean() * preset.max_repetition < preset.event_scale:
         free = np.zeros(n, np.bool_)  # nobody moves: all is one pose
-    lasting, edges = _steps(_time_of(velocities, preset), preset)
+    rates = preset.event_rest + (1 - preset.event_rest) * speeds / max(speeds.mean(), 1e-12)
+    time = np.append(0, np.cumsum(rates))
+    at = np.interp(np.arange(0, time[-1], _step(preset)), time, np.arange(n + 1))
+    edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
     spans = np.column_stack([edges[:-1], edges[1:]])
     kept = np.flatnonzero(free[spans[:, 0]])
     begins = np.diff(kept, prepend=-2) > 1
     rows = np.hstack([poses, preset.event_velocity * velocities])[spans[kept, 0]]
-    seconds = lasting[kept] / _step(preset)
+    seconds = np.diff(at, append=n)[kept] / _step(preset)
     return _Samples(np.ascontiguousarray(rows.T), spans[kept], seconds, begins)
 
 
-def _steps(time: Floats, preset: KinemeConstants) -> tuple[Floats, Ints]:
-    """How many frames equal steps of movement time last, and the frames at which they begin.
-
-    The last of these is the end.
-    """
-    n = len(time) - 1
-    at = np.interp(np.arange(0, time[-1], _step(preset)), time, np.arange(n + 1))
-    return np.diff(at, append=n), np.append(np.minimum(at.astype(np.int64), n - 1), n)
-
-
 def _step(preset: KinemeConstants) -> int:
-    """Frames of usual movement from one moment to the next."""
+    """Frames of usual movement from one sample to the next."""
     return max(1, preset.frames(STEP))
+
+
+# --- warping paths by which the samples match each other ----------------------------------------
+
+
+def matching_paths(
+    columns: Floats,
+    costs: Floats,
+    begins: NDArray[np.bool_],
+    *,
+    gap: int,
+    width: int,
+    leg: int,
+    scale: float,
+    least: float,
+) -> Paths:
+    """Paths by which samples match others: start, partners and scores, from either side.
+
+    The ends of a path are found first. Then it is computed between them, in legs: from each of the
+    pairs that it passed to the next, so that the work grows with its length and not its square.
+
+    Parameters
+    ----------
+    columns : (dims, samples) array
+    costs : (samples,) array
+        Subtracted from the score of each sample, so that stillness gains nothing.
+    begins : (samples,) array of bool
+        Samples into which no path steps.
+    gap, width : int
+        Samples that pairs are apart, at least and at most.
+    leg : int
+        Samples of one leg.
+    scale : float
+        Distance from which two samples are not similar.
+    least : float
+        Score of a path at least.
+
+    Returns
+    -------
+    starts : (paths,) array
+        First sample of each; a path and the same from the other side are neighbours.
+    ptr : (paths + 1,) array
+        Where the samples of each begin in the next two.
+    partners, sums : arrays
+        Of each sample of each path: its partner, and the score up to there.
+    row_ptr : (samples + 1,) array
+        Where the paths of each sample begin in the last.
+    row_paths : array of int
+    """
+    ends, _, passed = kernels.local_paths(
+        columns, costs, begins, gap, width, leg, scale, WORST, least
+    )
+    starts, partners, sums = [], [np.empty(0)], [np.empty(0)]
+    for each in ends:
+        forth, forth_sums, back, back_sums = warped_path(columns, costs, each, passed, scale)
+        starts += [each[0], each[1]]
+        partners += [forth, back]
+        sums += [forth_sums, back_sums]
+    sizes = np.array([len(each) for each in partners[1:]], np.int64)
+    ptr = np.append(0, np.cumsum(sizes))
+    first = np.array(starts, np.int64)
+    rows = np.repeat(first - ptr[:-1], sizes) + np.arange(ptr[-1])
+    row_paths = np.repeat(np.arange(len(sizes)), sizes)[np.argsort(rows, kind="stable")]
+    row_ptr = np.append(0, np.cumsum(np.bincount(rows, minlength=len(costs))))
+    return first, ptr, np.concatenate(partners), np.concatenate(sums), row_ptr, row_paths
+
+
+def warped_path(
+    columns: Floats, costs: Floats, ends: Ints, passed: Ints, scale: float
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Partners and scores of a path, from its first side and from the second.
+
+    Parameters
+    ----------
+    columns, costs, scale
+        See `matching_paths`.
+    ends : (5,) array
+        First and last pair, and the latest of the pairs passed.
+    passed : (pairs, 3) array
+        Pairs, and the one passed before each; see `_event_kernels.local_paths`.
+    """
+    pairs, latest = [ends[2:4]], int(ends[4])
+    while latest >= 0:
+        pairs.append(passed[latest, :2])
+        latest = int(passed[latest, 2])
+    pairs.append(ends[:2])
+    legs = [
+        kernels.follow(columns, costs, np.append(start, stop), scale, WORST)
+        for stop, start in pairwise(pairs)
+    ]
+    forth, forth_sums, back, back_sums = map(_joined, zip(*legs[::-1], strict=True))
+    return forth, forth_sums, back, back_sums
+
+
+def _joined(legs: tuple[Floats, ...]) -> Floats:
+    """Values of legs one after the other, each going on from the last value of the one before."""
+    shifts = np.cumsum([before[-1] - after[0] for before, after in pairwise(legs)])
+    rest = [leg[1:] + shift for leg, shift in zip(legs[1:], shifts, strict=True)]
+    return np.concatenate([legs[0], *rest])

@@ -1,4 +1,4 @@
-"""What the method finds, stage by stage, and the segment table that comes of it."""
+"""What the method finds, stage by stage, and the segment table made from it."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from kineme.methods.doubts import doubts
 from kineme.methods.kineme import tree
 from kineme.methods.kineme.borders import in_samples
 from kineme.methods.kineme.confidence import Confidence, Evidence, confidence
-from kineme.methods.kineme.placing import Segments
-from kineme.methods.levels import DETAILS, Pieces, clusters_at, tables_at
+from kineme.methods.kineme.primitives import Segments
+from kineme.methods.levels import DETAILS, FineSegments, clusters_at, tables_at
 from kineme.methods.segments import columns_of
 
 if TYPE_CHECKING:
@@ -30,9 +30,9 @@ PICTURED = 256
 LISTED = 5
 """Activities that a note lists at most."""
 EACH = 8
-"""Pieces of levels of detail for each segment of the default level, at most."""
+"""Fine segments of levels of detail for each segment of the default level, at most."""
 MOST = 1000
-"""Pieces of a long recording, at most, if it has not more segments."""
+"""Fine segments of a long recording, at most, if the default level has not more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +49,8 @@ class KinemeFound:
     segments : Segments
         Both levels, in frames of the working rate.
     evidence : Evidence
-        By which it is told how sure all that is.
-    fine : (pieces + 1,) array
+        Statistics for the confidence of all these.
+    fine : (segments + 1,) array
         Borders of the finest segments, frames of the working rate.
     timings : dict of str to float
         Seconds per stage.
@@ -75,17 +75,17 @@ class KinemeFound:
         return self.segments.primitives
 
     def columns(self) -> Columns:
-        """Activities, primitives, and how probable it is that each is right."""
-        segments, sure = self.segments, self.confidence
-        counts = np.where(segments.clusters >= 0, sure.counts[segments.parents], np.nan)
+        """Activities, primitives, and their confidence."""
+        segments, probabilities = self.segments, self.confidence
+        counts = np.where(segments.clusters >= 0, probabilities.counts[segments.parents], np.nan)
         return columns_of(
             self.borders,
             self.primitives,
             is_activity=segments.labels >= 0,
             is_primitive=segments.clusters >= 0,
             clusters=(segments.labels, segments.clusters),
-            scores=(sure.links, counts),
-            border_confidence=(sure.borders, sure.cuts),
+            scores=(probabilities.links, counts),
+            border_confidence=(probabilities.borders, probabilities.cuts),
         )
 
     @cached_property
@@ -96,30 +96,30 @@ class KinemeFound:
     def levels(self, columns: Columns) -> Mapping[float, Columns]:
         """The table at coarser and finer details: the tree, pruned at scaled costs.
 
-        Details that are like their coarser neighbour are left out.
+        Details that are equal to their coarser neighbour are left out.
         """
-        pieces, frames = self._pieces()
+        segments, frames = self._fine_segments()
         at = clusters_at(
-            pieces,
+            segments,
             DETAILS,
             border_price=self.preset.samples(self.preset.segment_cost),
             cluster_price=self.preset.samples(self.preset.cluster_cost),
         )
         return tables_at(columns, frames, at, longest=0.0)
 
-    def _pieces(self) -> tuple[Pieces, Frames]:
+    def _fine_segments(self) -> tuple[FineSegments, Frames]:
         """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
-        own = in_samples(self.borders, self.preset, len(self.features))
+        coarse = in_samples(self.borders, self.preset, len(self.features))
         fine = in_samples(self.fine, self.preset, len(self.features))
         found = tree.levels(fine, tree.between_segments(self.features, fine, self.unit))
-        most = min(len(found), EACH * len(own), max(MOST, len(own)))
-        borders = np.unique(np.concatenate([own, fine[found[most - 1]]]))
+        most = min(len(found), EACH * len(coarse), max(MOST, len(coarse)))
+        borders = np.unique(np.concatenate([coarse, fine[found[most - 1]]]))
         per_sample = self.preset.working_fps / self.preset.rate
         frames = np.rint(borders * per_sample).astype(np.int64)
-        frames[np.searchsorted(borders, own)] = self.borders
-        parents = self.segments.labels[np.searchsorted(own, borders[:-1], side="right") - 1]
+        frames[np.searchsorted(borders, coarse)] = self.borders
+        parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
         sums = tree.between_segments(self.features, borders, self.unit) / 2
-        return Pieces(borders, np.arange(len(parents)), parents, sums), frames
+        return FineSegments(borders, np.arange(len(parents)), parents, sums), frames
 
     @cached_property
     def graph(self) -> NeighborGraph:
@@ -129,25 +129,28 @@ class KinemeFound:
         return neighbor_graph(self.features, radius=0.5 * self.unit, k=PICTURED)
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """A sentence for each cluster, count or border that is not sure, at most five.
+        """A sentence for each cluster, count or border of low confidence, at most five.
 
-        And one for the activities that are not periodic.
+        One more lists the activities that are not periodic.
         """
         found = doubts(columns, fps)
-        of_activities = columns["level"] == "activity"
-        loose = of_activities & np.isin(columns["cluster"], self.segments.not_periodic)
-        if loose.any():
-            starts, stops = columns["start_frame"][loose], columns["stop_frame"][loose]
+        is_activity = columns["level"] == "activity"
+        not_periodic = is_activity & np.isin(columns["cluster"], self.segments.not_periodic)
+        if not_periodic.any():
+            starts, stops = (
+                columns["start_frame"][not_periodic],
+                columns["stop_frame"][not_periodic],
+            )
             listed = [
                 f"{start / fps:.2f} to {stop / fps:.2f} s"
                 for start, stop in zip(starts, stops, strict=True)
             ]
             more = f" and {len(listed) - LISTED} more" if len(listed) > LISTED else ""
-            primitives = columns["start_frame"][~of_activities & (columns["cluster"] >= 0)]
+            primitives = columns["start_frame"][~is_activity & (columns["cluster"] >= 0)]
             at = np.searchsorted(starts, primitives, side="right") - 1
             recurs = ((at >= 0) & (primitives < stops[at])).any()
-            told = (
+            note = (
                 "their primitives are what recurs anywhere" if recurs else "nothing in them recurs"
             )
-            found.append(f"not periodic: {', '.join(listed[:LISTED])}{more}; {told}")
+            found.append(f"not periodic: {', '.join(listed[:LISTED])}{more}; {note}")
         return found

@@ -2,15 +2,15 @@
 
 Nothing here knows what a skeleton or a sensor is: any array of frames x dims will do.
 
-1. *views*: what is compared, some times a second: posture and energy of movement.
-2. *segments*: a tree of each view, and of it the level of the shortest description. A segment is
-   told by its samples staying alike, or by repeating itself. Of several views that is taken
-   which all agree with most. A long recording is seen and segmented in parts, each as if it were
+1. *views*: posture and energy of movement, a few times a second, in one or more scales.
+2. *segments*: a tree of each view, and the level of it with the shortest description. A segment is
+   described by how similar its samples are, or by a repetition of it. Of several views the one
+   that agrees most with all is taken. A long recording is segmented in parts, each as if it were
    alone.
 3. *borders*: to the frame, and transitions, which neither side explains.
-4. *repetitions*: how often each segment repeats itself, and where the first and the last one end.
-5. *events*: what recurs elsewhere, now and then.
-6. *confidence*: statistics by which it is told how sure all that is. Nothing above reads them.
+4. *repetitions*: their number in each segment, and where the first begins and the last one ends.
+5. *events*: spans that recur elsewhere, now and then.
+6. *confidence*: statistics from which probabilities are computed. No other stage reads them.
 """
 
 from __future__ import annotations
@@ -28,11 +28,10 @@ from kineme.features.channels import sampled_at
 from kineme.methods.kineme.borders import carried_over, to_the_frame
 from kineme.methods.kineme.confidence import evidence
 from kineme.methods.kineme.found import KinemeFound
-from kineme.methods.kineme.level import Level, level_of, linked, part_ends
 from kineme.methods.kineme.primitives import with_clusters, with_events, with_repetitions
 from kineme.methods.kineme.repeating import Repeating
-from kineme.methods.kineme.tree import median_distance
-from kineme.methods.kineme.views import Seen, most_agreed, seen
+from kineme.methods.kineme.tree import Level, level_of, linked, median_distance, part_ends
+from kineme.methods.kineme.views import Views, most_agreed, views_of
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
@@ -44,9 +43,9 @@ Rows = NDArray[np.float32]
 
 
 class Part(NamedTuple):
-    """A part of a recording: which of its views all agree with most, that view, and its level."""
+    """A part of a recording: the number of the view that is taken, that view, and its level."""
 
-    chosen: int
+    scale: int
     view: Rows
     level: Level
 
@@ -67,9 +66,9 @@ def analyze(
         At the working rate; of a body in its sizes.
     preset : KinemeConstants
     carried : (frames,) array, optional
-        1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere.
+        1 in a lift upwards, -1 downwards, 0 elsewhere.
     joints : bool
-        Whether channels are places of joints, and not what sensors measure.
+        Whether features are of the positions of joints, and not of sensors.
     progress : callable, optional
         Called with the name of each stage before it runs.
 
@@ -82,10 +81,10 @@ def analyze(
     ParameterError
         Features of another shape, empty, or not finite.
     """
-    with threadpool_limits(1):  # segments run side by side; sums do not hang on threads
+    with threadpool_limits(1):  # segments run side by side; sums do not depend on threads
         rows = as_features(features)
-        ridden = np.zeros(len(rows)) if carried is None else np.asarray(carried, np.float64)
-        return _analyze(rows, ridden, preset, progress, joints=joints)
+        rides = np.zeros(len(rows)) if carried is None else np.asarray(carried, np.float64)
+        return _analyze(rows, rides, preset, progress, joints=joints)
 
 
 def _analyze(
@@ -102,15 +101,15 @@ def _analyze(
     ends = part_ends(n, max(1, preset.frames(preset.part)))
     spans = [slice(*span) for span in pairwise(ends)]
     with stage("views"):
-        views = [seen(rows[span], preset, carried[span], joints=joints) for span in spans]
+        views = [views_of(rows[span], preset, carried[span], joints=joints) for span in spans]
     with stage("segments"):
         parts = map_threads(
             lambda i: _part(views[i], poses[spans[i]], spans[i], preset), range(len(spans))
         )
         features = parts[0].view
         if len(parts) > 1:
-            scale = int(np.bincount([part.chosen for part in parts]).argmax())
-            features = seen(rows, preset.in_scale(scale), carried, joints=joints).views[0]
+            scale = int(np.bincount([part.scale for part in parts]).argmax())
+            features = views_of(rows, preset.in_scale(scale), carried, joints=joints).views[0]
         unit = median_distance(features, preset.near)
         at = sampled_at(n, preset.working_fps, preset.rate)
         price = preset.samples(preset.cluster_cost)
@@ -120,25 +119,25 @@ def _analyze(
         fine = carried_over(level.fine, level.borders, np.append(starts, n))
     with stage("repetitions"):
         segments = with_repetitions(poses, starts, stops, level.labels, level.preference, preset)
-        if preset.same < 1:
+        if preset.min_similarity < 1:
             segments = with_clusters(poses, segments, preset)
     if preset.event_scale:
         with stage("events"):
             segments = with_events(poses, segments, preset)
     with stage("confidence"):
-        shown = evidence(poses, segments, preset)
-    return KinemeFound(features, preset, unit, segments, shown, fine, timings)
+        statistics = evidence(poses, segments, preset)
+    return KinemeFound(features, preset, unit, segments, statistics, fine, timings)
 
 
-def _part(views: Seen, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
-    """A part as if it were alone: the view by samples that stay alike, its level by both forms."""
+def _part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
+    """A part as if it were alone. Its view is chosen before it is known what repeats."""
 
-    def answer(view: Rows) -> Frames:
+    def clusters(view: Rows) -> Frames:
         return level_of(view, preset).per_sample()
 
-    chosen = 0
+    scale = 0
     if len(views.views) > 1:
-        chosen = most_agreed([*map(answer, views.views)], [*map(answer, views.halves)])
-    view = views.views[chosen]
+        scale = most_agreed([*map(clusters, views.views)], [*map(clusters, views.halves)])
+    view = views.views[scale]
     level = level_of(view, preset, Repeating(poses, preset))
-    return Part(chosen, view, level.in_frames(span, preset))
+    return Part(scale, view, level.in_frames(span, preset))

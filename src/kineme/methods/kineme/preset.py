@@ -43,13 +43,13 @@ OF_SENSORS: Mapping[str, Any] = {
     "shared": (1e4, 1e4, 1e4, 1.0, 1.0, 1.0, 0.3, 0.3, 0.3),
     "weights": (0.5, 1.0, 1.0) * 3,
     "restless_over": (0.0, 0.0, 1.0) * 3,
-    "alike": 0.8,
+    "min_explained": 0.8,
     "centering": 0.4,
-    "same": 1.0,
+    "min_similarity": 1.0,
     "event_scale": 0.0,
     "transition_cost": 1000.0,  # people who label sensors leave nothing between two activities
 }
-"""What is another for signals: no one view fits all of them, and their lengths mean nothing."""
+"""Values for signals where they differ: no one view fits all, and lengths mean nothing."""
 
 SENSORS = KinemePreset(
     name="sensors",

@@ -1,11 +1,18 @@
-"""Primitives: the repetitions of segments, and elsewhere what recurs anywhere.
+"""Segments of both levels: activities, and the repetitions and occurrences in them.
 
-All in frames of the working rate.
+Each segment is divided into its repetitions. Clusters whose mean repetitions are similar at any
+phase and pace become one. Where a cluster does not repeat, its primitives are occurrences: spans
+that recur anywhere. An occurrence is never cut: a border between activities that falls into one
+moves to its nearer end.
+
+Spans are frames of the working rate.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,22 +22,80 @@ from kineme._threads import map_threads
 from kineme.methods.kineme import _repeating_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import repetitions_between
 from kineme.methods.kineme.ends import fitted_ends
-from kineme.methods.kineme.events import occurrences
-from kineme.methods.kineme.likeness import linked, mean_repetitions
-from kineme.methods.kineme.placing import Segments, of_actions, placed, without_still
-from kineme.methods.kineme.repetitions import PLACES, Repetitions, movement, repetitions
+from kineme.methods.kineme.events import Occurrences, occurrences
+from kineme.methods.kineme.repetitions import PLACES, Movement, movement_of, repetitions
 from kineme.methods.segments import by_first_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
+Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
 
+COMPARED = 8
+"""Segments of a cluster that are compared with those of others, at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Segments:
+    """Both levels of a recording, each from frame 0 to its end.
+
+    Attributes
+    ----------
+    borders : (activities + 1,) array
+        Of activities and the transitions between them.
+    labels : (activities,) array
+        Cluster of each; -1 for transitions.
+    preference : (activities,) array
+        How much nearer each is to its cluster than to the next, 0 to 1; nan for transitions.
+    primitives : (primitives + 1,) array
+        Borders of the primitives, those of activities among them.
+    clusters : (primitives,) array
+        Cluster of each; -1 for transitions. Numbers are those of `labels`, then those of
+        repetitions that are another movement, then those of occurrences.
+    not_periodic : array of int
+        Clusters of activities whose primitives are occurrences.
+    """
+
+    borders: Frames
+    labels: Frames
+    preference: Floats
+    primitives: Frames
+    clusters: Frames
+    not_periodic: Frames
+
+    @cached_property
+    def parents(self) -> Frames:
+        """The activity or transition that each primitive lies in."""
+        return _segment_at(self.borders, self.primitives[:-1])
+
+    @cached_property
+    def firsts(self) -> Frames:
+        """The first primitive of each activity or transition, and the number of primitives."""
+        return np.searchsorted(self.parents, np.arange(len(self.labels) + 1))
+
+    @cached_property
+    def repeats(self) -> Bools:
+        """Whether each primitive is a repetition."""
+        actions = self.labels[self.parents]
+        found: Bools = (self.clusters >= 0) & (actions >= 0)
+        return found & ~np.isin(actions, self.not_periodic)
+
+    @cached_property
+    def counts(self) -> Frames:
+        """Repetitions of each activity."""
+        return np.bincount(self.parents[self.repeats], minlength=len(self.labels))
+
 
 def with_repetitions(
-    rows: Rows, starts: Frames, stops: Frames, labels: Frames, own: Floats, preset: KinemeConstants
+    rows: Rows,
+    starts: Frames,
+    stops: Frames,
+    labels: Frames,
+    preference: Floats,
+    preset: KinemeConstants,
 ) -> Segments:
     """Segments and their repetitions, the first and the last of which end where they fit.
 
@@ -40,28 +105,24 @@ def with_repetitions(
         At the working rate.
     starts, stops : (segments,) array
         What lies between two segments is a transition.
-    labels : (segments,) array
-        Cluster of each.
-    own : (segments,) array
-        How much nearer each is to its own cluster than to the next.
+    labels, preference : (segments,) array
+        As in `Segments`.
     preset : KinemeConstants
     """
-
-    def count(span: tuple[int, int]) -> Repetitions:
-        return repetitions(rows, *span, preset)
-
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
-    cuts = [each.cuts for each in map_threads(count, spans)]
+    cuts = map_threads(lambda span: repetitions(rows, *span, preset), spans)
     ends = fitted_ends(rows, starts, stops, labels, cuts, preset)
     borders, segment = _tiled(len(rows), ends.starts, ends.stops)
     primitives, repeated = _tiled(len(rows), ends.firsts, ends.lasts, [borders, *cuts])
-    labels, own = np.append(labels, -1), np.append(own, np.nan)
+    labels, preference = np.append(labels, -1), np.append(preference, np.nan)
     none = np.empty(0, np.int64)
-    return Segments(borders, labels[segment], own[segment], primitives, labels[repeated], none)
+    return Segments(
+        borders, labels[segment], preference[segment], primitives, labels[repeated], none
+    )
 
 
 def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
-    """Segments whose clusters are one movement at any pace; neighbours that are one are joined.
+    """Segments whose clusters are one movement at any pace; neighbours of one cluster are joined.
 
     Parameters
     ----------
@@ -71,42 +132,67 @@ def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Se
         With repetitions.
     preset : KinemeConstants
     """
-    movements = mean_repetitions(rows, segments, preset)
-    labels = linked(segments.labels, movements, preset.same)
+    means = {}
+    for segment in np.flatnonzero(segments.counts > 1).tolist():
+        movement, _, repeated = _repeated(rows, segments, segment, preset)
+        means[segment] = repeated.mean(axis=0) + movement.middle
+    labels = linked(segments.labels, means, preset.min_similarity)
     if (labels == segments.labels).all():
         return segments
-    known = np.flatnonzero(labels >= 0)
-    first = np.flatnonzero(np.diff(labels[known], prepend=-1))
-    starts = segments.borders[:-1][known[first]]
-    stops = segments.borders[1:][known[np.append(first[1:], len(known)) - 1]]
-    own = np.array([part.mean() for part in np.split(segments.own[known], first[1:])])
-    return with_repetitions(
-        rows, starts, stops, by_first_appearance(labels[known[first]]), own, preset
-    )
+    activities = np.flatnonzero(labels >= 0)
+    first = np.flatnonzero(np.diff(labels[activities], prepend=-1))
+    starts = segments.borders[:-1][activities[first]]
+    stops = segments.borders[1:][activities[np.append(first[1:], len(activities)) - 1]]
+    groups = np.split(segments.preference[activities], first[1:])
+    preference = np.array([group.mean() for group in groups])
+    labels = by_first_appearance(labels[activities[first]])
+    return with_repetitions(rows, starts, stops, labels, preference, preset)
 
 
-def explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
-    """The share of each segment's repetitions that the mean of the others explains; 0 of one."""
-    found = np.zeros(len(segments.labels))
-    ends = np.searchsorted(segments.parents, np.arange(len(found) + 1))
+def linked(labels: Frames, movements: dict[int, Floats], least: float) -> Frames:
+    """The labels of segments; clusters whose movements are similar become one.
 
-    def judge(segment: int) -> None:
-        inside = np.flatnonzero(segments.repeats[ends[segment] : ends[segment + 1]])
-        edges = segments.primitives[ends[segment] + inside[0] : ends[segment] + inside[-1] + 2]
-        along = movement(rows[edges[0] : edges[-1]], preset)
-        visits = edges - edges[0]
-        repeated = repetitions_between(along.poses, along.path, visits, PLACES)
-        kernels.center(repeated)
-        found[segment] = kernels.explained(along.poses, along.path, visits, repeated)
+    The similarity of two movements is, at the phase at which they fit best,
 
-    map_threads(judge, np.flatnonzero(segments.counts > 1).tolist())
-    return found
+        1 - mean square distance / (variance of the one + variance of the other)
+
+    It is 1 where both are the same, 0 where they share their place only, and below where they are
+    elsewhere. Small movements must be nearer to each other than large ones.
+
+    Parameters
+    ----------
+    labels : (segments,) array
+        Cluster of each.
+    movements : dict of int to (places, dims) array
+        By segment its mean repetition, evenly along its path.
+    least : float
+        Similarity from which two clusters are one, in the mean of their segments.
+    """
+    labels = labels.copy()
+    repeating = np.array(sorted(movements), np.int64)
+    if not len(repeating):
+        return labels
+    _, rank = np.unique(labels[repeating], return_inverse=True)
+    first = np.argsort(rank, kind="stable")
+    within = np.arange(len(repeating)) - np.searchsorted(rank[first], rank[first])
+    compared = repeating[np.sort(first[within < COMPARED])]
+    similarity = kernels.similarities(np.stack([movements[at] for at in compared.tolist()]))
+    while True:
+        names, of = np.unique(labels[compared], return_inverse=True)
+        members = np.eye(len(names))[of]
+        sizes = members.sum(axis=0)
+        means = (members.T @ similarity @ members) / np.outer(sizes, sizes)
+        np.fill_diagonal(means, -np.inf)
+        one, other = sorted(divmod(int(means.argmax()), len(names)))
+        if means[one, other] < least:
+            return labels
+        labels[labels == names[other]] = names[one]
 
 
 def with_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
     """Occurrences for primitives, where no segment repeats.
 
-    A segment whose repetitions explain each other keeps them. The others give theirs up where
+    A cluster whose repetitions explain each other keeps them. The others lose theirs where
     occurrences explain more. Segments that are one repetition in which nothing moves have no
     primitives.
 
@@ -117,20 +203,129 @@ def with_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     segments : Segments
     preset : KinemeConstants
     """
-    told = explained(rows, segments, preset)
-    told = of_actions(told, np.ones_like(segments.labels), segments.labels)
-    weak = told < preset.alike
+    shares = explained(rows, segments, preset)
+    shares = action_means(shares, np.ones_like(segments.labels), segments.labels)
+    weak = shares < preset.min_explained
     if weak.any():
         lengths = np.diff(segments.borders)
-        looked_at = np.repeat(weak | (weak & (segments.labels >= 0)).any(), lengths)
-        found = occurrences(rows, looked_at, preset)
+        searched = np.repeat(weak | (weak & (segments.labels >= 0)).any(), lengths)
+        found = occurrences(rows, searched, preset)
         recurring = found.within(segments.borders, weak).explained(segments.borders)
-        recurring = of_actions(recurring, lengths, segments.labels)
-        free = weak & ((segments.labels < 0) | (recurring > told))
+        recurring = action_means(recurring, lengths, segments.labels)
+        free = weak & ((segments.labels < 0) | (recurring > shares))
         found = found.within(segments.borders, free)
         if len(found):
-            segments = placed(segments, found, free)
+            segments = with_occurrences(segments, found, free)
     return without_still(segments, rows, preset.event_scale / 4)
+
+
+def explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
+    """The share of each segment's repetitions that the mean of the others explains; 0 of one."""
+    found = np.zeros(len(segments.labels))
+
+    def explain(segment: int) -> None:
+        movement, visits, repeated = _repeated(rows, segments, segment, preset)
+        kernels.center(repeated)
+        found[segment] = kernels.explained(movement.poses, movement.path, visits, repeated)
+
+    map_threads(explain, np.flatnonzero(segments.counts > 1).tolist())
+    return found
+
+
+def _repeated(
+    rows: Rows, segments: Segments, segment: int, preset: KinemeConstants
+) -> tuple[Movement, Frames, Floats]:
+    """The span of a segment that repeats, the frames in it at which repetitions begin, and these.
+
+    Repetitions are (repetitions, places, dims), evenly along their path.
+    """
+    first, last = segments.firsts[segment : segment + 2]
+    inside = first + np.flatnonzero(segments.repeats[first:last])
+    edges = segments.primitives[inside[0] : inside[-1] + 2]
+    movement, visits = movement_of(rows[edges[0] : edges[-1]], preset), edges - edges[0]
+    return movement, visits, repetitions_between(movement.poses, movement.path, visits, PLACES)
+
+
+def action_means(shares: Floats, weights: NDArray[np.integer], labels: Frames) -> Floats:
+    """For each segment the weighted mean share of its cluster; 0 of transitions."""
+    in_cluster = labels >= 0
+    clusters = labels[in_cluster]
+    total = np.bincount(clusters, weights[in_cluster])
+    means = np.zeros(len(labels))
+    sums = np.bincount(clusters, (shares * weights)[in_cluster])
+    means[in_cluster] = (sums / np.maximum(total, 1))[clusters]
+    return means
+
+
+def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Segments:
+    """The segments with occurrences for primitives where no activity is periodic.
+
+    Parameters
+    ----------
+    segments : Segments
+    found : Occurrences
+        Of the free segments; their clusters are numbered after those of the activities.
+    free : (activities,) array of bool
+        Transitions, and activities of clusters that are not periodic.
+    """
+    borders, old = _without_empty(_out_of(found, segments.borders), segments.labels)
+    free = free[old]
+    cuts = segments.primitives[:-1]
+    cuts = cuts[~free[_segment_at(borders, cuts)]]
+    primitives = np.unique(np.concatenate([borders, cuts, found.starts, found.stops]))
+    begin = primitives[:-1]
+    # Numbers begin with those of activities, by appearance, as some may have vanished.
+    labels = by_first_appearance(segments.labels[old])
+    numbers = np.full(segments.labels.max(initial=-1) + 2, -1)
+    numbers[segments.labels[old] + 1] = labels
+    actions = int(labels.max(initial=-1)) + 1
+    # Repetitions keep the number of their activity, or get one after these.
+    clusters = segments.clusters[_segment_at(segments.primitives, begin)]
+    clusters[free[_segment_at(borders, begin)]] = -1
+    parts = by_first_appearance(np.where(clusters < len(numbers) - 1, -1, clusters))
+    clusters = np.where(parts < 0, numbers[np.where(parts < 0, clusters, -1) + 1], actions + parts)
+    # Occurrences are numbered last.
+    if len(found):
+        before = np.maximum(_segment_at(found.starts, begin), 0)
+        inside = (found.starts[before] <= begin) & (begin < found.stops[before])
+        first = actions + int(parts.max(initial=-1)) + 1
+        clusters[inside] = first + found.clusters[before[inside]]
+    not_periodic = np.unique(labels[free & (labels >= 0)])
+    return Segments(borders, labels, segments.preference[old], primitives, clusters, not_periodic)
+
+
+def without_still(segments: Segments, rows: Rows, near: float) -> Segments:
+    """The segments without primitives in clusters that neither repeat nor move.
+
+    Parameters
+    ----------
+    segments : Segments
+    rows : (frames, dims) array
+    near : float
+        A repetition moves if one of its poses is farther than this from its mean pose.
+    """
+    actions, repeats = segments.labels[segments.parents], segments.repeats
+    several = segments.counts[segments.parents] > 1
+    moves = np.array([_reach(part) > near for part in np.split(rows, segments.primitives[1:-1])])
+    still = np.setdiff1d(actions[repeats], actions[repeats & (moves | several)])
+    return without_repetitions(segments, still)
+
+
+def _reach(rows: Rows) -> float:
+    """The largest distance of a row from their mean."""
+    return float(np.linalg.norm(rows - rows.mean(axis=0), axis=1).max())
+
+
+def without_repetitions(segments: Segments, actions: Frames) -> Segments:
+    """The segments without the repetitions of some clusters."""
+    if not len(actions):
+        return segments
+    lost = segments.repeats & np.isin(segments.labels[segments.parents], actions)
+    return replace(
+        segments,
+        clusters=np.where(lost, -1, segments.clusters),
+        not_periodic=np.union1d(segments.not_periodic, actions),
+    )
 
 
 def _tiled(
@@ -141,6 +336,30 @@ def _tiled(
     What lies in no span is in span -1.
     """
     borders: Frames = np.unique(np.concatenate([[0, n], starts, stops, *cuts]))
-    spans = np.searchsorted(starts, borders[:-1], side="right") - 1
+    spans = _segment_at(starts, borders[:-1])
     inside = (spans >= 0) & (borders[:-1] < np.append(stops, 0)[spans])
     return borders, np.where(inside, spans, -1)
+
+
+def _segment_at(borders: Frames, frames: Frames) -> Frames:
+    """The segment in which each frame lies; -1 before the first."""
+    segments: Frames = np.searchsorted(borders, frames, side="right") - 1
+    return segments
+
+
+def _without_empty(borders: Frames, labels: Frames) -> tuple[Frames, Frames]:
+    """Borders of the segments that have frames, and which they are; equal neighbours are one."""
+    kept = np.flatnonzero(np.diff(borders) > 0)
+    kept = kept[np.append(True, labels[kept[1:]] != labels[kept[:-1]])]
+    return np.append(borders[kept], borders[-1]), kept
+
+
+def _out_of(found: Occurrences, borders: Frames) -> Frames:
+    """The borders, those within an occurrence moved to its nearer end."""
+    if not len(found):
+        return borders
+    before = np.maximum(_segment_at(found.starts, borders), 0)
+    starts, stops = found.starts[before], found.stops[before]
+    inside = (starts < borders) & (borders < stops)
+    nearer = np.where(borders - starts <= stops - borders, starts, stops)
+    return np.where(inside, nearer, borders)

@@ -1,19 +1,22 @@
 """Repetitions: how often an activity repeats itself, and where each one begins.
 
-Every pose of an activity is visited once per repetition: its distance to the
-activity, as that goes by, dips as often. How many of its dips are visits is not
-known. So the deepest two, three, ... of several poses each are one *candidate*
-division of the activity, and the best is the one whose repetitions are most
-similar: each is compared with the mean of all others. Of a candidate, what lies
-before the first visit and after the last counts by how far it follows the mean,
-and the less the farther it is from it than repetitions are: a step that fades into
-the next movement is part of one. Their paths should be about as long as each other.
+Each repetition passes every pose of the activity once. So the distance of an activity to one of
+its poses has a dip for each repetition. Some dips are not such *visits*. So the deepest two,
+three, ... dips of several poses are *candidates*: divisions of the activity. The best is the one
+whose repetitions are most similar to the mean of the others.
 
-Repetitions are compared along their path, not in time, so that pace does not
-matter and a rest has no length; and apart from their size, so that a deep bend
-and a shallow one are two bends, where a step with the left foot and one with
-the right are halves of one repetition. Where they are, such as how a sensor is
-held, is left out of it as far as the preset says (`centering`).
+The ends, before the first visit and after the last, count by how far they follow the mean, and the
+less the farther they are from it than repetitions are. The paths of repetitions should be about as
+long as each other.
+
+Repetitions are compared by position on their path, not in time, so that pace does not matter and a
+rest has no length. They are compared by correlation: a deep bend and a shallow one are two bends,
+while a step with the left foot and one with the right are halves of one repetition. Posture counts
+as far as `centering` leaves it.
+
+Repetitions begin at rest, where there is a rest between them. People see events begin and end
+where movement is slowest (Zacks, Kumar, Abrams and Mehta 2009), and a clip that begins there can
+be used.
 """
 
 from __future__ import annotations
@@ -26,16 +29,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.kineme import _repetition_kernels as kernels
-from kineme.methods.kineme.rests import at_rest
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
 Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
+Rows = NDArray[np.float32]
 
 PLACES = 16
-"""Places along a repetition's path at which it is compared."""
+"""Places on a repetition's path at which it is compared."""
 VOTERS, COUNTS, POSES = 80, 8, 4
 """Poses that vote on the number of repetitions, numbers that are tried, and poses for each."""
 DEEP = 0.9
@@ -43,42 +46,33 @@ DEEP = 0.9
 SMOOTHED = 0.14
 """Seconds before and after a frame, over which poses are averaged."""
 FOLLOWED = 1.5
-"""Repetitions for which an end is followed."""
-REST_AVERAGED = 0.1
-"""Seconds before and after a frame, over which its speed is the mean."""
+"""Longest end, in repetitions."""
 ROUNDED_UP = 0.35
 """From this on a part of a repetition is one."""
 SAME_COUNT = 0.75
-"""Repetitions by which divisions differ at most that say together how long the ends are."""
-
-
-@dataclass(frozen=True, eq=False)
-class Repetitions:
-    """Where the repetitions of an activity begin.
-
-    Attributes
-    ----------
-    cuts : array of int
-        Frames at which the second, third, ... repetition begins.
-    """
-
-    cuts: Frames
+"""Candidates whose numbers differ by this at most are averaged for the length of the ends."""
+REST_AVERAGED = 0.1
+"""Seconds before and after a frame, over which its speed is the mean."""
+RESTING = 0.25
+"""Share of the mean speed below which there is a rest."""
+NEAR = 0.15
+"""Share of a repetition within which each rest is searched."""
 
 
 @dataclass(frozen=True, eq=False)
 class Movement:
-    """An activity along its path.
+    """A span of a recording as a path of poses.
 
     Attributes
     ----------
     poses : (frames, dims) array
         Smoothed, the mean subtracted.
     middle : (dims,) array
-        That mean, along the path.
+        That mean, each pose weighted by its speed.
     path : (frames + 1,) array
         Length of the path up to each frame, and to the end.
     variance : float
-        Mean square of the poses along the path.
+        Mean square of the poses, weighted alike.
     """
 
     poses: Floats
@@ -113,29 +107,31 @@ class Candidate:
 
     @property
     def cost(self) -> float:
-        length_cost = self.preset.length_cost / self.number
-        return self.unexplained + length_cost
+        return self.unexplained + self.preset.length_cost / self.number
 
     @property
     def number(self) -> float:
         return len(self.visits) - 1 + self.ends
 
     @property
-    def whole(self) -> int:
-        return _whole(self.number)
+    def count(self) -> int:
+        return _rounded(self.number)
 
     def is_chance(self, most: float) -> bool:
-        """Whether the mean of however many repetitions would leave more than ``most`` unexplained.
+        """Whether the mean of many repetitions would leave more than ``most`` unexplained.
 
-        The mean of few others has noise of its own, and explains less: so much, where any two
-        correlate by ``common``.
+        The mean of few others has noise of its own, and explains less. That is allowed for: with
+        the correlation 1 - ``most`` between any two, the mean of these others explains so much.
         """
         common, others = 1 - most, max(self.number - 1, 1)
         explained = common**2 * others / (1 + (others - 1) * common)
         return self.unexplained >= 1 - explained
 
     def cuts(self, count: int) -> Frames | None:
-        """The visits at which one of so many repetitions ends and the next begins."""
+        """The visits at which one of so many repetitions ends and the next begins.
+
+        None if there are too few visits, or more than one too many at either end.
+        """
         spare = len(self.visits) - (count - 1)
         if not 0 <= spare <= 2:
             return None
@@ -143,12 +139,10 @@ class Candidate:
         return self.visits[int(first) : len(self.visits) - (spare - int(first))]
 
 
-def repetitions(
-    features: NDArray[np.float32], start: int, stop: int, preset: KinemeConstants
-) -> Repetitions:
-    """Where the repetitions of an activity begin, at equal phase.
+def repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) -> Frames:
+    """Frames at which the second, third, ... repetition of an activity begins, at equal phase.
 
-    The first begins with the activity, the others where somebody rests, if anywhere.
+    The first begins with the activity, the others at rest if there are rests.
 
     Parameters
     ----------
@@ -157,16 +151,12 @@ def repetitions(
     start, stop : int
         Frames of the activity.
     preset : KinemeConstants
-
-    Returns
-    -------
-    Repetitions
     """
     rows = features[start:stop]
-    along = movement(rows, preset)
-    candidates = _candidates(rows, along, preset)
+    movement = movement_of(rows, preset)
+    candidates = _candidates(rows, movement, preset)
     if not candidates:
-        return Repetitions(np.empty(0, np.int64))
+        return np.empty(0, np.int64)
     best = min(candidates, key=lambda each: each.cost)
     same = [
         each
@@ -174,18 +164,17 @@ def repetitions(
         if each.cost <= best.cost + preset.same_cost
         and abs(each.number - best.number) <= SAME_COUNT
     ]
-    count = _whole(float(np.mean([each.number for each in same])))
+    count = _rounded(float(np.mean([each.number for each in same])))
     divisions = [cuts for each in same if (cuts := each.cuts(count)) is not None]
     if not divisions:
-        count = best.whole
-        divisions = [cuts for cuts in [best.cuts(count)] if cuts is not None]
+        divisions = [cuts for cuts in [best.cuts(best.count)] if cuts is not None]
     lengths = np.diff(np.array(divisions), axis=1, prepend=0, append=len(rows))
     cuts = divisions[lengths.std(axis=1).argmin()]
-    return Repetitions(start + at_rest(cuts, along.path, preset.frames(REST_AVERAGED)))
+    return start + at_rest(cuts, movement.path, preset.frames(REST_AVERAGED))
 
 
-def movement(rows: NDArray[np.float32], preset: KinemeConstants) -> Movement:
-    """An activity along its path."""
+def movement_of(rows: Rows, preset: KinemeConstants) -> Movement:
+    """A span of a recording as a path of poses."""
     poses, speeds = kernels.smoothed(rows, preset.frames(SMOOTHED))
     path = np.append(0, np.cumsum(speeds))
     shares = speeds / max(path[-1], 1e-12)
@@ -194,9 +183,7 @@ def movement(rows: NDArray[np.float32], preset: KinemeConstants) -> Movement:
     return Movement(poses, middle, path, float(shares @ (poses**2).sum(axis=1)))
 
 
-def visits_tried(
-    rows: NDArray[np.float32], movement: Movement, preset: KinemeConstants
-) -> Iterator[Frames]:
+def visits_tried(rows: Rows, movement: Movement, preset: KinemeConstants) -> Iterator[Frames]:
     """Frames at which a pose is visited, once per repetition, of each division that is tried."""
     references = np.unique(np.linspace(0, len(rows) - 1, min(VOTERS, len(rows))).astype(np.int64))
     depths, centers = _dips(rows, references, preset)
@@ -209,30 +196,7 @@ def visits_tried(
             yield from np.sort(centers[clear[falls[clear, column] > 0], : column + 1], axis=1)
 
 
-def _candidates(
-    rows: NDArray[np.float32], movement: Movement, preset: KinemeConstants
-) -> list[Candidate]:
-    """Divisions of an activity into more than one repetition."""
-    found = [
-        candidate(movement, visits, preset, preset.centering)
-        for visits in visits_tried(rows, movement, preset)
-    ]
-    return [each for each in found if each.whole > 1 and not _is_chance(each, movement, preset)]
-
-
-def _is_chance(division: Candidate, movement: Movement, preset: KinemeConstants) -> bool:
-    """Whether its repetitions are alike by chance in how they move, wherever they are.
-
-    Who stands, and leans now to one side, now to the other, repeats nothing.
-    """
-    if preset.centering < 1:
-        division = candidate(movement, division.visits, preset, centering=1.0)
-    return division.is_chance(preset.max_unexplained)
-
-
-def _dips(
-    rows: NDArray[np.float32], references: Frames, preset: KinemeConstants
-) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+def _dips(rows: Rows, references: Frames, preset: KinemeConstants) -> tuple[Rows, Frames]:
     """Depths, 0 to 1, of each reference's dips, deepest first, and where they are."""
     distances = kernels.distances_to(rows, references, 0, len(rows))
     rank = int(DEEP * (len(rows) - 1))
@@ -245,18 +209,80 @@ def _dips(
     return np.maximum(shares - noise, 0), centers
 
 
+def _candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
+    """Divisions of an activity into more than one repetition."""
+    found = [
+        candidate(movement, visits, preset, preset.centering)
+        for visits in visits_tried(rows, movement, preset)
+    ]
+    return [each for each in found if each.count > 1 and not _is_chance(each, movement, preset)]
+
+
+def _is_chance(division: Candidate, movement: Movement, preset: KinemeConstants) -> bool:
+    """Whether its repetitions are similar by chance in how they move, wherever they are.
+
+    Standing and leaning now to one side, now to the other, is no repetition.
+    """
+    if preset.centering < 1:
+        division = candidate(movement, division.visits, preset, centering=1.0)
+    return division.is_chance(preset.max_unexplained)
+
+
 def candidate(
     movement: Movement, visits: Frames, preset: KinemeConstants, centering: float
 ) -> Candidate:
     """The division of an activity at these visits, with its ends."""
-    before, after, ends, unexplained = kernels.judged(
-        movement.poses, movement.path, visits, PLACES,
-        preset.end_distance * movement.variance, FOLLOWED, centering,
-        preset.end_scatter,
-    )  # fmt: skip
+    near, scattered = preset.end_distance * movement.variance, preset.end_scatter
+    before, after, ends, unexplained = kernels.division(
+        movement.poses, movement.path, visits, PLACES, near, FOLLOWED, centering, scattered
+    )
     return Candidate(visits, before, after, ends, unexplained, preset)
 
 
-def _whole(number: float) -> int:
-    """How many repetitions so many are, parts of them included."""
+def _rounded(number: float) -> int:
+    """A number of repetitions in whole ones, parts of them included."""
     return int(number + 1 - ROUNDED_UP)
+
+
+def at_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
+    """The cuts, all moved by the same phase to where movement is slowest.
+
+    They stay where there is no rest, and where the first or the last repetition would be less
+    than half of one.
+
+    Parameters
+    ----------
+    cuts : (cuts,) array of int
+        Frames at which the second, third, ... repetition begins, ascending.
+    path : (frames + 1,) array
+        Length of the path up to each frame, and to the end.
+    averaged : int
+        Frames before and after one, over which its speed is the mean.
+
+    Examples
+    --------
+    >>> path = np.append(0, np.cumsum(np.tile([1.0, 1, 1, 1, 0, 0, 0, 1], 3)))
+    >>> at_rest(np.array([8, 16]), path, 1).tolist()
+    [5, 13]
+    """
+    if not len(cuts):
+        return cuts
+    n = len(path) - 1
+    usual = float(np.median(np.diff(cuts, prepend=0, append=n)))
+    half = usual / 2
+    shifts = np.arange(-int(half), int(half) + 1)
+    shifts = shifts[(cuts[0] + shifts >= half) & (cuts[-1] + shifts <= n - half)]
+    if not len(shifts):
+        return cuts
+    frames = np.arange(n)
+    first, last = np.maximum(frames - averaged, 0), np.minimum(frames + averaged + 1, n)
+    speeds = (path[last] - path[first]) / (last - first)
+    slowness = speeds[cuts[:, None] + shifts].mean(axis=0)
+    if slowness.min() > RESTING * path[-1] / n:
+        return cuts
+    rests = cuts + shifts[slowness.argmin()]
+    reach = int(NEAR * usual)
+    near = np.arange(-reach, reach + 1)
+    around = np.clip(rests[:, None] + near, 1, n - 1)
+    slowest = np.take_along_axis(around, speeds[around].argmin(axis=1)[:, None], axis=1)[:, 0]
+    return slowest if (np.diff(slowest) > 0).all() else rests

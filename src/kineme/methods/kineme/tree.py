@@ -1,16 +1,21 @@
-"""A tree of segments: fine ones joined with their neighbours, the most similar first.
+"""Segments: a tree of fine ones, and the level of it with the shortest description.
 
 1. Fine borders are change points of the distances: the cheapest division into
    segments whose samples are near each other.
 2. The two neighbours whose union costs least are joined, again and again, until
    one segment is left: each number of segments is a level of the tree.
 3. At each level segments are grouped, the nearest clusters first. Their distance is the
-   mean one of their samples, less a share of those within each: where much is going on,
-   no two samples are near each other, whatever they are of.
-4. Means over a second change slowly, so what lies between two activities looks like one of its
-   own: segments of clusters that are too short to be an action are given to their neighbours.
-5. The level and the number of clusters are those of the shortest description of what is
-   left: what samples differ within clusters, and a price for each segment and cluster.
+   mean one of their samples, less a share of the mean distance within each: samples of a varied
+   activity are far from each other, and from those of any other.
+4. Views are means over a second and change slowly, so a change between two activities looks like
+   an activity of its own. Clusters that are shorter than an action are given to their neighbours.
+5. The level and the number of clusters are those of the shortest description: the
+   distances of samples within clusters, and a price for each segment and cluster.
+
+A long recording is cut into equal parts, each of which has the level that it would have alone:
+the shortest description of hours is coarser than that of their minutes, and takes the square of
+the time. Then clusters of different parts are joined, the cheapest first, while a union costs
+less than a cluster does in a part. Clusters of one part stay apart.
 
 Sources: change points after Arlot, Celisse and Harchaoui 2019; bottom-up
 segmentation after Keogh, Chu, Hart and Pazzani 2001; distances of clusters less those
@@ -20,8 +25,9 @@ within are Székely and Rizzo's energy distance (2005) where the share is 1; the
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,28 +37,101 @@ from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.samples import spread
 from kineme.methods.segments import by_first_appearance
 
+if TYPE_CHECKING:
+    from kineme.methods.kineme.constants import KinemeConstants
+    from kineme.methods.kineme.repeating import Repeating
+
 Floats = NDArray[np.float64]
+Rows = NDArray[np.float32]
 Samples = NDArray[np.int64]
 
 PAIRED = 1000
-"""Samples whose distances tell the median one."""
+"""Samples whose distances give the median one."""
 COMPARED = 12_000
 """Samples that stand for all segments of a long recording."""
 LEAST, MOST = 4, 24
 """Samples that stand for one segment."""
+OF_CLUSTER = 64
+"""Samples that stand for one cluster of a part, at most."""
 EACH_LEVEL, LEVELS = 150, 60
 """Levels up to so many segments are tried one by one; of the others so many."""
 
 
+@dataclass(frozen=True, eq=False)
+class Level:
+    """Segments of samples or frames, from the first to the end.
+
+    Attributes
+    ----------
+    fine : (segments + 1,) array
+        Borders of the finest segments.
+    borders : (segments + 1,) array
+    labels : (segments,) array
+        Cluster of each, numbered as they appear.
+    preference : (segments,) array
+        How much nearer each is to its own cluster than to the next, 0 to 1.
+    """
+
+    fine: Samples
+    borders: Samples
+    labels: Samples
+    preference: Floats
+
+    def per_sample(self) -> Samples:
+        """The cluster of each sample."""
+        return np.repeat(self.labels, np.diff(self.borders))
+
+    def in_frames(self, span: slice, preset: KinemeConstants) -> Level:
+        """The level of samples as one of the frames of this part of a recording."""
+
+        def frames(samples: Samples) -> Samples:
+            found = span.start + np.rint(samples * (preset.working_fps / preset.rate))
+            return np.append(found[:-1].astype(np.int64), span.stop)
+
+        return replace(self, fine=frames(self.fine), borders=frames(self.borders))
+
+
+def level_of(features: Rows, preset: KinemeConstants, repeating: Repeating | None = None) -> Level:
+    """The segments of the features at the level of the shortest description.
+
+    Parameters
+    ----------
+    features : (samples, dims) array
+        A view.
+    preset : KinemeConstants
+    repeating : Repeating, optional
+        Gives what a span saves by repeating itself; by default no span saves anything.
+    """
+    unit = median_distance(features, preset.near)
+
+    def saved(start: int, stop: int) -> float:
+        return repeating.saved(features, unit, start, stop) if repeating else 0.0
+
+    cost = preset.samples(preset.fine_cost)
+    fine = fine_borders(features, unit, width=preset.near, cost=cost)
+    sums = between_segments(features, fine, unit)
+    prices = Prices(
+        segment=preset.samples(preset.segment_cost),
+        cluster=preset.samples(preset.cluster_cost),
+        spread_share=preset.spread_share,
+        most_clusters=preset.max_clusters,
+        shortest=round(preset.samples(preset.min_action)),
+    )
+    level = best_level(fine, sums, prices, saved)
+    at = np.searchsorted(fine, level.borders[:-1])
+    preference = preferences(summed(sums, at), np.diff(level.borders), level.labels)
+    return Level(fine, level.borders, level.labels, preference)
+
+
 class Prices(NamedTuple):
-    """What a description costs, in samples at the median distance, and what is told as one.
+    """What a description costs, in samples at the median distance, and limits of clusters.
 
     Attributes
     ----------
     segment, cluster : float
         Of each.
     spread_share : float
-        Of the distances within two clusters, by which these are nearer than their samples.
+        Share of the distances within two clusters that is subtracted from the one between them.
     most_clusters : int
     shortest : int
         Samples of the longest segment of a cluster, at least.
@@ -75,9 +154,9 @@ class Grouped(NamedTuple):
     labels : (segments,) array
         Cluster of each, numbered as they appear.
     cost : float
-        Of its description, by samples that stay alike.
+        Of its description, without what segments save by repeating themselves.
     alone : (segments,) array
-        What the samples of a segment cost, told by themselves: it can save no more by repeating.
+        What each segment costs as a cluster of its own: it can save no more by repeating.
     """
 
     borders: Samples
@@ -86,17 +165,17 @@ class Grouped(NamedTuple):
     alone: Floats
 
 
-def median_distance(features: NDArray[np.float32], width: int) -> float:
+def median_distance(features: Rows, width: int) -> float:
     """The median distance of two samples that are so near in time; 1 where all are equal.
 
-    What is done in an hour differs more than what is done in each of its minutes: of all samples,
-    the distance would tell how long a recording is.
+    An hour varies more than each of its minutes: the median distance of all samples would grow
+    with the length of a recording.
 
     Parameters
     ----------
     features : (samples, dims) array
     width : int
-        Samples.
+        Samples that two are apart, at most.
     """
     from scipy.spatial.distance import pdist
 
@@ -107,7 +186,7 @@ def median_distance(features: NDArray[np.float32], width: int) -> float:
     return middle if middle > 1e-9 else 1.0
 
 
-def fine_borders(features: NDArray[np.float32], unit: float, *, width: int, cost: float) -> Samples:
+def fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Samples:
     """Borders of the segments whose samples are near each other, ends included.
 
     Parameters
@@ -118,7 +197,7 @@ def fine_borders(features: NDArray[np.float32], unit: float, *, width: int, cost
     width : int
         Samples of the longest segment.
     cost : float
-        What a border must gain: samples at that distance.
+        Of a border: samples at that distance.
     """
     similarity = np.empty((len(features), min(width, len(features))), np.float32)
 
@@ -130,7 +209,7 @@ def fine_borders(features: NDArray[np.float32], unit: float, *, width: int, cost
     return borders
 
 
-def between_segments(features: NDArray[np.float32], borders: Samples, unit: float) -> Floats:
+def between_segments(features: Rows, borders: Samples, unit: float) -> Floats:
     """Summed distances of the samples of each two segments, (segments, segments), in units."""
     k = len(borders) - 1
     most = max(LEAST, min(MOST, COMPARED // k))
@@ -140,7 +219,7 @@ def between_segments(features: NDArray[np.float32], borders: Samples, unit: floa
     return np.asarray(sums / unit, np.float64)
 
 
-def mean_distances(features: NDArray[np.float32], groups: Sequence[Samples]) -> Floats:
+def mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
     """Mean distances of the samples of each two groups, (groups, groups)."""
     ends = np.concatenate([[0], np.cumsum([len(group) for group in groups])])
     chosen = np.concatenate(groups)
@@ -198,28 +277,25 @@ def best_level(
         Of `between_segments`.
     prices : Prices
     saved : callable
-        What a segment, from one sample to another, saves by repeating itself. Grouping does not
-        see it: it is taken off the cost of a level, so it decides where segments end.
-
-    Returns
-    -------
-    Grouped
+        Samples that a segment, from one to another, saves by repeating itself. They are subtracted
+        from the cost of a level, and do not change its grouping.
     """
     tree = levels(borders, sums.copy())
     tried = {*range(min(len(tree), EACH_LEVEL))}
     tried |= {int(at) for at in np.geomspace(1, len(tree), LEVELS).astype(np.int64) - 1}
-    found = [grouped(borders[tree[at]], added(sums, tree[at][:-1]), prices) for at in sorted(tried)]
-    known: dict[tuple[int, int], float] = {}
+    chosen = [tree[at] for at in sorted(tried)]
+    found = [grouped(borders[each], summed(sums, each[:-1]), prices) for each in chosen]
+    savings: dict[tuple[int, int], float] = {}
     best, cheapest = found[0], np.inf
     for level in sorted(found, key=lambda level: level.cost - level.alone.sum()):
-        if level.cost - level.alone.sum() >= cheapest:  # nor are those that follow cheaper
+        if level.cost - level.alone.sum() >= cheapest:  # of those that follow none is cheaper
             break
         cost = level.cost
         for span, alone in zip(pairwise(level.borders.tolist()), level.alone, strict=True):
-            if alone > prices.segment:  # what costs less than a segment saves none
-                if span not in known:
-                    known[span] = saved(*span)
-                cost -= min(known[span], alone)
+            if alone > prices.segment:  # to save less would not pay for a border
+                if span not in savings:
+                    savings[span] = saved(*span)
+                cost -= min(savings[span], alone)
         if cost < cheapest:
             best, cheapest = level, cost
     return best
@@ -237,18 +313,13 @@ def grouped(borders: Samples, sums: Floats, prices: Prices) -> Grouped:
     """
     lengths = np.diff(borders).astype(np.float64)
     labels = np.empty(len(lengths), np.int64)
+    most, segment, cluster = prices.most_clusters, prices.segment, prices.cluster
     kernels.cheapest_grouping(
-        sums.copy(),
-        lengths.copy(),
-        prices.most_clusters,
-        prices.segment,
-        prices.cluster,
-        prices.spread_share,
-        labels,
+        sums.copy(), lengths.copy(), most, segment, cluster, prices.spread_share, labels
     )
     labels = without_short(labels, lengths, sums, prices.shortest)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
-    lengths, sums = np.add.reduceat(lengths, first), added(sums, first)
+    lengths, sums = np.add.reduceat(lengths, first), summed(sums, first)
     labels = by_first_appearance(labels[first])
     members = np.eye(int(labels.max()) + 1)[labels]
     within = np.einsum("sc,st,tc->c", members, sums, members) / (2 * lengths @ members)
@@ -259,10 +330,11 @@ def grouped(borders: Samples, sums: Floats, prices: Prices) -> Grouped:
 
 
 def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: float) -> Samples:
-    """Clusters of segments, those of clusters of which no run is that long given to neighbours.
+    """The clusters of segments, where segments of short clusters have that of a neighbour.
 
-    Of those between two that are long enough the first go to the one before and the others to the
-    one after, such that they are nearest to its cluster.
+    A cluster is short if no run of its segments is `shortest` samples long. Of short segments
+    between two others, the first get the cluster before and the rest the cluster after, such that
+    their summed distance to these is least.
 
     Examples
     --------
@@ -275,22 +347,129 @@ def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: floa
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     longest = np.zeros(int(labels.max()) + 1)
     np.maximum.at(longest, labels[first], np.add.reduceat(lengths, first))
-    known = np.flatnonzero(longest[labels] >= shortest)
-    if not len(known):
+    long = np.flatnonzero(longest[labels] >= shortest)
+    if not len(long):
         return np.zeros_like(labels)
     kept = labels.copy()
-    kept[: known[0]], kept[known[-1] :] = labels[known[0]], labels[known[-1]]
+    kept[: long[0]], kept[long[-1] :] = labels[long[0]], labels[long[-1]]
     members = np.eye(len(longest))[labels]
     apart = (sums @ members) / np.maximum(lengths @ members, 1.0)
-    for before, after in pairwise(known.tolist()):
+    for before, after in pairwise(long.tolist()):
         short = slice(before + 1, after)
         gained = apart[short, labels[after]] - apart[short, labels[before]]
-        given = int(np.cumsum([0.0, *-gained]).argmin())
-        kept[before + 1 : before + 1 + given] = labels[before]
-        kept[before + 1 + given : after] = labels[after]
+        border = before + 1 + int(np.cumsum([0.0, *-gained]).argmin())
+        kept[before + 1 : border] = labels[before]
+        kept[border:after] = labels[after]
     return kept
 
 
-def added(sums: Floats, first: Samples) -> Floats:
-    """Sums of segments as those of runs of them that begin at `first`."""
+def summed(sums: Floats, first: Samples) -> Floats:
+    """Sums (segments, segments) added up to those of runs of segments that begin at `first`."""
     return np.asarray(np.add.reduceat(np.add.reduceat(sums, first, 0), first, 1), np.float64)
+
+
+def preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
+    """How much nearer each segment is to its own cluster than to the next, 0 to 1.
+
+    Parameters
+    ----------
+    sums : (segments, segments) array
+        Summed distances of their samples.
+    lengths, labels : (segments,) array
+    """
+    members = np.eye(int(labels.max()) + 1)[labels]
+    means = (sums @ members) / np.outer(lengths, lengths @ members)
+    each = np.arange(len(labels))
+    inside = means[each, labels]
+    means[each, labels] = np.inf
+    return np.asarray(np.clip(1 - inside / np.maximum(means.min(axis=1), 1e-12), 0, 1), np.float64)
+
+
+def part_ends(n: int, longest: int) -> list[int]:
+    """Ends of equal parts of n samples, from 0 to n, none longer than `longest`.
+
+    Examples
+    --------
+    >>> part_ends(10, 4)
+    [0, 3, 7, 10]
+    """
+    count = max(1, -(-n // longest))
+    return [round(n * part / count) for part in range(count + 1)]
+
+
+def linked(
+    features: Rows, at: Samples, parts: Sequence[Level], *, unit: float, price: float
+) -> Level:
+    """The parts one after the other, with clusters that mean the same in all of them.
+
+    Parameters
+    ----------
+    features : (samples, dims) array
+        Of the whole recording.
+    at : (samples,) array
+        The frame of each.
+    parts : sequence of Level
+        In frames.
+    unit : float
+        The distance that counts as 1.
+    price : float
+        Of a cluster in a part: samples at that distance.
+    """
+    if len(parts) == 1:
+        return parts[0]
+    firsts = np.concatenate([[0], np.cumsum([part.labels.max() + 1 for part in parts])])
+    numbers = zip(parts, firsts[:-1], strict=True)
+    labels = np.concatenate([part.labels + number for part, number in numbers])
+    ends = np.concatenate([[0], *(part.borders[1:] for part in parts)])
+    fine = np.concatenate([[0], *(part.fine[1:] for part in parts)])
+    per_sample = labels[np.searchsorted(ends, at, side="right") - 1]
+    groups = [np.flatnonzero(per_sample == cluster) for cluster in range(int(firsts[-1]))]
+    chosen = [group[spread(0, len(group), OF_CLUSTER)] for group in groups]
+    means = mean_distances(features, chosen) / unit
+    sizes = np.bincount(per_sample, minlength=len(means))
+    part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
+    labels = by_first_appearance(link(means, sizes, part_of, price)[labels])
+    first = np.flatnonzero(np.diff(labels, prepend=-1))
+    preference = np.concatenate([part.preference for part in parts])
+    return Level(fine, np.append(ends[first], ends[-1]), labels[first], preference[first])
+
+
+def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Samples:
+    """The clusters of all parts, where those of different parts may be one: a number for each.
+
+    Parameters
+    ----------
+    means : (clusters, clusters) array
+        Mean distances of their samples, in units.
+    sizes : (clusters,) array
+        Samples of each.
+    part_of : (clusters,) array
+        The part that each is of.
+    price : float
+        Of a cluster: two are one where that costs less.
+
+    Examples
+    --------
+    >>> places = np.array([0.0, 1.0, 0.1, 3.0])
+    >>> apart = np.abs(places - places[:, None])
+    >>> link(apart, np.full(4, 10), np.array([0, 0, 1, 1]), price=2.0).tolist()
+    [0, 1, 0, 3]
+    """
+    means, lengths = means.copy(), sizes.astype(np.float64)
+    parts = np.eye(int(part_of.max()) + 1, dtype=bool)[part_of]
+    owner = np.arange(len(means))
+    while True:
+        within = np.diag(means)
+        gaps = means - np.add.outer(within, within) / 2
+        costs = gaps * np.outer(lengths, lengths) / np.maximum(np.add.outer(lengths, lengths), 1)
+        costs[parts @ parts.T] = np.inf
+        a, b = sorted(divmod(int(np.argmin(costs)), len(costs)))
+        if not costs[a, b] < price:
+            return owner
+        share = lengths[b] / (lengths[a] + lengths[b])
+        means[a] += share * (means[b] - means[a])
+        means[:, a] += share * (means[:, b] - means[:, a])
+        lengths[a] += lengths[b]
+        parts[a] |= parts[b]
+        parts[b] = True  # it is part of a, and compared with nothing any more
+        owner[owner == b] = a

@@ -1,18 +1,17 @@
-"""Views: the same statistics of channels in several scales, for no one scale fits all sensors.
+"""Views: the same statistics of channels in several scales, as no one scale fits all sensors.
 
-Two questions have no one answer. What channels share is movement where sensors
-are on both legs, and only where somebody stands where channels are the places
-of joints. And what varies most tells activities apart for some sensors, what
-changes seldom for others. The first and the last view answer both in opposite
-ways, and those between them are the other answers; that of the two is taken
-which all agree with more (`most_agreed`), among them the
-two as half of the channels give them: what hangs on few channels is doubtful.
+A scale has two choices. What channels have in common is movement where sensors are on both legs,
+and only position where channels are positions of joints: it is left in, or reduced. And some
+sensors separate activities by what varies most, others by what changes seldom: statistics are
+divided by one or the other. The first and the last view are opposite in both. The one of these two
+that agrees more with all views is taken (`most_agreed`). Views of half of the channels are among
+these, as an answer that depends on few channels is doubtful.
 
-Where channels are places of joints their velocity counts, too: who sits down and who stands up
-are in the same places.
+Where channels are positions of joints, their velocities are added: sitting down and standing up
+have the same positions.
 
-Rides (`kineme.features.rides`) are one more number of all views: whoever rides does
-something else than who stands, however little of it channels show.
+Rides (`kineme.features.rides`) are one more number of all views: riding in a lift differs from
+standing, however little channels show it.
 """
 
 from __future__ import annotations
@@ -34,19 +33,19 @@ Ints = NDArray[np.int64]
 Labels = NDArray[np.int64]
 
 DIGITS = 9
-"""Agreements that differ less are equal: rounding decides nothing."""
+"""Agreements are equal if so many decimals are: rounding decides nothing."""
 
 STILL = 0.05
 """Least restlessness of a statistic, as a share of that of all of them."""
 VELOCITY_OVER = 0.6
-"""Seconds before and after, between which it is told how joints move."""
+"""Seconds before and after a sample, between which velocities are taken."""
 TINY = 1e-9
 """Deviations below it are rounding."""
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
-    """A recording as it is compared, `preset.rate` times a second.
+class Views:
+    """All views of a recording, `preset.rate` times a second.
 
     Attributes
     ----------
@@ -61,20 +60,20 @@ class Seen:
 
 
 class Scale(NamedTuple):
-    """What a view answers to both questions, see `KinemeConstants`."""
+    """The constants of one view; see `KinemeConstants`."""
 
     shared: float
     weight: float
     restless_over: float
 
 
-def seen(
+def views_of(
     channels: Floats,
     preset: KinemeConstants,
     carried: Floats | None = None,
     *,
     joints: bool = False,
-) -> Seen:
+) -> Views:
     """The statistics of the channels in each of the scales that the preset names.
 
     Parameters
@@ -83,30 +82,26 @@ def seen(
         At the working rate of the preset.
     preset : KinemeConstants
     carried : (frames,) array, optional
-        1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere.
+        1 in a lift upwards, -1 downwards, 0 elsewhere.
     joints : bool
-        Whether channels are places of joints.
-
-    Returns
-    -------
-    Seen
+        Whether channels are of the positions of joints.
     """
     centred = channels - channels.mean(axis=0)
     scaled = np.asarray(centred / _deviations(centred), np.float64)
     scales = [*map(Scale, preset.shared, preset.weights, preset.restless_over)]
-    wanted = [(np.arange(scaled.shape[1]), scale) for scale in scales]
+    requested = [(np.arange(scaled.shape[1]), scale) for scale in scales]
     if len(scales) > 1:
         halves = slow_and_fast(scaled)
-        wanted += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
-    found = _in_scales(scaled, wanted, preset, preset.velocity_weight if joints else 0.0)
+        requested += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
+    found = _in_scales(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
     if carried is not None and carried.any():
         riding = carried[sampled_at(len(carried), preset.working_fps, preset.rate)]
         found = [with_rides(view, riding, preset.ride_weight) for view in found]
-    return Seen(found[: len(scales)], found[len(scales) :])
+    return Views(found[: len(scales)], found[len(scales) :])
 
 
 def with_rides(view: NDArray[np.float32], riding: Floats, weight: float) -> NDArray[np.float32]:
-    """The view with a number more, `weight` times as far apart as all others deviate.
+    """The view with one column more, `weight` times the deviation of all others in a ride.
 
     Examples
     --------
@@ -151,16 +146,16 @@ def slow_and_fast(scaled: Floats) -> list[Ints]:
 
 def _in_scales(
     scaled: Floats,
-    wanted: Sequence[tuple[Ints, Scale]],
+    requested: Sequence[tuple[Ints, Scale]],
     preset: KinemeConstants,
     velocity_weight: float,
 ) -> list[NDArray[np.float32]]:
-    """Statistics of channels, these of them in that scale; with velocities, so many times."""
+    """A view for each request of channels and a scale, with velocities if they have a weight."""
     mixtures = {
         (channels.tobytes(), scale.shared): Mixture(
-            channels, holding_down(scaled[:, channels], scale.shared)
+            channels, common_reduced(scaled[:, channels], scale.shared)
         )
-        for channels, scale in wanted
+        for channels, scale in requested
     }
     mixed = in_mixtures(
         scaled,
@@ -172,12 +167,12 @@ def _in_scales(
     )
     statistics = dict(zip(mixtures, mixed, strict=True))
     found = []
-    for channels, scale in wanted:
-        own = statistics[channels.tobytes(), scale.shared]
+    for channels, scale in requested:
+        values = statistics[channels.tobytes(), scale.shared]
         view = (
-            by_restlessness(own, round(preset.samples(scale.restless_over)), scale.weight)
+            by_restlessness(values, round(preset.samples(scale.restless_over)), scale.weight)
             if scale.restless_over
-            else by_deviation(own, len(channels), scale.weight)
+            else by_deviation(values, len(channels), scale.weight)
         )
         steps = max(1, round(preset.samples(VELOCITY_OVER)))
         weight = velocity_weight
@@ -185,17 +180,17 @@ def _in_scales(
     return found
 
 
-def holding_down(scaled: Floats, most: float) -> Floats | None:
-    """What channels are multiplied by to hold down what they share; None where that is nothing.
+def common_reduced(scaled: Floats, most: float) -> Floats | None:
+    """A matrix that reduces what channels have in common, each with a deviation of 1 as before.
 
-    Each then has a deviation of 1, as before.
+    None where nothing is reduced.
 
     Parameters
     ----------
     scaled : (frames, channels) array
         With a mean of 0 and a deviation of 1, or 0 where nothing changes.
     most : float
-        Largest variance along any direction.
+        Largest variance in any direction of the space of channels.
     """
     if most >= scaled.shape[1]:  # they cannot share more
         return None
@@ -249,14 +244,14 @@ def _deviations(centred: Floats) -> Floats:
 
 
 def most_agreed(answers: Sequence[Labels], others: Sequence[Labels] = ()) -> int:
-    """The first or the last answer: the one that all agree with more; the first of equals.
+    """0 for the first answer or the place of the last: the one with more agreement, or the first.
 
     Parameters
     ----------
     answers : sequence of (samples,) array
         Per answer the cluster of each sample.
     others : sequence of (samples,) array
-        Answers that are asked, too, but cannot be taken.
+        Answers that count, but cannot be taken.
 
     Examples
     --------
@@ -272,7 +267,7 @@ def most_agreed(answers: Sequence[Labels], others: Sequence[Labels] = ()) -> int
 
 
 def mutual_information(first: Labels, second: Labels) -> float:
-    """What two clusterings of the same samples tell of each other, as a share of what they tell.
+    """The mutual information of two clusterings of the same samples, over their mean entropy.
 
     Examples
     --------

@@ -71,14 +71,14 @@ def analyze_regions(
         raise ParameterError("these features have no left and right: they take mirror=False")
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
-    seen = given
+    compared = given
     if preset.bundling is not None:
         from kineme.features.bundling import bundle  # compiled code that few need
 
         with stage("bundling"):
-            seen = bundle(given, neighbors=preset.bundling)
+            compared = bundle(given, neighbors=preset.bundling)
     with stage("neighbors"):
-        graph = _neighbors(seen, None, preset)
+        graph = _neighbors(compared, None, preset)
     with stage("activities"):
         off_diagonal = _growth_graph(graph, preset)
         cuts = _activity_cuts(off_diagonal, preset)
@@ -92,7 +92,7 @@ def analyze_regions(
     symmetry = None
     if preset.mirror and mirror is not None:
         with stage("mirroring"):
-            graph_across = _neighbors(mirror(seen), seen, preset)
+            graph_across = _neighbors(mirror(compared), compared, preset)
             mirrored = _primitives(graph_across, borders, preset)
             cuts_inside = _merged(divided, mirrored, preset)
             symmetry = _symmetry(borders, repeats, divided, mirrored, preset)
@@ -100,7 +100,7 @@ def analyze_regions(
         primitives = _borders(np.concatenate([borders, *cuts_inside]), len(graph))
         clustering = _clusters(graph, primitives, preset)
     return RegionsFound(
-        seen,
+        compared,
         graph,
         cuts,
         borders,

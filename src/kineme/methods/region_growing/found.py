@@ -71,7 +71,7 @@ class RegionsFound:
         )
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:  # noqa: ARG002
-        """None: the published methods do not say how sure they are."""
+        """None: the published methods give no confidence."""
         return []
 
 

@@ -68,7 +68,7 @@ def _distances(paths: WarpingPaths, others: WarpingPaths) -> NDArray[np.float64]
     places = np.concatenate(
         [[-np.inf], 2 * stride * others.rows[order] + others.columns[order], [np.inf]]
     )
-    wanted = 2.0 * stride * paths.rows + paths.columns
-    after = np.searchsorted(places, wanted)
-    nearest: NDArray[np.float64] = np.minimum(wanted - places[after - 1], places[after] - wanted)
+    nodes = 2.0 * stride * paths.rows + paths.columns
+    after = np.searchsorted(places, nodes)
+    nearest: NDArray[np.float64] = np.minimum(nodes - places[after - 1], places[after] - nodes)
     return nearest
