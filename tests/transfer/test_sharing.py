@@ -47,6 +47,7 @@ def test_what_was_not_there_before_is_numbered_on() -> None:
     assert new
     assert min(new) == max(known) + 1
     assert len(set(second.table.cluster.tolist())) == len(set(found[1].table.cluster.tolist()))
+    assert (second.table.action == second.activities.cluster[second.table.activity]).all()
 
 
 def test_walking_is_one_cluster_in_all_takes_of_a_subject(data_dir: Path) -> None:

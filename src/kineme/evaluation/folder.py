@@ -15,8 +15,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-
 from kineme._version import __version__
 from kineme.errors import EndEffectorError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
@@ -24,6 +22,7 @@ from kineme.evaluation.recordings import Answer, Job, Reading, Sides, answers_to
 from kineme.evaluation.score import Ratio, over_all, results_of, scores, value_of
 from kineme.labels.collections import LabelSource
 from kineme.recordings.motion import Motion
+from kineme.segments.editing.rows import renumbered
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.sharing import share_clusters
 from kineme.transfer.vocabulary import share_by_samples
@@ -248,7 +247,7 @@ def _joined(
         sides = [s for i in rows if (s := answers[i][1].sides) is not None]
         shared = _of_one_kind(jobs, sides, n_clusters)
         for i, side, one in zip(rows, sides, shared, strict=True):
-            found[i] = side, _from(one, following)
+            found[i] = side, _numbered_on(one, following)
         following += 1 + max(int(one.table.cluster.max()) for one in shared)
     return dict(sorted(found.items()))
 
@@ -271,14 +270,11 @@ def _all_apart(segmentations: Sequence[Segmentation]) -> list[Segmentation]:
     """Clusters of different recordings by different numbers."""
     apart, following = [], 0
     for found in segmentations:
-        apart.append(_from(found, following))
+        apart.append(_numbered_on(found, following))
         following += 1 + int(found.table.cluster.max())
     return apart
 
 
-def _from(found: Segmentation, first: int) -> Segmentation:
+def _numbered_on(found: Segmentation, first: int) -> Segmentation:
     """The same with clusters numbered from a number on."""
-    table = found.table
-    cluster, action = (np.where(c >= 0, c + first, c) for c in (table.cluster, table.action))
-    changed = table.with_columns(cluster=cluster, action=action)
-    return replace(found, table=changed, hierarchy=None)
+    return renumbered(found, {c: c + first for c in found.table.cluster.tolist() if c >= 0})

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
+from kineme.segments.editing.rows import renumbered
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.channel_samples import channel_samples
 from kineme.transfer.features import transfer_features
@@ -103,10 +104,9 @@ def _numbered_on(
             if cluster not in numbers:
                 numbers[cluster] = following if base else cluster
                 following = max(following, numbers[cluster]) + 1
-        renumbered = _renumbered(found, numbers)
-        shared.append(renumbered)
+        shared.append(renumbered(found, numbers))
         if old:
-            named = _named_by_cluster(renumbered)
+            named = _named_by_cluster(shared[-1])
             examples = KnowledgeBase.from_recording(motion, named)
             base = base + examples if base else examples
     return shared
@@ -131,11 +131,6 @@ def _numbers_before(
         if number not in numbers.values():
             numbers[cluster] = number
     return numbers
-
-
-def _renumbered(found: Segmentation, numbers: dict[int, int]) -> Segmentation:
-    clusters = np.array([numbers.get(c, -1) for c in found.table.cluster.tolist()], np.int64)
-    return replace(found, table=found.table.with_columns(cluster=clusters), hierarchy=None)
 
 
 def _named_by_cluster(found: Segmentation) -> Segmentation:

@@ -30,7 +30,16 @@ from kineme.segments.editing.annotating import (
     with_marked,
 )
 from kineme.segments.editing.naming import cluster_names, name_cluster, with_cluster_names
-from kineme.segments.editing.rows import Rows, adopted, cut, cuts, joined, length, with_rows
+from kineme.segments.editing.rows import (
+    Rows,
+    adopted,
+    cut,
+    cuts,
+    joined,
+    length,
+    renumbered,
+    with_rows,
+)
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
 
@@ -111,11 +120,10 @@ def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
     match = _matching_clusters(before, found)
     used = set(before.table.cluster.tolist())
     free = (number for number in count() if number not in used)
-    number = {-1: -1}
+    number = {}
     for cluster in sorted(set(found.table.cluster.tolist()) - {-1}):
         number[cluster] = match[cluster] if cluster in match else next(free)
-    rows = [replace(row, cluster=number[row.cluster]) for row in found]
-    return with_rows(found, rows, [])
+    return renumbered(found, number)
 
 
 def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from typing import get_args
 
 from kineme.errors import ParameterError
@@ -14,7 +13,14 @@ from kineme.segments.editing.naming import (
     names_by_cluster,
     with_cluster_names,
 )
-from kineme.segments.editing.rows import as_movement, as_transition, joined, starting, with_rows
+from kineme.segments.editing.rows import (
+    as_movement,
+    as_transition,
+    joined,
+    renumbered,
+    starting,
+    with_rows,
+)
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
 
@@ -181,11 +187,10 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
     present = sorted(set(segmentation.table.cluster.tolist()) - {-1})
     if sorted(order) != present:
         raise ParameterError(f"name each cluster once: {', '.join(map(str, present))}")
-    new = {cluster: number for number, cluster in enumerate(order)} | {-1: -1}
+    new = {cluster: number for number, cluster in enumerate(order)}
     names = names_by_cluster(segmentation)
-    rows = [replace(row, cluster=new[row.cluster]) for row in segmentation]
     renamed = {new[cluster]: name for cluster, name in names.items()}
-    return with_cluster_names(with_rows(segmentation, rows, []), renamed)
+    return with_cluster_names(renumbered(segmentation, new), renamed)
 
 
 def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -> Segmentation:

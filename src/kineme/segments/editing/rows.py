@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -139,3 +139,12 @@ def with_rows(
         timings=segmentation.timings,
         annotation=segmentation.annotation,
     )
+
+
+def renumbered(segmentation: Segmentation, numbers: Mapping[int, int]) -> Segmentation:
+    """The same segments, whose clusters have these numbers; those without one are in none."""
+    table = segmentation.table
+    clusters = np.array([numbers.get(c, -1) for c in table.cluster.tolist()], np.int64)
+    actions = clusters[table.level == "activity"][table.activity]
+    changed = table.with_columns(cluster=clusters, action=actions)
+    return replace(segmentation, table=changed, hierarchy=None)
