@@ -12,6 +12,8 @@ from kineme.cli.on_demand import on_demand
 COMMANDS = (
     "segment",
     "presets",
+    "cycles",
+    "events",
     "split",
     "report",
     "studio",

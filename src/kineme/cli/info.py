@@ -29,6 +29,14 @@ def info(
     joints: Annotated[
         bool, typer.Option("--joints", help="Show the tree of joints.", rich_help_panel=OUTPUT)
     ] = False,
+    channels: Annotated[
+        bool,
+        typer.Option(
+            "--channels",
+            help="Show what kineme cycles can measure, and from which joints.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = False,
     recursive: Recursive = False,
     json: Json = False,
     effectors: Effectors = None,
@@ -41,6 +49,8 @@ def info(
         with batch.caught(path):
             recording = request.read(path)
             facts = _facts(recording, request.effectors)
+            if channels:
+                facts["measures"] = _measures(recording)
             if json:
                 typer.echo(dumps(facts))
             else:
@@ -66,6 +76,16 @@ def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
     if isinstance(recording, Motion):
         return _with_body(facts, recording, effectors)
     return facts | {"channels": list(recording.names)}
+
+
+def _measures(recording: Motion | Signals) -> list[Facts]:
+    """What can be measured in a recording: see `kineme.cycles.channels_of`."""
+    from kineme.cycles.channels import channels_of
+
+    return [
+        {"name": each.name, "unit": each.unit, "group": each.group, "source": each.source}
+        for each in channels_of(recording, ["*"])
+    ]
 
 
 def _with_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
@@ -117,7 +137,20 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
             "channels": f"{len(names)}, below" if many else f"{len(names)}: {', '.join(names)}",
         }
         below = columns_of(names) if many else None
+    if "measures" in facts:
+        below = _listed(facts["measures"])
     show_facts(facts, lines | {"SHA-256": facts["sha256"]}, below=below)
+
+
+def _listed(measures: list[Facts]) -> Any:
+    from kineme.cli.tables import new_table
+
+    table = new_table("channel", "unit", "group", "from")
+    for column in table.columns:
+        column.justify = "left"
+    for each in measures:
+        table.add_row(*map(str, each.values()))
+    return table
 
 
 def _tree(motion: Motion) -> Any:
