@@ -9,7 +9,10 @@ move to where the recording about them is most similar to the mean of all border
 2. *Between two frames.* The template is the mean of the recording about all inner borders; each
    border moves to the place where the squared difference to it is least, found between samples by
    a parabola. Both are repeated; the mean of all moves is taken out, so that the phase stays.
-3. *Uncertainty.* The deviation of that place: the differences that are left, weighed by the slope
+3. *One place for all readings.* All borders move to the middle of the rest in which they lie, else
+   to where the main movement of the mean cycle turns back, at the nearest such place: a squat
+   begins at its top, a step at the end of a swing.
+4. *Uncertainty.* The deviation of that place: the differences that are left, weighed by the slope
    of the template, summed over blocks of the window, within which they may hang together.
 
 At the first and the last border of a run only the half of the window that lies inside it counts.
@@ -33,6 +36,8 @@ FARTHEST = 0.12
 """Of a cycle: as far a border moves in the first of these steps; half as far in each next one."""
 SIMILAR, BETTER = 0.7, 0.1
 """Correlation of two mean cycles of one phase, and how much more that must be than before."""
+RESTING = 0.2
+"""Of the speed of a mean cycle, the root of its mean square: what is slower rests."""
 BLOCKS = 6
 DOUBT = 2.0
 """By this the deviation is multiplied: the sum over blocks leaves out by how much repetitions
@@ -81,7 +86,7 @@ class Run:
         lengths = (np.diff(self.borders) + self.period) / 2
         before = lengths[max(border - 1, 0)]
         after = lengths[min(border, len(lengths) - 1)]
-        return offsets * np.where(offsets < 0, before, after)
+        return np.asarray(offsets * np.where(offsets < 0, before, after))
 
 
 def run_of(recording: int, borders: Floats) -> Run:
@@ -133,7 +138,33 @@ def in_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> lis
             for new, old in zip(moved, runs, strict=True)
         ])))  # fmt: skip
         runs = [replace(run, borders=run.borders - drift * run.period) for run in moved]
-    return runs
+    by = _to_landmark(runs, features, rates)
+    return [replace(run, borders=run.borders + by * run.period) for run in runs]
+
+
+def _to_landmark(runs: list[Run], features: list[Floats], rates: list[float]) -> float:
+    """By how much of a cycle later borders lie at a place that every reading can find again.
+
+    Where the mean cycle stands still, that is the middle of its rest. Else it is the nearest place
+    at which its main movement, the first principal component, turns back.
+    """
+    repeated = [run for run in runs if len(run.borders) > 2]
+    mean = sum(_mean_cycle(run, features, rates) * (len(run.borders) - 1) for run in repeated)
+    centred = np.asarray(mean) - np.mean(mean, axis=0)
+    change = np.roll(centred, -1, axis=0) - np.roll(centred, 1, axis=0)
+    speed = np.linalg.norm(change, axis=1)
+    moves = np.flatnonzero(speed > RESTING * np.sqrt(np.mean(speed**2)))
+    if len(moves) == 0:
+        return 0.0
+    if moves[0] > 0 and moves[-1] < POINTS - 1:  # the border lies in a rest
+        return float(_wrapped((moves[0] + moves[-1] - POINTS) / 2 / POINTS))
+    main = centred @ np.linalg.svd(centred, full_matrices=False)[2][0]
+    slope = np.roll(main, -1) - np.roll(main, 1)
+    after = np.roll(slope, -1)
+    turns = np.flatnonzero(np.signbit(slope) != np.signbit(after))
+    shares = slope[turns] / (slope[turns] - after[turns])
+    places = [_wrapped(place) for place in ((turns + shares) / POINTS).tolist()]
+    return float(min(places, key=abs, default=0.0))
 
 
 def _turned(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:

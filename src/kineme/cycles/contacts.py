@@ -36,6 +36,8 @@ SMOOTH_S = 0.015
 """A gyroscope is smoothed by a normal curve that deviates by this, in seconds."""
 OFF, ON = 0.62, 0.63
 """Shares of the fastest turn before and after a swing at which the foot leaves and comes down."""
+HIGH, APART_S = 0.4, 0.3
+"""Of the fastest turn forward: what is faster is a swing; seconds between two of them, at least."""
 FIRST = 0.3
 """Of a movement, in which the heel rises."""
 LOW, SLOW = 0.04, 0.8
@@ -92,10 +94,27 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     rises = sum(float(pitch[a : a + max(1, int(FIRST * (b - a)))].sum()) for a, b in moves)
     if rises > 0:
         pitch = -pitch  # the heel rises with a negative turn, the foot swings with a positive one
-    found = [(a, _swing(pitch[a:b])) for a, b in moves]
+    parts = [part for a, b in moves for part in _parts(pitch, a, b, fps)]
+    found = [(a, _swing(pitch[a:b])) for a, b in parts]
     swings = [(a + each[0], a + each[1]) for a, each in found if each is not None]
     seconds = np.array(swings, np.float64).reshape(-1, 2) / fps
     return seconds[np.diff(seconds, axis=1)[:, 0] >= SWING_S]
+
+
+def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, int]]:
+    """A movement, parted where the foot stands too shortly to be seen standing.
+
+    There are two swings where two turns forward are `APART_S` from each other.
+    """
+    forward = _spans(pitch[start:stop] > HIGH * pitch[start:stop].max(initial=0.0))
+    cuts = [start]
+    for (_, before), (after, _) in pairwise(forward):
+        if after - before >= APART_S * fps:
+            turning = np.abs(pitch[start + before : start + after])
+            width = max(1, round(FLAT_S * fps))
+            steady = np.convolve(turning, np.ones(width) / width, "valid")
+            cuts.append(start + before + int(steady.argmin()) + width // 2)
+    return [*pairwise([*cuts, stop])]
 
 
 def _swing(pitch: Floats) -> tuple[float, float] | None:
