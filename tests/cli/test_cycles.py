@@ -47,12 +47,18 @@ def test_several_recordings_are_measured_together(kineme, take: Path, tmp_path: 
         shutil.copy(tmp_path / "truth.json", tmp_path / "tables" / f"{name}.json")
     done = kineme(
         "cycles", "take.bvh", "other.bvh", "--segments", "tables/{name}.json", "-o", "c.csv",
-        "--channels", "knee_l", "-q",
+        "--channels", "knee_l", "-q", "--compare", "both.csv",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     rows = rows_of(tmp_path / "c.csv")
     assert {row["recording"] for row in rows} == {"take", "other"}
     assert len({row["group"] for row in rows}) == 6
+    compared = rows_of(tmp_path / "both.csv")
+    assert (compared[0]["group"], compared[0]["measure"]) == ("walk", "duration_s")
+    assert float(compared[0]["difference"]) == pytest.approx(0, abs=1e-9)
+    assert (tmp_path / "both.curves.csv").exists()
+    alone = kineme("cycles", "take.bvh", "--compare", "both.csv")
+    assert alone.returncode == 2
 
 
 def test_an_anchor_begins_each_cycle(kineme, take: Path) -> None:

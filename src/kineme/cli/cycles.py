@@ -13,7 +13,7 @@ from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import PresetName
 from kineme.cli.options.reading import Quiet, with_reading_options
 from kineme.cli.options.request import Request
-from kineme.errors import KinemeError
+from kineme.errors import KinemeError, ParameterError
 from kineme.methods.presets import DEFAULT
 
 if TYPE_CHECKING:
@@ -41,8 +41,13 @@ def cycles(
     ] = None,
     plot: Annotated[
         Path | None,
+        typer.Option(help="Draw mean curves: .png, .pdf or .svg.", rich_help_panel=OUTPUT),
+    ] = None,
+    compare: Annotated[
+        Path | None,
         typer.Option(
-            help="Draw the mean curve of each channel: .png, .pdf or .svg.", rich_help_panel=OUTPUT
+            help="Write the second of two recordings beside the first: .csv or .parquet.",
+            rich_help_panel=OUTPUT,
         ),
     ] = None,
     channels: Annotated[
@@ -102,15 +107,16 @@ def cycles(
 ) -> None:
     """Measure each repetition: its duration, how far each joint went, mean curves.
 
-    Borders are moved between frames, to where repetitions are at equal phase. Means are over
-    inner repetitions. Several recordings are measured together.
+    Borders are moved to equal phase. Several recordings are measured together.
     """
     from kineme.cycles.measure import cycles as measured
 
     request = Request.of(preset, reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
-    _check_targets(output, plot)
+    _check_targets(output, plot, compare)
+    if compare is not None and len(batch.paths) != 2:
+        raise typer.BadParameter("takes two recordings", param_hint="--compare")
     recordings: list[Motion | Signals] = []
     tables: list[Segmentation] = []
     for path, table in zip(batch.paths, batch.tables("--segments", segments), strict=True):
@@ -127,22 +133,28 @@ def cycles(
                 found.write(output, ends=ends)
             if plot is not None:
                 _draw(found, plot, ends=ends)
+            if compare is not None:
+                _compare(found, compare, ends=ends)
         except KinemeError as error:
             from kineme.cli.messages import one_line, say_error
 
             say_error(one_line(error))
             raise typer.Exit(1) from error
         if not quiet:
-            _show(found, ends=ends, written=[output, plot])
+            _show(found, ends=ends, written=[output, plot, compare])
     batch.exit()
 
 
-def _check_targets(output: Path | None, plot: Path | None) -> None:
+def _check_targets(output: Path | None, plot: Path | None, compare: Path | None) -> None:
     """typer.BadParameter for a file that could not be written, before any work is done."""
     from kineme.cli.options.targets import PICTURES
     from kineme.cycles.export import SUFFIXES
 
-    for option, path, suffixes in (("--output", output, SUFFIXES), ("--plot", plot, PICTURES)):
+    for option, path, suffixes in (
+        ("--output", output, SUFFIXES),
+        ("--plot", plot, PICTURES),
+        ("--compare", compare, (".csv", ".parquet")),
+    ):
         if path is not None and path.suffix.lower() not in suffixes:
             raise typer.BadParameter(f"{path} must end in {', '.join(suffixes)}", param_hint=option)
 
@@ -163,6 +175,19 @@ def _excluded(cycles: Cycles, rules: list[str]) -> Cycles:
                 ) from None
             cycles = cycles.exclude(rows)
     return cycles
+
+
+def _compare(cycles: Cycles, path: Path, *, ends: bool) -> None:
+    """Write what changed from the first recording to the second: numbers, curves beside them."""
+    from kineme.cycles import compare_curves, compare_sessions, write_table
+
+    names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
+    if len(names) < 2:
+        raise ParameterError("there are no repetitions in both recordings to compare")
+    first, second = (cycles.select(cycles.columns["recording"] == name) for name in names)
+    write_table(compare_sessions(first, second, ends=ends), path)
+    curves = compare_curves(first, second, ends=ends)
+    write_table(curves, path.with_suffix(f".curves{path.suffix}"))
 
 
 def _draw(cycles: Cycles, path: Path, *, ends: bool) -> None:

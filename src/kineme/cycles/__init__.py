@@ -18,6 +18,7 @@ from kineme.cycles.events import Events, foot_events, gait
 from kineme.cycles.export import write_cycles, write_table
 from kineme.cycles.landmarks import landmarks
 from kineme.cycles.measure import cycles
+from kineme.cycles.sessions import compare_curves, compare_sessions
 from kineme.cycles.table import Cycles
 
 __all__ = [
@@ -28,6 +29,8 @@ __all__ = [
     "between",
     "cardan",
     "channels_of",
+    "compare_curves",
+    "compare_sessions",
     "cycles",
     "foot_events",
     "gait",

@@ -84,6 +84,37 @@ class Cycles:
         """The groups, in the order of their first cycle."""
         return list(dict.fromkeys(self.columns["group"].tolist()))
 
+    def select(self, rows: NDArray[np.bool_]) -> Cycles:
+        """Some of the cycles, such as those of one recording.
+
+        Parameters
+        ----------
+        rows : (cycles,) array of bool
+
+        Returns
+        -------
+        Cycles
+
+        Raises
+        ------
+        ParameterError
+            No mask of as many cycles.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> motion = kineme.read(kineme.bundled_recording())
+        >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
+        >>> cycles.select(cycles.columns["group"] == "squat")
+        <Cycles: 4 of 1 group, 12 channels>
+        """
+        mask = np.asarray(rows)
+        if mask.dtype != bool or mask.shape != (len(self),):
+            raise ParameterError(f"rows are chosen by a mask of {len(self)} cycles")
+        columns = {name: column[mask] for name, column in self.columns.items()}
+        return replace(self, columns=columns, curves=self.curves[mask])
+
     def used(self, *, ends: bool = False) -> NDArray[np.bool_]:
         """Which cycles count in means: the inner ones that nothing excludes.
 
