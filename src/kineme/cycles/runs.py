@@ -22,7 +22,8 @@ PAUSE_S = 0.5
 STILL = 0.1
 """Of the speed of a cluster, the root of its mean square: what is slower stands still."""
 OUTSIDE = 0.25
-"""Of a cycle: a repetition that is farther outside of its activity is not complete."""
+"""Of a cycle: a repetition that is farther outside of its activity is not complete, nor is one at
+its ends that lacks more."""
 
 
 @dataclass(frozen=True)
@@ -141,6 +142,8 @@ def _each(run: Run, segments: Sequence[Segment], table: Segmentation) -> list[Re
             start, stop = max(start, least), min(stop, most)
         start, stop = min(max(start, 0.0), end), min(max(stop, 0.0), end)
         first, last = i == 0, i == n - 1
+        if first or last:
+            complete &= stop - start >= (1 - OUTSIDE) * run.period
         place = "only" if first and last else "first" if first else "last" if last else "inner"
         found.append(
             Repetition(
