@@ -53,7 +53,7 @@ def test_excel_reads_equal_sheets(cycles, tmp_path: Path) -> None:
         column = cycles.columns[name]
         if column.dtype.kind == "f":
             values = [np.nan if cell is None else cell for cell in cells]
-            np.testing.assert_array_equal(np.array(values, float), column)
+            np.testing.assert_allclose(np.array(values, float), column, rtol=1e-14)
         else:
             assert [cell if cell is not None else "" for cell in cells] == column.tolist()
 
