@@ -27,7 +27,7 @@ def test_wherever_the_grid_had_them_borders_come_to_the_same_places(offsets: lis
     features, true = swing([1.0, 1.1, 0.95, 1.0, 1.05, 0.9, 1.0, 1.0])
     (run,) = in_phase([run_of(0, true[1:7] + offsets)], [features], [RATE])
     apart = run.borders[1:-1] - true[2:6]
-    assert np.ptp(apart) < 0.01  # at one phase, whichever that is
+    assert np.ptp(apart) < 0.015  # at one phase, whichever that is
     (exact,) = in_phase([run_of(0, true[1:7])], [features], [RATE])
     assert np.allclose(run.borders[1:-1], exact.borders[1:-1], atol=0.01)
 

@@ -21,6 +21,7 @@ At the first and the last border of a run only the half of the window that lies 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,10 +66,15 @@ class Run:
     uncertainty: Floats
     turned: float = 0.0
 
-    @property
+    @cached_property
     def period(self) -> float:
         """Seconds of a repetition, the median."""
         return float(np.median(np.diff(self.borders)))
+
+    @cached_property
+    def lengths(self) -> Floats:
+        """Seconds of each repetition, halfway to the median."""
+        return (np.diff(self.borders) + self.period) / 2
 
     def at(self, cycles: Floats) -> Floats:
         """The seconds at which so many cycles are done; beyond its ends at its own period."""
@@ -83,9 +89,8 @@ class Run:
         Their lengths count by half, the period of the run by the other half: a window follows the
         pace, and does not run away where borders are not right yet.
         """
-        lengths = (np.diff(self.borders) + self.period) / 2
-        before = lengths[max(border - 1, 0)]
-        after = lengths[min(border, len(lengths) - 1)]
+        before = self.lengths[max(border - 1, 0)]
+        after = self.lengths[min(border, len(self.lengths) - 1)]
         return np.asarray(offsets * np.where(offsets < 0, before, after))
 
 

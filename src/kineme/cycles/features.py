@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from math import ceil
 
 import numpy as np
@@ -17,10 +19,40 @@ RATE = 250.0
 """Samples per second, at most: what is faster is averaged."""
 SMOOTH_S = 0.02
 """Signals are smoothed by a normal curve that deviates by this."""
+STEADY_S = 0.08
+"""Features are, before their speed is taken, so that noise is no movement."""
 
 
-def fine_features(recording: Motion | Signals) -> tuple[Floats, float, bool]:
+@dataclass(frozen=True)
+class FineFeatures:
     """Features of a recording at its rate, or at most `RATE`.
+
+    Attributes
+    ----------
+    values : (samples, dims) array
+    rate : float
+        Samples per second.
+    comparable : bool
+        Whether those of another recording of as many dimensions can be compared with them.
+    """
+
+    values: Floats
+    rate: float
+    comparable: bool
+
+    @cached_property
+    def speed(self) -> Floats:
+        """How fast they change, per second, smoothed."""
+        from scipy.ndimage import gaussian_filter1d
+
+        if len(self.values) < 2:
+            return np.zeros(len(self.values))
+        steady = gaussian_filter1d(self.values, STEADY_S * self.rate, axis=0, mode="nearest")
+        return np.asarray(np.linalg.norm(np.gradient(steady, axis=0), axis=1) * self.rate)
+
+
+def fine_features(recording: Motion | Signals) -> FineFeatures:
+    """The pose of a body, distances between its points where it has none, or all channels.
 
     Parameters
     ----------
@@ -28,48 +60,34 @@ def fine_features(recording: Motion | Signals) -> tuple[Floats, float, bool]:
 
     Returns
     -------
-    features : (samples, dims) array
-    rate : float
-        Samples per second.
-    comparable : bool
-        Whether those of another recording of as many dimensions can be compared with them.
+    FineFeatures
     """
-    if isinstance(recording, Signals):
-        return *_of_signals(recording), True
     many = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
+    rate = recording.fps / many
+    if isinstance(recording, Signals):
+        return FineFeatures(_of_signals(recording, many), rate, comparable=True)
     try:
-        return _averaged(pose_features(recording), many), recording.fps / many, True
+        return FineFeatures(_averaged(pose_features(recording), many), rate, comparable=True)
     except (EndEffectorError, MotionError):
-        if recording.skeleton.n_joints < 2:
-            return _averaged(recording.positions[:, 0], many), recording.fps / many, False
-        found = distance_features(recording.positions)[0]
-        return _averaged(found, many), recording.fps / many, False
+        single = recording.skeleton.n_joints < 2
+        positions = recording.positions
+        found = positions[:, 0] if single else distance_features(positions)[0]
+        return FineFeatures(_averaged(found, many), rate, comparable=False)
 
 
-def _of_signals(signals: Signals) -> tuple[Floats, float]:
+def _of_signals(signals: Signals, many: int) -> Floats:
     from scipy.ndimage import gaussian_filter1d
 
-    many = ceil(signals.fps / RATE) // 2 * 2 + 1 if signals.fps > RATE else 1
     values, rate = _averaged(signals.values, many), signals.fps / many
     deviation = values.std(axis=0)
     scaled = (values - values.mean(axis=0)) / np.where(deviation > 0, deviation, 1)
-    return gaussian_filter1d(scaled, SMOOTH_S * rate, axis=0, mode="nearest"), rate
+    return np.asarray(gaussian_filter1d(scaled, SMOOTH_S * rate, axis=0, mode="nearest"))
 
 
 def _averaged(values: Floats, many: int) -> Floats:
-    """The mean of every so many frames, centred on the first of them; the last may be of fewer."""
+    """The mean of the frames about every so many; the last may be of fewer."""
     if many == 1:
         return values
     from scipy.ndimage import uniform_filter1d
 
     return np.asarray(uniform_filter1d(values, many, axis=0, mode="nearest")[::many])
-
-
-def speeds(features: Floats, rate: float, smooth_s: float = 0.08) -> Floats:
-    """How fast features change, per second, smoothed."""
-    from scipy.ndimage import gaussian_filter1d
-
-    if len(features) < 2:
-        return np.zeros(len(features))
-    steady = gaussian_filter1d(features, smooth_s * rate, axis=0, mode="nearest")
-    return np.asarray(np.linalg.norm(np.gradient(steady, axis=0), axis=1) * rate)

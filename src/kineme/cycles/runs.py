@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.cycles.borders import Run, in_phase, run_of
-from kineme.cycles.features import fine_features, speeds
+from kineme.cycles.features import FineFeatures, fine_features
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
@@ -68,9 +68,6 @@ class Repetition:
     missing: str = ""
 
 
-Fine = tuple[Floats, float, bool]
-
-
 def repetitions(
     recordings: Sequence[Motion | Signals],
     tables: Sequence[Segmentation],
@@ -89,19 +86,18 @@ def repetitions(
     fine = [fine_features(recording) for recording in recordings]
     members: dict[Hashable, list[tuple[Run, list[Segment]]]] = defaultdict(list)
     for number, table in enumerate(tables):
-        features, _, comparable = fine[number]
+        dims, comparable = fine[number].values.shape[1], fine[number].comparable
         for segments in _back_to_back(table):
             frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
             run = run_of(number, np.array(frames) / table.fps)
             cluster = segments[0].cluster
             alone = id(run) if cluster < 0 else -1 if comparable else number
             group = groups[number].get(cluster, cluster)
-            members[group, features.shape[1], alone].append((run, segments))
+            members[group, dims, alone].append((run, segments))
     found: list[Repetition] = []
+    features, rates = [each.values for each in fine], [each.rate for each in fine]
     for runs in members.values():
-        aligned = in_phase(
-            [run for run, _ in runs], [f for f, _, _ in fine], [r for _, r, _ in fine]
-        )
+        aligned = in_phase([run for run, _ in runs], features, rates)
         still = _stillness(aligned, fine)
         for run, (_, segments) in zip(aligned, runs, strict=True):
             each = _each(run, segments, tables[run.recording])
@@ -162,30 +158,29 @@ def _each(run: Run, segments: Sequence[Segment], table: Segmentation) -> list[Re
     return found
 
 
-def _stillness(runs: Sequence[Run], fine: Sequence[Fine]) -> float:
+def _stillness(runs: Sequence[Run], fine: Sequence[FineFeatures]) -> float:
     """The speed below which repetitions of these runs stand still."""
     total, count = 0.0, 0
     for run in runs:
-        features, rate, _ = fine[run.recording]
+        rate = fine[run.recording].rate
         frames = slice(max(0, int(run.borders[0] * rate)), int(run.borders[-1] * rate) + 1)
-        speed = speeds(features[frames], rate)
+        speed = fine[run.recording].speed[frames]
         total, count = total + float(np.square(speed).sum()), count + len(speed)
     return STILL * float(np.sqrt(total / max(count, 1)))
 
 
-def _without_pauses(run: list[Repetition], fine: Fine, still: float) -> list[Repetition]:
+def _without_pauses(run: list[Repetition], fine: FineFeatures, still: float) -> list[Repetition]:
     """The repetitions of a run, from where movement begins to where it ends.
 
     Standing still counts as a pause where it lasts `PAUSE_S`, on both sides of a border together.
     """
-    features, rate, _ = fine
     trimmed = list(run)
     for i, each in enumerate(run):
         following = run[i + 1] if i + 1 < len(run) else None
-        begins, ends = _movement(each, features, rate, still)
+        begins, ends = _movement(each, fine, still)
         if i == 0 and begins - each.start >= PAUSE_S:
             trimmed[0] = replace(trimmed[0], start=begins)
-        until = each.stop if following is None else _movement(following, features, rate, still)[0]
+        until = each.stop if following is None else _movement(following, fine, still)[0]
         if ends > trimmed[i].start and until - ends >= PAUSE_S:
             trimmed[i] = replace(trimmed[i], stop=ends)
             if following is not None and until < following.stop:
@@ -193,13 +188,13 @@ def _without_pauses(run: list[Repetition], fine: Fine, still: float) -> list[Rep
     return trimmed
 
 
-def _movement(each: Repetition, features: Floats, rate: float, still: float) -> tuple[float, float]:
+def _movement(each: Repetition, fine: FineFeatures, still: float) -> tuple[float, float]:
     """When the first and the last movement of a repetition are; its ends where there is none."""
-    first, last = int(np.ceil(each.start * rate)), int(each.stop * rate) + 1
-    moves = np.flatnonzero(speeds(features[max(first, 0) : last], rate) > still)
+    first = max(0, int(np.ceil(each.start * fine.rate)))
+    moves = np.flatnonzero(fine.speed[first : int(each.stop * fine.rate) + 1] > still)
     if len(moves) == 0:
         return each.start, each.stop
-    begins, ends = (max(first, 0) + moves[[0, -1]]) / rate
+    begins, ends = (first + moves[[0, -1]]) / fine.rate
     return max(each.start, float(begins)), min(each.stop, float(ends))
 
 

@@ -149,13 +149,13 @@ def _welch(
     n: Floats, mean: Floats, sd: Floats, other_n: Floats, other_mean: Floats, other_sd: Floats
 ) -> tuple[Floats, Floats, Floats]:
     """The second mean less the first, and its bounds."""
-    from scipy.stats import t
+    from scipy.special import stdtrit
 
     with np.errstate(divide="ignore", invalid="ignore"):
         parts = sd**2 / n, other_sd**2 / other_n
         error = np.sqrt(parts[0] + parts[1])
         freedom = error**4 / (parts[0] ** 2 / (n - 1) + parts[1] ** 2 / (other_n - 1))
-        half = t.ppf((1 + CONFIDENCE) / 2, freedom) * error
+        half = stdtrit(freedom, (1 + CONFIDENCE) / 2) * error
     half = np.where(error == 0, 0.0, half)
     difference = other_mean - mean
     return difference, difference - half, difference + half

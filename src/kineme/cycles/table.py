@@ -267,7 +267,7 @@ class Cycles:
             Columns: ``group``, ``channel``, ``percent``, ``n``, ``mean``, ``sd``, ``low``, ``high``
             (of the mean, with a confidence of 95 %, by Student's t at each point).
         """
-        from scipy.stats import t
+        from scipy.special import stdtrit
 
         blocks: list[Columns] = []
         used, points = self.used(ends=ends), self.curves.shape[2]
@@ -279,7 +279,7 @@ class Cycles:
                 missing = np.full(points, np.nan)
                 mean = curves.mean(axis=0) if n else missing
                 sd = curves.std(axis=0, ddof=1) if n > 1 else missing
-                half = t.ppf((1 + CONFIDENCE) / 2, n - 1) * sd / np.sqrt(n) if n > 1 else missing
+                half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * sd / np.sqrt(n) if n > 1 else missing
                 blocks.append(
                     {
                         "group": np.full(points, group),
