@@ -119,3 +119,23 @@ def test_info_lists_what_can_be_measured(kineme, take: Path) -> None:
     assert "knee_l" in done.stdout
     assert "LeftUpLeg, LeftLeg, LeftFoot" in done.stdout
     assert "Head.up" in done.stdout
+
+
+def test_force_plates_of_a_c3d_are_measured_at_their_own_rate(
+    kineme_process, data_dir: Path, tmp_path: Path
+) -> None:
+    trial = data_dir / "formats" / "Eb015pi.c3d"
+    done = kineme_process("cycles", trial, "--channels", "FZ1,RFT1.speed", "-o", "c.csv")
+    assert done.returncode == 0, done.stderr
+    rows = rows_of(tmp_path / "c.csv")
+    assert all(row["FZ1.range"] for row in rows if row["excluded"] == "")
+    assert "FZ1" in kineme_process("info", "--channels", trial).stdout
+
+
+def test_where_no_repetition_is_an_inner_one_it_says_what_to_do(kineme, take: Path) -> None:
+    lines = ["start_s,stop_s,label,level", "0,5.5,walk,activity", "0,2.7,walk,primitive"]
+    lines.append("2.7,5.5,walk,primitive")
+    Path("two.csv").write_text("\n".join(lines) + "\n")
+    done = kineme("cycles", "take.bvh", "--segments", "two.csv", "--channels", "knee_l")
+    assert done.returncode == 0, done.stderr
+    assert "walk: no inner repetition; --ends counts the others" in done.stdout

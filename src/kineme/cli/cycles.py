@@ -127,7 +127,10 @@ def cycles(
             recordings.append(recording)
     if recordings:
         try:
-            found = measured(recordings, tables, channels=names, anchor=anchor, common=common)
+            analog = _analog(batch.paths, recordings, request) if names else []
+            found = measured(
+                recordings, tables, channels=names, anchor=anchor, beside=analog, common=common
+            )
             found = _excluded(found, exclude or [])
             if output is not None:
                 found.write(output, ends=ends)
@@ -143,6 +146,20 @@ def cycles(
         if not quiet:
             _show(found, ends=ends, written=[output, plot, compare])
     batch.exit()
+
+
+def _analog(
+    paths: list[Path], recordings: list[Motion | Signals], request: Request
+) -> list[Signals]:
+    """Channels in the file of a single body, such as force plates, which may be measured, too."""
+    from kineme.formats import ReadOptions
+    from kineme.formats.read_write import read_analog
+    from kineme.recordings import Motion
+
+    if len(paths) > 1 or not isinstance(recordings[0], Motion):
+        return []
+    signals = read_analog(paths[0], ReadOptions(**request.reading))
+    return [] if signals is None else [signals]
 
 
 def _check_targets(output: Path | None, plot: Path | None, compare: Path | None) -> None:
@@ -238,6 +255,9 @@ def _show(cycles: Cycles, *, ends: bool, written: list[Path | None]) -> None:
     reasons = [reason for reason in cycles.columns["excluded"].tolist() if reason]
     for reason in dict.fromkeys(reasons):
         console.print(f"{counted(reasons.count(reason), 'cycle')} left out: {reason}.")
+    without = [group for group in cycles.groups if values[group, "duration_s"][0] == 0]
+    if without and not ends:
+        console.print(f"{', '.join(without)}: no inner repetition; --ends counts the others.")
     if len(cycles) == 0:
         console.print("no repetition: nothing repeats itself here.")
     for note in cycles.provenance["notes"]:

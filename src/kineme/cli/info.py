@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from json import dumps
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -50,7 +51,7 @@ def info(
             recording = request.read(path)
             facts = _facts(recording, request.effectors)
             if channels:
-                facts["measures"] = _measures(recording)
+                facts["measures"] = _measures(path, recording, request)
             if json:
                 typer.echo(dumps(facts))
             else:
@@ -78,13 +79,20 @@ def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
     return facts | {"channels": list(recording.names)}
 
 
-def _measures(recording: Motion | Signals) -> list[Facts]:
+def _measures(path: Path, recording: Motion | Signals, request: Request) -> list[Facts]:
     """What can be measured in a recording: see `kineme.cycles.channels_of`."""
     from kineme.cycles.channels import channels_of
+    from kineme.formats import ReadOptions
+    from kineme.formats.read_write import read_analog
+    from kineme.recordings import Motion
+
+    analog = None
+    if isinstance(recording, Motion):
+        analog = read_analog(path, ReadOptions(**request.reading))
 
     return [
         {"name": each.name, "unit": each.unit, "group": each.group, "source": each.source}
-        for each in channels_of(recording, ["*"])
+        for each in channels_of(recording, ["*"], beside=[] if analog is None else [analog])
     ]
 
 
