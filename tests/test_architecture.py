@@ -63,6 +63,10 @@ ROOMS = {
         "features graph methods recordings segments",
     ),
     "labels": Room("segment tables from files and back: one registry", "formats segments"),
+    "cycles": Room(
+        "`cycles()`: each repetition measured, mean curves, foot contacts",
+        "features labels recordings segments",
+    ),
     "plot": Room("pictures, each on given axes", "graph methods recordings segmentation segments"),
     "clips": Room("a file per segment, loops that close", "formats labels recordings segments"),
     "interop": Room(

@@ -89,6 +89,7 @@ def public_doors(folder: Path) -> list[tuple[Callable[..., object], list[Any], d
         (kineme.segment_and_found, [motion], {"preset": "krueger2017", "effectors": None}),
         (kineme.segment, [kineme.Signals(x, 30)], {"preset": "kineme", "smoothing": 0.1}),
         (kineme.analyze, [x, "krueger2017"], {}),
+        (kineme.cycles, [whole, truth], {"channels": None, "anchor": None, "common": False}),
         (kineme.end_effectors, [motion], {"names": None}),
         (kineme.pose_features, [motion], {"effectors": None}),
         (kineme.mirror, [motion], {}),

@@ -5,6 +5,12 @@ __version__: str
 from . import (
     library as library,
 )
+from .cycles import (
+    Cycles as Cycles,
+)
+from .cycles import (
+    cycles as cycles,
+)
 from .datasets import (
     bundled_recording as bundled_recording,
 )

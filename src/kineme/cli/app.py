@@ -12,6 +12,8 @@ from kineme.cli.help import on_demand
 COMMANDS = (
     "segment",
     "presets",
+    "cycles",
+    "events",
     "split",
     "report",
     "studio",

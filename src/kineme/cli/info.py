@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from json import dumps
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -27,6 +28,10 @@ IN_A_LINE = 12
 def info(
     files: Files,
     joints: Annotated[bool, option(OUTPUT, "Show the tree of joints.", "--joints")] = False,
+    channels: Annotated[
+        bool,
+        option(OUTPUT, "Show what kineme cycles can measure, and from which joints.", "--channels"),
+    ] = False,
     recursive: Recursive = False,
     json: Json = False,
     effectors: Effectors = None,
@@ -39,6 +44,8 @@ def info(
         with batch.caught(path):
             recording = request.read(path)
             facts = _facts(recording, request.effectors)
+            if channels:
+                facts["measures"] = _measures(path, recording, request)
             if json:
                 typer.echo(dumps(facts))
             else:
@@ -64,6 +71,23 @@ def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
     if isinstance(recording, Motion):
         return _with_body(facts, recording, effectors)
     return facts | {"channels": list(recording.names)}
+
+
+def _measures(path: Path, recording: Motion | Signals, request: Request) -> list[Facts]:
+    """What can be measured in a recording: see `kineme.cycles.channels_of`."""
+    from kineme.cycles.channels import channels_of
+    from kineme.formats import ReadOptions
+    from kineme.formats.read_write import read_analog
+    from kineme.recordings import Motion
+
+    analog = None
+    if isinstance(recording, Motion):
+        analog = read_analog(path, ReadOptions(**request.reading))
+
+    return [
+        {"name": each.name, "unit": each.unit, "group": each.group, "source": each.source}
+        for each in channels_of(recording, ["*"], beside=[] if analog is None else [analog])
+    ]
 
 
 def _with_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
@@ -115,7 +139,20 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
             "channels": f"{len(names)}, below" if many else f"{len(names)}: {', '.join(names)}",
         }
         below = columns_of(names) if many else None
+    if "measures" in facts:
+        below = _listed(facts["measures"])
     show_facts(facts, lines | {"SHA-256": facts["sha256"]}, below=below)
+
+
+def _listed(measures: list[Facts]) -> Any:
+    from kineme.cli.tables import new_table
+
+    table = new_table("channel", "unit", "group", "from")
+    for column in table.columns:
+        column.justify = "left"
+    for each in measures:
+        table.add_row(*map(str, each.values()))
+    return table
 
 
 def _tree(motion: Motion) -> Any:

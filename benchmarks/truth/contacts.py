@@ -1,0 +1,168 @@
+"""Are feet found to come down and to leave the ground when people say so?
+
+    python -m benchmarks contacts [--every 4] [--record]
+
+The recordings of ``sets/ipolgait``: people who walk, turn and walk back with an inertial sensor at
+each foot; every contact was checked by people. A contact is found if one of the same foot is within
+50 ms. In some recordings samples were lost, so that marks and sensors drift apart: those where a
+foot turns fast in the middle of many stands, as marked, or where marks lie beyond the end. All
+recordings are told, and those whose marks fit.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+import warnings
+from collections import defaultdict
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+import kineme
+from _figures import add_option, record
+from _options import command_line, few, is_quick, needed
+from kineme.cycles import foot_events
+from kineme.cycles.contacts import SMOOTH_S
+from kineme.cycles.events import OFF, STRIKE
+from kineme.recordings import Signals
+
+Floats = NDArray[np.float64]
+
+NEAR_S = 0.05
+TURN_S = 0.3
+"""So near to a turn, a contact is part of it."""
+SAME = 0.5
+"""Of a marked swing: what covers more of it is the same swing."""
+FAST, MOVING = 0.3, 0.15
+"""Of the speed in the middle of a swing; of the stands of a foot."""
+PROMISED = {"away": 0.97, "all": 0.93}
+SIDES = ("left", "right")
+PARTS = {"left": "lf", "right": "rf"}
+
+
+class Foot(NamedTuple):
+    """What is marked and what was found of a foot: seconds at which it is off and on again."""
+
+    recording: str
+    marked: Floats
+    offs: Floats
+    ons: Floats
+    turns: list[tuple[float, float]]
+
+
+def by_recording(path: Path) -> dict[str, list[dict[str, str]]]:
+    rows: dict[str, list[dict[str, str]]] = defaultdict(list)
+    with path.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            rows[row["recording"]].append(row)
+    return rows
+
+
+def fit(signals: Signals, side: str, marked: Floats) -> bool:
+    """Whether the marks of a foot are of these samples."""
+    from scipy.ndimage import gaussian_filter1d
+
+    rates = signals.values[:, [signals.names.index(f"{PARTS[side]}_gyr_{a}") for a in "xyz"]]
+    rates = gaussian_filter1d(rates - np.median(rates, axis=0), SMOOTH_S * signals.fps, axis=0)
+    speed = np.linalg.norm(rates, axis=1)
+    if marked.max() > signals.duration:
+        return False
+    frames = np.rint(marked.mean(axis=1) * signals.fps).astype(int)
+    usual = np.median(speed[np.minimum(frames, len(speed) - 1)])
+    stands = np.column_stack([marked[:-1, 1], marked[1:, 0]])
+    stands = stands[np.diff(stands, axis=1)[:, 0] < 1.5]
+    middles = np.rint(stands.mean(axis=1) * signals.fps).astype(int)
+    return float(np.mean(speed[middles] > FAST * usual)) < MOVING
+
+
+def hits(true: Floats, found: Floats) -> list[float]:
+    """By how much each true event that is found is late, each found one taken once."""
+    free, late = [*found.tolist()], []
+    for at in true.tolist():
+        nearest = min(free, key=lambda each: abs(each - at), default=None)
+        if nearest is not None and abs(nearest - at) <= NEAR_S:
+            free.remove(nearest)
+            late.append(nearest - at)
+    return late
+
+
+def away(times: Floats, turns: list[tuple[float, float]]) -> Floats:
+    inside = [any(a - TURN_S <= at <= b + TURN_S for a, b in turns) for at in times.tolist()]
+    return times[~np.array(inside, bool)]
+
+
+def show(name: str, feet: list[Foot]) -> bool:
+    """Print and record the scores of some feet; whether the promise is kept."""
+    kept = True
+    late: dict[str, list[float]] = defaultdict(list)
+    for where in ("away", "all"):
+        found = true = right = 0
+        for foot in feet:
+            for place, events, event in ((0, foot.offs, OFF), (1, foot.ons, STRIKE)):
+                marked, times = foot.marked[:, place], events
+                if where == "away":
+                    marked, times = away(marked, foot.turns), away(times, foot.turns)
+                each = hits(marked, times)
+                late[event] += each if where == "away" else []
+                found, true, right = found + len(times), true + len(marked), right + len(each)
+        score = 2 * right / (found + true)
+        kept &= score >= PROMISED[where]
+        print(f"{name}, {where:4}: F1 within 50 ms {score:.3f} of {true}")
+        record(f"contacts.{name}.f1_{where}", round(score, 3))
+    for event, values in late.items():
+        print(f"{name}, {event}: {1e3 * np.mean(values):+.1f} ± {1e3 * np.std(values):.1f} ms")
+    swings = []
+    for foot in feet:
+        count = min(len(foot.offs), len(foot.ons))
+        own = np.column_stack([foot.offs[:count], foot.ons[:count]])
+        for off, on in foot.marked.tolist():
+            shared = np.minimum(own[:, 1], on) - np.maximum(own[:, 0], off)
+            same = np.flatnonzero(shared > SAME * (on - off))
+            swings += (np.diff(own[same], axis=1)[:, 0] - (on - off)).tolist()
+    bias = 1e3 * float(np.mean(swings))
+    apart = np.array([abs(len(foot.ons) - len(foot.marked)) for foot in feet])
+    exact, one = float(np.mean(apart == 0)), float(np.mean(apart <= 1))
+    print(f"{name}: swings {bias:+.1f} ms; feet counted exactly {exact:.2f}, within one {one:.2f}")
+    record(f"contacts.{name}.swing_bias", round(bias, 1), unit="ms")
+    record(f"contacts.{name}.exact", round(exact, 2))
+    record(f"contacts.{name}.within_one", round(one, 2))
+    return kept and abs(bias) <= 10
+
+
+def main() -> int:
+    parser = command_line(__doc__)
+    parser.add_argument("--every", type=int, default=few(1, 30), help="one in so many recordings")
+    add_option(parser)
+    every = parser.parse_args().every
+    folder = needed("sets/ipolgait")
+    marks, labels = (by_recording(folder / f"{name}.csv") for name in ("events", "labels"))
+    feet: list[Foot] = []
+    fitting: list[Foot] = []
+    for name in sorted(marks)[::every]:
+        signals = kineme.read(folder / "recordings" / f"{name}.parquet")
+        events = foot_events(signals)
+        turns = [(float(row["start_s"]), float(row["stop_s"])) for row in labels[name]
+                 if row["label"] == "u_turn"]  # fmt: skip
+        both = []
+        for side in SIDES:
+            rows = [row for row in marks[name] if row["foot"] == side]
+            swings = [(float(row["swing_start_s"]), float(row["swing_stop_s"])) for row in rows]
+            offs, ons = (events.at(f"{side} {event}") for event in (OFF, STRIKE))
+            both.append(Foot(name, np.array(swings), offs, ons, turns))
+        feet += both
+        if all(fit(signals, side, foot.marked) for side, foot in zip(SIDES, both, strict=True)):
+            fitting += both
+    print(f"{len(fitting) // 2} of {len(feet) // 2} recordings have marks that fit")
+    record("contacts.recordings", f"{len(fitting) // 2} of {len(feet) // 2}")
+    show("all", feet)
+    kept = show("fitting", fitting)
+    print(f"promised: F1 .97 away from turns, .93 with them: {'kept' if kept else 'NOT KEPT'}")
+    return 0 if kept or is_quick() else 1
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    sys.exit(main())

@@ -1,0 +1,202 @@
+"""Are cycles as long as they are, do their borders stay, and do angles agree with their makers?
+
+    python -m benchmarks cycles [--seeds 50] [--record]
+
+1. *Durations.* Synthetic recordings (see ``_recordings.synthetic``): by which share a repetition is
+   longer than the true one, where the count is right. What counts is the phase that the maker has
+   at both borders: that of a cycle differs by one. Inner repetitions, and the first and the last.
+2. *Jitter.* A synthetic recording at 240 Hz, read at 60, 80, 120 and 240 Hz, from its first frame
+   or the next one: how far borders of one reading are from those of another.
+3. *People.* ``bodies/uiprmd``: repetitions cut by people, where the count is right. They cut from
+   border to border, so pauses are added to what is measured.
+4. *Angles.* Knees, hips and elbows of a figure against the angles that made it.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections import defaultdict
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+import kineme
+from _figures import add_option, record
+from _options import DATA, command_line, few, is_quick
+from _recordings import by_recording, synthetic
+from ends import LEAST, spans
+from kineme.cycles import channels_of
+from kineme.cycles.table import Cycles
+from kineme.datasets import Action, synthesize
+from kineme.datasets.figure import ANGLES, figure, joint_rotations
+from kineme.recordings import Motion
+from kineme.recordings.operations import resample
+
+Floats = NDArray[np.float64]
+
+CONDITIONS = ("as it is", "all")
+RATES = (60.0, 80.0, 120.0, 240.0)
+SETS = ("uiprmd", "uiprmd_incorrect")
+NEAR_S = 0.25
+"""Borders of two readings that are nearer than this are one."""
+SPEED = ("LeftFoot.speed",)
+"""What is measured where only borders count."""
+
+
+def runs_of(cycles: Cycles) -> list[NDArray[np.intp]]:
+    """Rows of each activity."""
+    activities = cycles.columns["activity"]
+    return [np.flatnonzero(activities == activity) for activity in np.unique(activities)]
+
+
+def durations(seeds: int) -> bool:
+    kept = True
+    for condition in CONDITIONS:
+        found: dict[str, list[float]] = defaultdict(list)
+        surprises: list[float] = []
+        for case in synthetic(condition, seeds):
+            segments = kineme.segment(case.motion)
+            cycles = kineme.cycles(case.motion, segments, channels=SPEED)
+            columns, true = cycles.columns, spans(case.made)
+            for rows in runs_of(cycles):
+                start, stop = columns["start_s"][rows], columns["stop_s"][rows]
+                known = max(
+                    true, key=lambda each: min(each[-1, 1], stop[-1]) - max(each[0, 0], start[0])
+                )
+                if not LEAST <= len(rows) == len(known):
+                    continue
+                phase = PchipInterpolator(
+                    np.append(known[:, 0], known[-1, 1]), np.arange(len(known) + 1)
+                )
+                longer = phase(stop) - phase(start) - 1
+                inner = columns["place"][rows] == "inner"
+                complete = columns["excluded"][rows] == ""
+                found["inner"] += longer[inner].tolist()
+                found["ends"] += longer[~inner & complete].tolist()
+                deviation = np.hypot(
+                    columns["start_deviation_s"][rows], columns["stop_deviation_s"][rows]
+                )
+                wrong = longer * (known[:, 1] - known[:, 0])
+                surprises += (np.abs(wrong) / deviation)[inner].tolist()
+        for place, (most, spread) in (("inner", (1, 1.5)), ("ends", (2, 4))):
+            mean, deviation = 100 * np.mean(found[place]), 100 * np.std(found[place])
+            median = 100 * float(np.median(np.abs(found[place])))
+            print(f"{condition:9} {place:6} {mean:+5.2f} ± {deviation:5.2f} % of "
+                  f"{len(found[place])}, half within {median:.2f} %")  # fmt: skip
+            name = f"cycles.{condition.replace(' ', '_')}.{place}"
+            record(f"{name}.mean", round(float(mean), 2), unit="%")
+            record(f"{name}.deviation", round(float(deviation), 2), unit="%")
+            kept &= abs(mean) <= most and deviation <= spread
+        covered = float(np.mean(np.array(surprises) < 1))
+        print(
+            f"{condition:9} within the deviation that is told: {covered:.2f} (.68 would be right)"
+        )
+        record(f"cycles.{condition.replace(' ', '_')}.covered", round(covered, 2))
+    return kept
+
+
+def jitter(seeds: int) -> bool:
+    apart: list[float] = []
+    for seed in range(seeds):
+        rng = np.random.default_rng(seed)
+        names = rng.permutation(["squat", "jump", "arm circles", "kick", "run"])[:2].tolist()
+        actions = [Action("walk", 5), *(Action(name, int(rng.integers(4, 8))) for name in names)]
+        made = synthesize(actions, fps=240.0, seed=seed, noise=0.002).motion
+        borders = []
+        for i, rate in enumerate(RATES):
+            shift = i % 3  # frames of 240 Hz, parts of a frame of the others
+            motion = resample(made[shift:], rate)
+            cycles = kineme.cycles(motion, kineme.segment(motion), channels=SPEED)
+            inside = cycles.columns["place"] != "first"
+            borders.append(cycles.columns["start_s"][inside] + shift / 240)
+        for first, second in combinations(borders, 2):
+            distances = np.abs(first[:, None] - second).min(axis=1) if len(second) else np.empty(0)
+            apart += distances[distances < NEAR_S].tolist()
+    median, most = 1e3 * np.percentile(apart, [50, 95])
+    print(f"borders of one recording at several rates: {median:.1f} ms apart, 95 % {most:.1f} ms")
+    record("cycles.jitter.median", round(float(median), 1), unit="ms")
+    record("cycles.jitter.most", round(float(most), 1), unit="ms")
+    return bool(median <= 8 and most <= 20)
+
+
+def people(every: int) -> bool:
+    kept = True
+    for name in SETS:
+        folder = DATA / "bodies" / name
+        if not folder.is_dir():
+            print(f"{name}: not there")
+            continue
+        wrong: list[float] = []
+        right = takes = 0
+        for key, rows in sorted(by_recording(folder / "labels.csv").items())[::every]:
+            motion = kineme.read(folder / "recordings" / f"{key}.npz")
+            cycles = kineme.cycles(motion, kineme.segment(motion), channels=["pelvis.y"])
+            takes += 1
+            if len(cycles) != len(rows):
+                continue
+            right += 1
+            true = np.array([[float(row["start_s"]), float(row["stop_s"])] for row in rows])
+            own = np.append(cycles.columns["start_s"], cycles.columns["stop_s"][-1])
+            lengths = np.diff(true, axis=1)[:, 0]
+            wrong += (np.abs(np.diff(own) - lengths) / lengths)[1:-1].tolist()
+        median, most = 100 * np.percentile(wrong or [np.nan], [50, 90])
+        print(f"{name}: {right} of {takes} counted right; inner repetitions as long as people "
+              f"say within {median:.1f} % (half), {most:.1f} % (90 %)")  # fmt: skip
+        record(f"cycles.{name}.median", round(float(median), 1), unit="%")
+        record(f"cycles.{name}.most", round(float(most), 1), unit="%")
+        kept &= bool(median <= 6 and most <= 15)
+    return kept
+
+
+def angles() -> bool:
+    t = np.linspace(0, 6 * np.pi, 600)
+    given = {name: np.zeros(600) for name in ANGLES}
+    for side, late in (("left", 0.0), ("right", np.pi)):
+        given[f"{side} knee"] = 35 - 30 * np.cos(t + late)
+        given[f"{side} hip"] = 10 + 30 * np.sin(t + late)
+        given[f"{side} spread"] = 6 + 3 * np.sin(t)
+        given[f"{side} elbow"] = 40 + 25 * np.sin(t - late)
+    given["tilt"], given["bend"] = 8 * np.sin(t), 2 + 2 * np.sin(2 * t)
+    skeleton = figure()
+    rotations = joint_rotations(skeleton, given, 30 * t)
+    motion = Motion.from_rotations(skeleton, rotations, 60.0)
+    kept = True
+    for kind, recording, most in (
+        ("rotations", motion, 0.1),
+        ("positions", replace(motion, rotations=None), 3.0),
+    ):
+        worst = 0.0
+        for side in ("left", "right"):
+            for part in ("knee", "hip", "elbow"):
+                values = channels_of(recording, [f"{part}_{side[0]}"])[0].values()
+                wrong = np.abs(values - given[f"{side} {part}"])
+                worst = max(worst, float(np.sqrt(np.mean(wrong**2))))
+        print(f"angles from {kind}: {worst:.2f}° of those that made them (rms, the worst)")
+        record(f"cycles.angles.{kind}", round(worst, 2), unit="°")
+        kept &= worst <= most
+    return kept
+
+
+def main() -> int:
+    parser = command_line(__doc__)
+    parser.add_argument("--seeds", type=int, default=few(50, 1))
+    add_option(parser)
+    seeds = parser.parse_args().seeds
+    results = {
+        "angles": angles(),
+        "jitter": jitter(few(max(1, seeds // 5), 1)),
+        "people": people(few(1, 25)),
+        "durations": durations(seeds),
+    }
+    missed = [name for name, kept in results.items() if not kept]
+    print(f"promises not kept: {', '.join(missed) or 'none'}")
+    return 0 if not missed or is_quick() else 1
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    sys.exit(main())

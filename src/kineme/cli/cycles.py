@@ -1,0 +1,271 @@
+"""``kineme cycles``: each repetition measured, summed up and as mean curves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kineme._counts import counted
+from kineme.cli.help import INPUT, OUTPUT
+from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.method import PresetName
+from kineme.cli.options.reading import Quiet, with_reading_options
+from kineme.cli.options.request import Request
+from kineme.errors import KinemeError, ParameterError
+from kineme.methods.presets import DEFAULT
+
+if TYPE_CHECKING:
+    from kineme.cycles import Cycles
+    from kineme.recordings import Motion, Signals
+    from kineme.segments.segmentation import Segmentation
+
+MEASURED = "Measured"
+FAR, UNSURE = "far", "unsure"
+SHOWN = 4
+"""Channels whose ranges are shown."""
+
+
+@with_reading_options
+def cycles(
+    files: Files,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            help="Write cycles, summary and curves: .xlsx, .csv, .parquet, .mat or .nc.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(help="Draw mean curves: .png, .pdf or .svg.", rich_help_panel=OUTPUT),
+    ] = None,
+    compare: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write the second of two recordings beside the first: .csv or .parquet.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    channels: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME,NAME,…",
+            help="What to measure, as in knee_*,trunk_lean; see kineme info --channels.",
+            rich_help_panel=MEASURED,
+        ),
+    ] = None,
+    anchor: Annotated[
+        str | None,
+        typer.Option(
+            metavar="EVENT",
+            help='Where a cycle begins, instead of at equal phase: "knee_r max", "knee_r > 40", '
+            "left_foot_strike, or an event of the file.",
+            rich_help_panel=MEASURED,
+        ),
+    ] = None,
+    exclude: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="ROW|RULE",
+            help="Leave a row out of means, by its number; or all that are far from the mean (far) "
+            "or whose start is not sure (unsure).",
+            rich_help_panel=MEASURED,
+        ),
+    ] = None,
+    ends: Annotated[
+        bool,
+        typer.Option(
+            "--ends",
+            help="Count the first and last repetition of an activity, too.",
+            rich_help_panel=MEASURED,
+        ),
+    ] = False,
+    common: Annotated[
+        bool,
+        typer.Option(
+            "--common",
+            help="Clusters of all recordings have the same numbers, as in a library.",
+            rich_help_panel=MEASURED,
+        ),
+    ] = False,
+    segments: Annotated[
+        Path | None,
+        typer.Option(
+            help="Segment table or labels, instead of segmenting anew; of several recordings a "
+            "folder, or a path with {name} in it.",
+            rich_help_panel=INPUT,
+        ),
+    ] = None,
+    preset: PresetName = DEFAULT,
+    recursive: Recursive = False,
+    quiet: Quiet = False,
+    reading: dict[str, Any] | None = None,
+) -> None:
+    """Measure each repetition: its duration, how far each joint went, mean curves.
+
+    Borders are moved to equal phase. Several recordings are measured together.
+    """
+    from kineme.cycles.measure import cycles as measured
+
+    request = Request.of(preset, reading=reading)
+    batch = Batch(files, recursive=recursive, quiet=quiet)
+    names = None if channels is None else [name.strip() for name in channels.split(",")]
+    _check_targets(output, plot, compare)
+    if compare is not None and len(batch.paths) != 2:
+        raise typer.BadParameter("takes two recordings", param_hint="--compare")
+    recordings: list[Motion | Signals] = []
+    tables: list[Segmentation] = []
+    for path, table in zip(batch.paths, batch.tables("--segments", segments), strict=True):
+        with batch.caught(path), batch.progress(path) as stage:
+            stage("reading")
+            recording = request.read(path)
+            tables.append(request.segments(recording, table, stage))
+            recordings.append(recording)
+    if recordings:
+        try:
+            analog = _analog(batch.paths, recordings, request) if names else []
+            found = measured(
+                recordings, tables, channels=names, anchor=anchor, beside=analog, common=common
+            )
+            found = _excluded(found, exclude or [])
+            if output is not None:
+                found.write(output, ends=ends)
+            if plot is not None:
+                _draw(found, plot, ends=ends)
+            if compare is not None:
+                _compare(found, compare, ends=ends)
+        except KinemeError as error:
+            from kineme.cli.messages import one_line, say_error
+
+            say_error(one_line(error))
+            raise typer.Exit(1) from error
+        if not quiet:
+            _show(found, ends=ends, written=[output, plot, compare])
+    batch.exit()
+
+
+def _analog(
+    paths: list[Path], recordings: list[Motion | Signals], request: Request
+) -> list[Signals]:
+    """Channels in the file of a single body, such as force plates, which may be measured, too."""
+    from kineme.formats import ReadOptions
+    from kineme.formats.read_write import read_analog
+    from kineme.recordings import Motion
+
+    if len(paths) > 1 or not isinstance(recordings[0], Motion):
+        return []
+    signals = read_analog(paths[0], ReadOptions(**request.reading))
+    return [] if signals is None else [signals]
+
+
+def _check_targets(output: Path | None, plot: Path | None, compare: Path | None) -> None:
+    """typer.BadParameter for a file that could not be written, before any work is done."""
+    from kineme.cli.options.targets import PICTURES
+    from kineme.cycles.export import SUFFIXES
+
+    for option, path, suffixes in (
+        ("--output", output, SUFFIXES),
+        ("--plot", plot, PICTURES),
+        ("--compare", compare, (".csv", ".parquet")),
+    ):
+        if path is not None and path.suffix.lower() not in suffixes:
+            raise typer.BadParameter(f"{path} must end in {', '.join(suffixes)}", param_hint=option)
+
+
+def _excluded(cycles: Cycles, rules: list[str]) -> Cycles:
+    for rule in rules:
+        if rule == FAR:
+            cycles = cycles.exclude_far()
+        elif rule == UNSURE:
+            cycles = cycles.exclude_unsure()
+        else:
+            try:
+                rows = [int(row) for row in rule.split(",")]
+            except ValueError:
+                raise typer.BadParameter(
+                    f"{rule!r} is no row and no rule: give a number, {FAR} or {UNSURE}",
+                    param_hint="--exclude",
+                ) from None
+            cycles = cycles.exclude(rows)
+    return cycles
+
+
+def _compare(cycles: Cycles, path: Path, *, ends: bool) -> None:
+    """Write what changed from the first recording to the second: numbers, curves beside them."""
+    from kineme.cycles import compare_curves, compare_sessions, write_table
+
+    names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
+    if len(names) < 2:
+        raise ParameterError("there are no repetitions in both recordings to compare")
+    first, second = (cycles.select(cycles.columns["recording"] == name) for name in names)
+    write_table(compare_sessions(first, second, ends=ends), path)
+    curves = compare_curves(first, second, ends=ends)
+    write_table(curves, path.with_suffix(f".curves{path.suffix}"))
+
+
+def _draw(cycles: Cycles, path: Path, *, ends: bool) -> None:
+    """One picture, an axis below the other for each channel."""
+    from matplotlib.figure import Figure
+
+    from kineme._files import atomic_write
+
+    n = len(cycles.channels)
+    figure = Figure(figsize=(6, 1 + 2.5 * n), layout="constrained")
+    for channel, ax in zip(cycles.channels, figure.subplots(n, squeeze=False)[:, 0], strict=True):
+        cycles.plot(channel, ends=ends, ax=ax)
+    with atomic_write(path) as draft:
+        figure.savefig(draft)
+
+
+def _show(cycles: Cycles, *, ends: bool, written: list[Path | None]) -> None:
+    """Print a line for each group, the notes, and what was written."""
+    from rich.text import Text
+
+    from kineme.cli.tables import new_table
+    from kineme.cli.terminal import Console
+
+    console = Console(highlight=False)
+    shown = cycles.channels[:SHOWN]
+    ranges = [f"{channel} range" for channel in shown]
+    table = new_table("label", "cycles", "n", "duration s", "sd", "cv %", "per min", *ranges)
+    summary = cycles.summary(ends=ends)
+    values = {
+        (group, measure): (n, mean, sd, cv)
+        for group, measure, n, mean, sd, cv in zip(
+            *(summary[name].tolist() for name in ("group", "measure", "n", "mean", "sd", "cv")),
+            strict=True,
+        )
+    }
+    for group in cycles.groups:
+        n, mean, sd, cv = values[group, "duration_s"]
+        per_min = values[group, "cadence_per_min"][1]
+        cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
+        for channel in shown:
+            _, width, deviation, _ = values[group, f"{channel}.range"]
+            cells.append(f"{width:.4g} ± {deviation:.2g}")
+        count = int((cycles.columns["group"] == group).sum())
+        table.add_row(group, str(count), str(n), *(_filled(cell) for cell in cells))
+    console.print(table)
+    of = "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
+    console.print(f"n, means: over {of}.")
+    reasons = [reason for reason in cycles.columns["excluded"].tolist() if reason]
+    for reason in dict.fromkeys(reasons):
+        console.print(f"{counted(reasons.count(reason), 'cycle')} left out: {reason}.")
+    without = [group for group in cycles.groups if values[group, "duration_s"][0] == 0]
+    if without and not ends:
+        console.print(f"{', '.join(without)}: no inner repetition; --ends counts the others.")
+    if len(cycles) == 0:
+        console.print("no repetition: nothing repeats itself here.")
+    for note in cycles.provenance["notes"]:
+        console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
+    for path in filter(None, written):
+        console.print(Text(f"written: {path}"), soft_wrap=True)
+
+
+def _filled(cell: str) -> str:
+    """A cell; nothing where there is no number to tell."""
+    return "" if cell == "nan" else cell.replace(" ± nan", "").replace("nan", "")

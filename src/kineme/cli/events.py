@@ -1,0 +1,129 @@
+"""``kineme events``: when feet come down and leave the ground, and what that tells of a gait."""
+
+from __future__ import annotations
+
+from math import isnan
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kineme._counts import counted
+from kineme.cli.help import OUTPUT, TABLES
+from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.reading import Quiet, with_reading_options
+from kineme.cli.options.request import Request
+
+if TYPE_CHECKING:
+    from kineme.cycles import Events
+    from kineme.cycles.table import Columns
+
+FEET = "Feet"
+
+
+@with_reading_options
+def events(
+    files: Files,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            help="Write a table of the events: .csv or .parquet; of several recordings a folder, "
+            "or a path with {name} in it.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    gait: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write times of strides, stands, swings and steps: .csv or .parquet.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    labels: Annotated[
+        Path | None,
+        typer.Option(
+            help=f"Write the spans from each event to the next as labels: {TABLES}.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    left: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Channels of the left foot, as in lf_gyr_*: three axes of its gyroscope, or the "
+            "upright force under it. By their names by default.",
+            rich_help_panel=FEET,
+        ),
+    ] = None,
+    right: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="Those of the right foot.", rich_help_panel=FEET),
+    ] = None,
+    recursive: Recursive = False,
+    quiet: Quiet = False,
+    reading: dict[str, Any] | None = None,
+) -> None:
+    """Find when feet come down and leave the ground, and measure the gait.
+
+    From the positions of heel and toe, from gyroscopes at the feet, or from the force under them.
+    """
+    from kineme.cycles.events import foot_events
+    from kineme.cycles.events import gait as gait_of
+    from kineme.cycles.export import write_table
+    from kineme.labels import write_segments
+
+    request = Request.of(reading=reading)
+    batch = Batch(files, recursive=recursive, quiet=quiet)
+    tables = batch.targets("--output", output, ".csv")
+    gaits = batch.targets("--gait", gait, ".csv")
+    spans = batch.targets("--labels", labels, ".csv")
+    for path, table, measured, span in zip(batch.paths, tables, gaits, spans, strict=True):
+        with batch.caught(path):
+            with batch.progress(path) as stage:
+                stage("reading")
+                recording = request.read(path)
+                found = foot_events(recording, left=left, right=right)
+                measures = gait_of(found, recording)
+            for target in filter(None, (table, measured, span)):
+                target.parent.mkdir(exist_ok=True)
+            if table is not None:
+                write_table(found.columns(), table)
+            if measured is not None:
+                write_table(measures, measured)
+            if span is not None:
+                write_segments(found.segmentation(), span)
+            if not quiet:
+                _show(path, found, measures, [table, measured, span])
+    batch.exit()
+
+
+def _show(path: Path, events: Events, gait: Columns, written: list[Path | None]) -> None:
+    """Print how many events there are, and what they tell of the gait."""
+    from rich.text import Text
+
+    from kineme.cli.tables import new_table
+    from kineme.cli.terminal import Console
+
+    console = Console(highlight=False)
+    console.print(Text.assemble((path.name, "bold"), f"  {counted(len(events), 'event')}"))
+    for side, source in events.sources.items():
+        console.print(Text(f"{side} foot: from {source}"))
+    table = new_table("measure", "left", "n", "right", "n", "asymmetry %")
+    table.columns[0].justify = "left"
+    for name, *values in zip(*(column.tolist() for column in gait.values()), strict=True):
+        n, mean, sd, other_n, other, other_sd, asymmetry = values
+        table.add_row(
+            name, _number(mean, sd), str(n), _number(other, other_sd), str(other_n),
+            "" if isnan(asymmetry) else f"{asymmetry:+.1f}",
+        )  # fmt: skip
+    if len(gait["measure"]):
+        console.print(table)
+    for target in filter(None, written):
+        console.print(Text(f"written: {target}"), soft_wrap=True)
+
+
+def _number(mean: float, deviation: float) -> str:
+    """A mean with its deviation; nothing where there is none."""
+    return f"{mean:.3f} ± {deviation:.3f}".replace(" ± nan", "").replace("nan", "")

@@ -1,0 +1,51 @@
+"""Cycles: what each repetition measures, their mean curves, and events such as foot contacts.
+
+The room can be called as its function, whichever of the two was imported last under its name.
+"""
+
+import sys
+from types import ModuleType
+from typing import Any
+
+from kineme.cycles.angles import bend, between, cardan
+from kineme.cycles.channels import Channel, channels_of
+from kineme.cycles.contacts import (
+    stands_from_force,
+    stands_from_positions,
+    swings_from_gyroscope,
+)
+from kineme.cycles.events import Events, foot_events, gait
+from kineme.cycles.export import write_cycles, write_table
+from kineme.cycles.landmarks import landmarks
+from kineme.cycles.measure import cycles
+from kineme.cycles.sessions import compare_curves, compare_sessions
+from kineme.cycles.table import Cycles
+
+__all__ = [
+    "Channel",
+    "Cycles",
+    "Events",
+    "bend",
+    "between",
+    "cardan",
+    "channels_of",
+    "compare_curves",
+    "compare_sessions",
+    "cycles",
+    "foot_events",
+    "gait",
+    "landmarks",
+    "stands_from_force",
+    "stands_from_positions",
+    "swings_from_gyroscope",
+    "write_cycles",
+    "write_table",
+]
+
+
+class _Room(ModuleType):
+    def __call__(self, *args: Any, **options: Any) -> Cycles:
+        return cycles(*args, **options)
+
+
+sys.modules[__name__].__class__ = _Room

@@ -1,0 +1,196 @@
+"""Cycles that begin at an event, instead of at equal phase.
+
+Which repetitions there are stays as the segmentation has them. Of each, the event nearest to the
+usual phase is its start, and that of the repetition after it its stop. A cycle whose event is
+missing stays in the table and says so.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._checks import as_floats
+from kineme.cycles.channels import channels_of
+from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
+from kineme.cycles.runs import Repetition
+from kineme.errors import ParameterError
+from kineme.recordings import Motion, Signals
+
+Floats = NDArray[np.float64]
+
+_EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
+_CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")
+
+
+def anchored(
+    found: Sequence[Repetition],
+    recordings: Sequence[Motion | Signals],
+    groups: Sequence[Mapping[int, Hashable]],
+    anchor: str | Sequence[float],
+    beside: Sequence[Signals] = (),
+) -> list[Repetition]:
+    """The repetitions from event to event.
+
+    Parameters
+    ----------
+    found : sequence of Repetition
+    recordings : sequence of Motion or Signals
+    groups : sequence of mapping
+        Of each recording the group of each cluster, which has one usual phase.
+    anchor : str or sequence of float
+        ``knee_r max``, ``knee_r > 40`` (``<``: where it falls below), an event of the file, or a
+        foot contact as ``left foot strike``; or the seconds of events of the one recording.
+    beside : sequence of Signals
+        Whose channels may be anchors as well.
+
+    Raises
+    ------
+    ParameterError
+        There is no such channel or event.
+    """
+    text = anchor if isinstance(anchor, str) else ""
+    extreme = _EXTREME.fullmatch(text.strip())
+    members: dict[Hashable, list[int]] = {}
+    for i, each in enumerate(found):
+        cluster = each.segment.cluster
+        members.setdefault(groups[each.recording].get(cluster, cluster), []).append(i)
+    starts = np.full(len(found), np.nan)
+    if extreme is not None:
+        curves = [_curve(each, extreme["channel"], beside) for each in recordings]
+        sign = 1.0 if extreme["which"] == "max" else -1.0
+        for rows in members.values():
+            starts[rows] = _extremes([found[i] for i in rows], curves, sign)
+    else:
+        times = [_times(each, anchor, beside) for each in recordings]
+        for rows in members.values():
+            starts[rows] = _nearest([found[i] for i in rows], times)
+    return _from_start_to_start(found, starts)
+
+
+Curve = tuple[Floats, float]
+
+
+def _curve(recording: Motion | Signals, name: str, beside: Sequence[Signals]) -> Curve:
+    channels = channels_of(recording, [name], beside=beside)
+    if len(channels) > 1:
+        raise ParameterError(f"an anchor is one channel, and {name!r} names {len(channels)}")
+    return channels[0].values(), channels[0].fps
+
+
+def _extremes(found: Sequence[Repetition], curves: Sequence[Curve], sign: float) -> Floats:
+    """When a channel is largest in each repetition, about the phase at which it usually is."""
+    share = np.linspace(0, 1, 101)[:-1]
+    sampled = []
+    for each in found:
+        values, fps = curves[each.recording]
+        at = (each.start + share * (each.stop - each.start)) * fps
+        sampled.append(np.interp(at, np.arange(len(values)), sign * values))
+    usual = np.array(sampled)
+    complete = np.isfinite(usual).all(axis=1)
+    if not complete.any():
+        return np.full(len(found), np.nan)
+    phase = share[int(usual[complete].mean(axis=0).argmax())]
+    times = np.full(len(found), np.nan)
+    for i, each in enumerate(found):
+        values, fps = curves[each.recording]
+        first, last = _window(each, phase)
+        frames = np.arange(max(0, int(np.ceil(first * fps))), min(len(values), int(last * fps) + 1))
+        if len(frames) and np.isfinite(values[frames]).all():
+            times[i] = _peak(sign * values, int(frames[(sign * values[frames]).argmax()])) / fps
+    return times
+
+
+def _peak(values: Floats, frame: int) -> float:
+    """Where values are largest about a frame, between two of them."""
+    if not 0 < frame < len(values) - 1:
+        return float(frame)
+    left, middle, right = values[frame - 1 : frame + 2]
+    curvature = left - 2 * middle + right
+    return frame + (float((left - right) / (2 * curvature)) if curvature < 0 else 0.0)
+
+
+def _window(each: Repetition, phase: float) -> tuple[float, float]:
+    """Seconds within half a cycle of a phase of a repetition."""
+    length = each.stop - each.start
+    return each.start + (phase - 0.5) * length, each.start + (phase + 0.5) * length
+
+
+def _times(
+    recording: Motion | Signals, anchor: str | Sequence[float], beside: Sequence[Signals]
+) -> Floats:
+    """The seconds of the events of a recording that an anchor names."""
+    if not isinstance(anchor, str):
+        return np.sort(as_floats(anchor, "anchor").ravel())
+    crossing = _CROSSING.fullmatch(anchor.strip())
+    if crossing is not None:
+        values, fps = _curve(recording, crossing["channel"], beside)
+        return _crossings(values, float(crossing["level"]), rises=crossing["sign"] == ">") / fps
+    name = plain_name(anchor)
+    marked = [at for at, text in recording.provenance.events if plain_name(text) == name]
+    if marked:
+        return np.sort(np.array(marked, np.float64))
+    if name.endswith((STRIKE, OFF)):
+        return foot_events(recording).at(name)
+    names = sorted({text for _, text in recording.provenance.events})
+    raise ParameterError(
+        f"no event {anchor!r}; there are {', '.join([*names, 'left foot strike, and so on'])}; "
+        "of a channel give its largest value or a threshold, as in 'knee_r max', 'knee_r > 40'"
+    )
+
+
+def _crossings(values: Floats, level: float, *, rises: bool) -> Floats:
+    """Frames, between two of them, at which values come to a level from below, or from above."""
+    sign = 1.0 if rises else -1.0
+    over = sign * (values - level)
+    frames = np.flatnonzero((over[:-1] <= 0) & (over[1:] > 0))
+    return frames + over[frames] / (over[frames] - over[frames + 1])
+
+
+def _nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
+    """Of each repetition the event nearest to the usual phase; nan without one near it."""
+    turns = []
+    for each in found:
+        events = times[each.recording]
+        inside = events[(events >= each.start) & (events < each.stop)]
+        turns += (np.exp(2j * np.pi * (inside - each.start) / (each.stop - each.start))).tolist()
+    if not turns:
+        return np.full(len(found), np.nan)
+    phase = float(np.angle(np.sum(turns)) / (2 * np.pi) % 1)
+    chosen = np.full(len(found), np.nan)
+    for i, each in enumerate(found):
+        first, last = _window(each, phase)
+        events = times[each.recording]
+        inside = events[(events >= first) & (events < last)]
+        if len(inside):
+            chosen[i] = inside[np.abs(inside - (first + last) / 2).argmin()]
+    return chosen
+
+
+def _from_start_to_start(found: Sequence[Repetition], starts: Floats) -> list[Repetition]:
+    """Each repetition from its event to that of the one after it in its run."""
+    anchored_ones = []
+    for i, each in enumerate(found):
+        goes_on = each.place in ("first", "inner")
+        stop = starts[i + 1] if goes_on else np.nan
+        start = starts[i]
+        missing = "no event" if np.isnan(start) else "no event ends it" if np.isnan(stop) else ""
+        if stop <= start:
+            start, stop, missing = np.nan, np.nan, "no event"
+        anchored_ones.append(
+            replace(
+                each,
+                start=float(start),
+                stop=float(stop),
+                start_deviation=np.nan,
+                stop_deviation=np.nan,
+                pause=0.0,
+                complete=True,
+                missing=missing,
+            )
+        )
+    return anchored_ones

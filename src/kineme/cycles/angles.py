@@ -1,0 +1,115 @@
+"""Angles of joints in degrees, from where points are and from how joints are turned.
+
+From positions an angle is the one between two limbs, by which a straight limb is bent: a knee is
+0 degrees when thigh and shank are in line, whatever plane it bends in. From rotations it is how
+far a joint is turned from the pose of rest, as the skeleton has it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+
+Floats = NDArray[np.float64]
+
+
+def bend(before: Floats, joint: Floats, after: Floats) -> Floats:
+    """By how much a chain of three points is bent at the middle one: 0 where they are in line.
+
+    Parameters
+    ----------
+    before, joint, after : (frames, 3) array
+
+    Returns
+    -------
+    (frames,) array
+        Degrees, 0 to 180: 180 less the angle between the two limbs.
+
+    Examples
+    --------
+    >>> bend(np.array([[0, 2.0, 0]]), np.array([[0, 1.0, 0]]), np.array([[0, 1.0, 1]])).round(6)
+    array([90.])
+    """
+    return between(joint - before, after - joint)
+
+
+def between(first: Floats, second: Floats) -> Floats:
+    """The angle between vectors, degrees from 0 to 180; nan where one has no length.
+
+    Parameters
+    ----------
+    first, second : (frames, 3) array
+
+    Returns
+    -------
+    (frames,) array
+
+    Examples
+    --------
+    >>> between(np.array([[0, 1.0, 0]]), np.array([[0, 0, 2.0]])).round(6)
+    array([90.])
+    """
+    cross = np.linalg.norm(np.cross(first, second), axis=-1)
+    dot = (first * second).sum(axis=-1)
+    angle = np.degrees(np.arctan2(cross, dot))
+    return np.where((cross == 0) & (dot == 0), np.nan, angle)
+
+
+def about(axis: Floats, first: Floats, second: Floats) -> Floats:
+    """By how much a vector is turned about an axis to lie in the direction of another.
+
+    Parameters
+    ----------
+    axis, first, second : (frames, 3) array
+        What the vectors have in the direction of the axis does not count.
+
+    Returns
+    -------
+    (frames,) array
+        Degrees, -180 to 180, right-handed.
+
+    Examples
+    --------
+    >>> x, y, z = np.eye(3)[:, None]
+    >>> about(x, y, z).round(6), about(x, z, y).round(6)
+    (array([90.]), array([-90.]))
+    """
+    axis = axis / np.maximum(np.linalg.norm(axis, axis=-1, keepdims=True), 1e-12)
+    flat = [v - (v * axis).sum(axis=-1, keepdims=True) * axis for v in (first, second)]
+    sine = (np.cross(flat[0], flat[1]) * axis).sum(axis=-1)
+    cosine = (flat[0] * flat[1]).sum(axis=-1)
+    return np.asarray(np.degrees(np.arctan2(sine, cosine)))
+
+
+def continuous(angle: Floats) -> Floats:
+    """The same angle without jumps by 360 degrees."""
+    return np.degrees(np.unwrap(np.radians(angle)))
+
+
+def cardan(rotations: Floats) -> Floats:
+    """Angles (x, z, y) whose product Rx Rz Ry is the rotation, degrees.
+
+    The first turns about the axis from side to side, as flexion does in a skeleton whose pose of
+    rest faces +z; the second about the axis ahead; the third about the upright one.
+
+    Parameters
+    ----------
+    rotations : (frames, 4) array
+        Unit quaternions (w, x, y, z).
+
+    Returns
+    -------
+    (frames, 3) array
+
+    Examples
+    --------
+    >>> turned = rot.from_euler(np.radians([[40.0, 10.0, -5.0]]), "xzy")
+    >>> cardan(turned).round(6)
+    array([[40., 10., -5.]])
+    """
+    # Rx Rz Ry is Rz Ry Rx with the axes named anew: x for z, z for y, y for x.
+    w, x, y, z = rot.components(rotations)
+    renamed = rot.join(w, y, z, x)
+    return np.degrees(rot.to_euler_zyx(renamed))

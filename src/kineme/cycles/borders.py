@@ -1,0 +1,305 @@
+"""Borders of repetitions at the rate of the file, and at one phase of all repetitions of a cluster.
+
+A method cuts on a grid of its working rate, and each activity at a phase of its own. Here borders
+move to where the recording about them is most similar to the mean of all borders of the cluster.
+
+1. *One phase.* Of each run (repetitions of one cluster back to back) the mean cycle is turned, as
+   on a clock, until it is most similar to that of the longest run; its borders move by as much of
+   a cycle. Of all phases that one is kept at which the fewest repetitions move.
+2. *Between two frames.* The template is the mean of the recording about all inner borders; each
+   border moves to the place where the squared difference to it is least, found between samples by
+   a parabola. Both are repeated; the mean of all moves is taken out, so that the phase stays.
+3. *One place for all readings.* All borders move to the middle of the rest in which they lie, else
+   to where the main movement of the mean cycle turns back, at the nearest such place: a squat
+   begins at its top, a step at the end of a swing.
+4. *Uncertainty.* The deviation of that place: the differences that are left, weighed by the slope
+   of the template, summed over blocks of the window, within which they may hang together.
+
+At the first and the last border of a run only the half of the window that lies inside it counts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+WINDOWS = (0.5, 0.35, 0.25, 0.25)
+"""Of a cycle, for each step: what is compared before and after a border. The wide ones cannot be
+mistaken; the narrow ones do not mind that the next repetition is faster."""
+POINTS = 50
+"""Of a mean cycle while its phase is searched for; of a window as many for each cycle."""
+FARTHEST = 0.12
+"""Of a cycle: as far a border moves in the first of these steps; half as far in each next one."""
+SIMILAR, BETTER = 0.7, 0.1
+"""Correlation of two mean cycles of one phase, and how much more that must be than before."""
+RESTING = 0.2
+"""Of the speed of a mean cycle, the root of its mean square: what is slower rests."""
+BLOCKS = 6
+DOUBT = 2.0
+"""By this the deviation is multiplied: the sum over blocks leaves out by how much repetitions
+differ all over the window. Chosen on synthetic recordings (`python -m benchmarks cycles`)."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """Repetitions of one cluster back to back.
+
+    Attributes
+    ----------
+    recording : int
+        Which of the recordings.
+    borders : (n + 1,) array
+        Seconds, of n repetitions.
+    uncertainty : (n + 1,) array
+        Standard deviations in seconds; nan where nothing tells.
+    turned : float
+        By how much of a cycle its phase was moved.
+    """
+
+    recording: int
+    borders: Floats
+    uncertainty: Floats
+    turned: float = 0.0
+
+    @cached_property
+    def period(self) -> float:
+        """Seconds of a repetition, the median."""
+        return float(np.median(np.diff(self.borders)))
+
+    @cached_property
+    def lengths(self) -> Floats:
+        """Seconds of each repetition, halfway to the median."""
+        return (np.diff(self.borders) + self.period) / 2
+
+    def at(self, cycles: Floats) -> Floats:
+        """The seconds at which so many cycles are done; beyond its ends at its own period."""
+        n = len(self.borders) - 1
+        inside = np.interp(cycles, np.arange(n + 1), self.borders)
+        beyond = np.maximum(cycles - n, 0) + np.minimum(cycles, 0)
+        return inside + beyond * self.period
+
+    def pace(self, border: int, offsets: Floats) -> Floats:
+        """Seconds from a border at shares of the cycles before and after it.
+
+        Their lengths count by half, the period of the run by the other half: a window follows the
+        pace, and does not run away where borders are not right yet.
+        """
+        before = self.lengths[max(border - 1, 0)]
+        after = self.lengths[min(border, len(self.lengths) - 1)]
+        return np.asarray(offsets * np.where(offsets < 0, before, after))
+
+
+def run_of(recording: int, borders: Floats) -> Run:
+    """A run as a method cut it."""
+    return Run(recording, borders, np.full(len(borders), np.nan))
+
+
+def in_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
+    """The runs of one cluster with borders at one phase, between two frames.
+
+    Parameters
+    ----------
+    runs : list of Run
+    features : list of (samples, dims) array
+        Of each recording, all of as many dimensions.
+    rates : list of float
+        Samples per second.
+
+    Returns
+    -------
+    list of Run
+
+    Examples
+    --------
+    Two runs of a swing, cut on a grid of 0.1 s, the second one a quarter later:
+
+    >>> t = np.arange(0, 20, 0.01)
+    >>> swing = np.stack([np.sin(2 * np.pi * t), np.cos(2 * np.pi * t)], axis=1)
+    >>> grid = np.array([1, 2, 3.1, 3.9, 5])
+    >>> first, second = in_phase([run_of(0, grid), run_of(0, grid + 8.25)], [swing], [100.0])
+    >>> np.diff(first.borders)[1:-1].round(3), round(second.turned, 2)
+    (array([1., 1.]), -0.25)
+    """
+    runs = _turned(runs, features, rates)
+    inner = sum(len(run.borders) - 2 for run in runs)
+    if inner < 2:
+        return runs
+    for step, window in enumerate(WINDOWS):
+        offsets = np.arange(-round(window * POINTS), round(window * POINTS) + 1) / POINTS
+        template = _template(runs, features, rates, offsets)
+        reach = FARTHEST / 2**step
+        moved = [
+            _moved(run, features[run.recording], rates[run.recording], template, offsets, reach)
+            for run in runs
+        ]
+        # The mean move, in cycles: the template must not wander.
+        drift = float(np.mean(np.concatenate([
+            (new.borders - old.borders)[1:-1] / old.period
+            for new, old in zip(moved, runs, strict=True)
+        ])))  # fmt: skip
+        runs = [replace(run, borders=run.borders - drift * run.period) for run in moved]
+    by = _to_landmark(runs, features, rates)
+    return [replace(run, borders=run.borders + by * run.period) for run in runs]
+
+
+def _to_landmark(runs: list[Run], features: list[Floats], rates: list[float]) -> float:
+    """By how much of a cycle later borders lie at a place that every reading can find again.
+
+    Where the mean cycle stands still, that is the middle of its rest. Else it is the nearest place
+    at which its main movement, the first principal component, turns back.
+    """
+    repeated = [run for run in runs if len(run.borders) > 2]
+    mean = sum(_mean_cycle(run, features, rates) * (len(run.borders) - 1) for run in repeated)
+    centred = np.asarray(mean) - np.mean(mean, axis=0)
+    change = np.roll(centred, -1, axis=0) - np.roll(centred, 1, axis=0)
+    speed = np.linalg.norm(change, axis=1)
+    moves = np.flatnonzero(speed > RESTING * np.sqrt(np.mean(speed**2)))
+    if len(moves) == 0:
+        return 0.0
+    if moves[0] > 0 and moves[-1] < POINTS - 1:  # the border lies in a rest
+        return float(_wrapped((moves[0] + moves[-1] - POINTS) / 2 / POINTS))
+    main = centred @ np.linalg.svd(centred, full_matrices=False)[2][0]
+    slope = np.roll(main, -1) - np.roll(main, 1)
+    after = np.roll(slope, -1)
+    turns = np.flatnonzero(np.signbit(slope) != np.signbit(after))
+    shares = slope[turns] / (slope[turns] - after[turns])
+    places = [_wrapped(place) for place in ((turns + shares) / POINTS).tolist()]
+    return float(min(places, key=abs, default=0.0))
+
+
+def _turned(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
+    """The runs with their borders at about one phase."""
+    repeated = [run for run in runs if len(run.borders) > 2]
+    if len(repeated) < 2:
+        return runs
+    means = {id(run): _mean_cycle(run, features, rates) for run in repeated}
+    longest = max(repeated, key=lambda run: len(run.borders))
+    late = {id(run): _lateness(means[id(run)], means[id(longest)]) for run in repeated}
+    weights = {id(run): len(run.borders) - 1 for run in repeated}
+
+    def moves(origin: float) -> float:
+        return sum(weights[key] * abs(_wrapped(late[key] - origin)) for key in late)
+
+    origin = min(late.values(), key=moves)
+    turned = []
+    for run in runs:
+        by = _wrapped(late.get(id(run), origin) - origin)
+        cycles = np.arange(len(run.borders), dtype=np.float64) + by
+        turned.append(replace(run, borders=run.at(cycles), turned=by) if by else run)
+    return turned
+
+
+def _wrapped(share: float) -> float:
+    """A share of a cycle from -1/2 to 1/2."""
+    return (share + 0.5) % 1 - 0.5
+
+
+def _mean_cycle(run: Run, features: list[Floats], rates: list[float]) -> Floats:
+    """(points, dims): the mean of the repetitions of a run."""
+    n = len(run.borders) - 1
+    cycles = np.arange(n)[:, None] + np.arange(POINTS) / POINTS
+    values = sampled(features[run.recording], rates[run.recording], run.at(cycles))
+    return np.asarray(values.mean(axis=0))
+
+
+def _lateness(mean: Floats, reference: Floats) -> float:
+    """By how much of a cycle later than its border a mean cycle is as the reference at its own.
+
+    0 where no phase makes them similar, or none much more than the present one.
+    """
+    first, second = (each - each.mean(axis=0) for each in (mean, reference))
+    norm = np.sqrt((first**2).sum() * (second**2).sum())
+    if norm == 0:
+        return 0.0
+    spectra = np.fft.rfft(first, axis=0) * np.conj(np.fft.rfft(second, axis=0))
+    correlation = np.fft.irfft(spectra, n=POINTS, axis=0).sum(axis=1) / norm
+    best = int(correlation.argmax())
+    if correlation[best] < SIMILAR or correlation[best] - correlation[0] < BETTER:
+        return 0.0
+    left, right = correlation[best - 1], correlation[(best + 1) % POINTS]
+    return _wrapped((best + _vertex(-left, -correlation[best], -right)) / POINTS)
+
+
+def _template(
+    runs: list[Run], features: list[Floats], rates: list[float], offsets: Floats
+) -> Floats:
+    """(window, dims): the mean about all inner borders."""
+    windows = [
+        sampled(
+            features[run.recording],
+            rates[run.recording],
+            np.array(
+                [run.borders[i] + run.pace(i, offsets) for i in range(1, len(run.borders) - 1)]
+            ),
+        )
+        for run in runs
+        if len(run.borders) > 2
+    ]
+    return np.asarray(np.concatenate(windows).mean(axis=0))
+
+
+def _moved(
+    run: Run, features: Floats, rate: float, template: Floats, offsets: Floats, reach: float
+) -> Run:
+    """The run with each border where the recording is most similar to the template."""
+    slope = np.gradient(template, axis=0) * POINTS
+    shifts = np.linspace(-reach, reach, 13)
+    borders, uncertainty = run.borders.copy(), np.full(len(run.borders), np.nan)
+    for i, border in enumerate(run.borders):
+        used = np.ones(len(offsets), bool)
+        if i == 0:
+            used &= offsets >= 0
+        if i == len(borders) - 1:
+            used &= offsets <= 0
+        pace = run.pace(i, offsets[used])
+        times = border + shifts[:, None] * run.period + pace
+        left = ((sampled(features, rate, times) - template[used]) ** 2).sum(axis=(1, 2))
+        best = int(left.argmin())
+        shift = shifts[best]
+        if 0 < best < len(shifts) - 1:
+            shift += _vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
+        borders[i] = border + shift * run.period
+        window = sampled(features, rate, borders[i] + pace)
+        uncertainty[i] = _deviation(window - template[used], slope[used]) * run.period
+    return replace(run, borders=borders, uncertainty=uncertainty)
+
+
+def _deviation(left: Floats, slope: Floats) -> float:
+    """Standard deviation of a place, in cycles; nan where the template has no slope."""
+    steepness = float((slope**2).sum())
+    if steepness == 0:
+        return np.nan
+    pulls = [block.sum() for block in np.array_split((left * slope).sum(axis=1), BLOCKS)]
+    return DOUBT * float(np.sqrt(BLOCKS / (BLOCKS - 1) * np.square(pulls).sum()) / steepness)
+
+
+def _vertex(left: float, middle: float, right: float) -> float:
+    """Where the parabola through three values at -1, 0 and 1 is least, from -1/2 to 1/2."""
+    curvature = left - 2 * middle + right
+    return float(np.clip((left - right) / (2 * curvature), -0.5, 0.5)) if curvature > 0 else 0.0
+
+
+def sampled(values: Floats, rate: float, times: Floats) -> Floats:
+    """Values at any times in seconds, on straight lines between samples; the ends go on.
+
+    Parameters
+    ----------
+    values : (samples, dims) array
+    rate : float
+        Samples per second.
+    times : array
+
+    Returns
+    -------
+    array of the shape of the times, and dims
+    """
+    at = np.clip(times * rate, 0, len(values) - 1)
+    before = np.minimum(at.astype(np.intp), max(len(values) - 2, 0))
+    share = (at - before)[..., None]
+    after = np.minimum(before + 1, len(values) - 1)
+    return np.asarray(values[before] * (1 - share) + values[after] * share)

@@ -1,0 +1,334 @@
+"""What can be measured in a recording: angles, positions and speeds of a body, channels of signals.
+
+Left and right stand at the end of a name, as in ``knee_l``. Angles of a body:
+
+=============== ===============================================================================
+``knee_l``      by how much thigh and shank are bent against each other; ``elbow_l`` the same
+``hip_l``       thigh forward: against the pelvis where rotations tell it, else against the trunk
+``ankle_l``     toes up: 90 degrees less the angle between shank and foot
+``shoulder_l``  between upper arm and trunk: 0 where the arm hangs
+``trunk_lean``  trunk forward against the vertical; ``trunk_side`` to the right
+=============== ===============================================================================
+
+``heading`` is where the body faces, about the vertical, without jumps. Of each joint there are
+``NAME.rx``, ``.rz``, ``.ry`` (its rotation, see `kineme.cycles.cardan`), ``NAME.x``, ``.y``,
+``.z`` (metres, y up), ``NAME.left``, ``.up``, ``.ahead`` (metres, seen from the pelvis, as the
+body faces) and ``NAME.speed``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme._checks import as_texts
+from kineme.cycles.angles import about, bend, between, cardan, continuous
+from kineme.cycles.landmarks import SIDES, landmarks
+from kineme.errors import EndEffectorError, MotionError, ParameterError
+from kineme.features import body_frame, heading
+from kineme.recordings import Motion, Signals, Skeleton
+from kineme.recordings.kinematics import world_rotations
+
+Floats = NDArray[np.float64]
+Compute = Callable[[], Floats]
+Add = Callable[[str, str, str, Sequence[str | int], Compute], None]
+"""Name, unit, group, joints or words that tell the source, and what computes the channel."""
+
+DEGREES = "°"
+ANGLE, CHANNEL = "angle", "channel"
+"""Groups that are measured where nobody says which."""
+_SHOWN = 8
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One number for each frame of a recording.
+
+    Attributes
+    ----------
+    name, unit : str
+        The unit is empty where nobody says it, as of most signals.
+    group : str
+        What kind of number it is: ``angle``, ``direction``, ``rotation``, ``position``,
+        ``from the pelvis``, ``speed`` or ``channel``.
+    source : str
+        From which joints it is, for the provenance.
+    fps : float
+        Frames per second.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import channels_of
+    >>> knee = channels_of(kineme.read(kineme.bundled_recording()), ["knee_l"])[0]
+    >>> knee.unit, knee.source, knee.values().shape
+    ('°', 'LeftUpLeg, LeftLeg, LeftFoot', (2898,))
+    """
+
+    name: str
+    unit: str
+    group: str
+    source: str
+    fps: float
+    compute: Compute
+    gaps: Sequence[tuple[int, int]] = ()
+
+    def values(self) -> Floats:
+        """The numbers, nan where nothing was recorded."""
+        values = np.array(self.compute(), np.float64)
+        for start, stop in self.gaps:
+            values[start:stop] = np.nan
+        return values
+
+
+def channels_of(
+    recording: Motion | Signals,
+    names: Iterable[str] | None = None,
+    *,
+    beside: Sequence[Signals] = (),
+) -> list[Channel]:
+    """Channels of a recording, by their names.
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+    names : iterable of str, optional
+        In the order wanted; ``*`` and ``?`` stand for any characters. By default the angles of a
+        body, or the speeds of its points where no joint is found by name; all channels of signals.
+    beside : sequence of Signals
+        Recorded at the same time, such as force plates: their channels are measured as well, each
+        at its rate.
+
+    Returns
+    -------
+    list of Channel
+
+    Raises
+    ------
+    ParameterError
+        There is no channel of a name.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import channels_of
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> [channel.name for channel in channels_of(motion, ["knee_*", "Head.up"])]
+    ['knee_l', 'knee_r', 'Head.up']
+    """
+    every = of_motion(recording) if isinstance(recording, Motion) else _of_signals(recording)
+    for signals in beside:
+        every += _of_signals(signals)
+    if names is None:
+        usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
+        return usual or [channel for channel in every if channel.group == "speed"]
+    chosen: dict[str, Channel] = {}
+    for pattern in as_texts(names, "names of channels"):
+        matching = [each for each in every if fnmatchcase(each.name, pattern)]
+        if not matching:
+            choices = [each.name for each in every if each.group in (ANGLE, CHANNEL)] or [
+                each.name for each in every
+            ]
+            more = ", …" if len(choices) > _SHOWN else ""
+            raise ParameterError(
+                f"no channel {pattern!r}; there are {', '.join(choices[:_SHOWN])}{more} "
+                "(kineme info --channels lists them)"
+            )
+        chosen |= {each.name: each for each in matching}
+    return list(chosen.values())
+
+
+def _of_signals(signals: Signals) -> list[Channel]:
+    columns = signals.values.T
+    return [
+        Channel(name, "", CHANNEL, name, signals.fps, partial(np.array, column), signals.gaps)
+        for name, column in zip(signals.names, columns, strict=True)
+    ]
+
+
+def of_motion(motion: Motion) -> list[Channel]:
+    """Every channel of a body: its angles first, after them rotations, positions, speeds."""
+    channels: list[Channel] = []
+    names, fps, gaps = motion.skeleton.names, motion.fps, motion.gaps
+
+    def add(name: str, unit: str, group: str, of: Sequence[str | int], compute: Compute) -> None:
+        source = ", ".join(each if isinstance(each, str) else names[each] for each in of)
+        channels.append(Channel(name, unit, group, source, fps, compute, gaps))
+
+    faces = _faces(motion)
+    _add_angles(motion, landmarks(motion), add)
+    if faces:
+        add("heading", DEGREES, "direction", ["the line of the hips"], partial(_heading, motion))
+    _add_joints(motion, faces, add)
+    return channels
+
+
+def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
+    """Rotation, position and speed of each joint."""
+    places, rotations = motion.positions, motion.rotations
+    joints = [*enumerate(motion.skeleton.names)]
+    for joint, name in joints:
+        if rotations is not None and joint not in motion.skeleton.end_sites:
+            for place, axis in enumerate("xzy"):
+                compute = partial(_rotation, rotations, joint, place)
+                add(f"{name}.r{axis}", DEGREES, "rotation", [joint], compute)
+    for joint, name in joints:
+        for place, axis in enumerate("xyz"):
+            add(f"{name}.{axis}", "m", "position", [joint], partial(_place, places, joint, place))
+    for joint, name in joints if faces else []:
+        for place, axis in enumerate(("left", "up", "ahead")):
+            compute = partial(_from_pelvis, motion, joint, place)
+            add(f"{name}.{axis}", "m", "from the pelvis", [joint], compute)
+    for joint, name in joints:
+        compute = partial(speed_of, places[:, joint], motion.fps)
+        add(f"{name}.speed", "m/s", "speed", [joint], compute)
+
+
+def _faces(motion: Motion) -> bool:
+    """Whether anything tells where the body faces."""
+    try:
+        heading(motion)
+    except (EndEffectorError, MotionError):
+        return False
+    return True
+
+
+def _heading(motion: Motion) -> Floats:
+    return continuous(np.degrees(heading(motion)[1]))
+
+
+def _rotation(rotations: Floats, joint: int, place: int) -> Floats:
+    return np.asarray(cardan(rotations[:, joint])[:, place])
+
+
+def _place(places: Floats, joint: int, axis: int) -> Floats:
+    return places[:, joint, axis]
+
+
+def _from_pelvis(motion: Motion, joint: int, axis: int) -> Floats:
+    return np.asarray(body_frame(motion, (joint,))[:, 0, axis])
+
+
+def speed_of(path: Floats, fps: float) -> Floats:
+    """How fast a point is, metres per second; 0 for a single frame.
+
+    Parameters
+    ----------
+    path : (frames, dims) array
+    fps : float
+        Frames per second.
+    """
+    if len(path) < 2:
+        return np.zeros(len(path))
+    return np.asarray(np.linalg.norm(np.gradient(path, axis=0), axis=1) * fps)
+
+
+def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
+    """Knees, elbows, hips, ankles, shoulders and the trunk, as far as their joints are there."""
+    places = motion.positions
+    bent = (
+        ("knee", ("hip", "knee", "ankle"), 0.0),
+        ("elbow", ("shoulder", "elbow", "wrist"), 0.0),
+        ("ankle", ("knee", "ankle", "toe"), -90.0),
+    )
+    for name, parts, less in bent:
+        for side in SIDES:
+            chain = [joints.get(f"{side}_{part}", -1) for part in parts]
+            if min(chain) >= 0:
+                add(f"{name}_{side[0]}", DEGREES, ANGLE, chain, partial(_bend, places, chain, less))
+    hips = [joints.get(f"{side}_hip", -1) for side in SIDES]
+    shoulders = [joints.get(f"{side}_shoulder", -1) for side in SIDES]
+    if min(hips) < 0:
+        return
+    has_trunk = min(shoulders) >= 0
+    for side, hip in zip(SIDES, hips, strict=True):
+        if f"{side}_knee" in joints:
+            knee = joints[f"{side}_knee"]
+            _add_hip(motion, f"hip_{side[0]}", (hip, knee), hips, shoulders, add)
+    if not has_trunk:
+        return
+    for side, shoulder in zip(SIDES, shoulders, strict=True):
+        elbow = joints.get(f"{side}_elbow")
+        if elbow is not None:
+            compute = partial(_raised, places, shoulder, elbow, hips, shoulders)
+            add(f"shoulder_{side[0]}", DEGREES, ANGLE, ["against the trunk", shoulder, elbow],
+                compute)  # fmt: skip
+    for name, sideways in (("trunk_lean", False), ("trunk_side", True)):
+        compute = partial(_lean, places, hips, shoulders, sideways=sideways)
+        add(name, DEGREES, ANGLE, [*hips, *shoulders], compute)
+
+
+def _add_hip(
+    motion: Motion,
+    name: str,
+    thigh: tuple[int, int],
+    hips: Sequence[int],
+    shoulders: Sequence[int],
+    add: Add,
+) -> None:
+    """A thigh against the pelvis, where its rotation is there, else against the trunk."""
+    pelvis = motion.skeleton.parents[thigh[0]]
+    if motion.rotations is not None and pelvis >= 0:
+        against = f"against {motion.skeleton.names[pelvis]}"
+        compute = partial(_against_pelvis, motion, *thigh, hips)
+    elif min(shoulders) >= 0:
+        against = "against the trunk"
+        compute = partial(_against_trunk, motion.positions, *thigh, hips, shoulders)
+    else:
+        return
+    add(name, DEGREES, ANGLE, [against, *thigh], compute)
+
+
+def _bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
+    return bend(*(places[:, joint] for joint in chain)) + less
+
+
+def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:
+    """How far the thigh is turned forward from the pose of rest, in the pelvis's frame."""
+    skeleton = motion.skeleton
+    turned = world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
+    thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])
+    rest = _at_rest(skeleton, knee) - _at_rest(skeleton, hip)
+    to_left = _at_rest(skeleton, hips[0]) - _at_rest(skeleton, hips[1])
+    return -about(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
+
+
+def _at_rest(skeleton: Skeleton, joint: int) -> Floats:
+    place = np.zeros(3)
+    while joint >= 0:
+        place = place + skeleton.offsets[joint]
+        joint = skeleton.parents[joint]
+    return place
+
+
+def _trunk(places: Floats, hips: Sequence[int], shoulders: Sequence[int]) -> Floats:
+    """From the middle of the hips to the middle of the shoulders."""
+    return np.asarray(places[:, shoulders].mean(axis=1) - places[:, hips].mean(axis=1))
+
+
+def _against_trunk(
+    places: Floats, hip: int, knee: int, hips: Sequence[int], shoulders: Sequence[int]
+) -> Floats:
+    to_left = places[:, hips[0]] - places[:, hips[1]]
+    return -about(to_left, -_trunk(places, hips, shoulders), places[:, knee] - places[:, hip])
+
+
+def _raised(
+    places: Floats, shoulder: int, elbow: int, hips: Sequence[int], shoulders: Sequence[int]
+) -> Floats:
+    return between(places[:, elbow] - places[:, shoulder], -_trunk(places, hips, shoulders))
+
+
+def _lean(
+    places: Floats, hips: Sequence[int], shoulders: Sequence[int], *, sideways: bool
+) -> Floats:
+    trunk = _trunk(places, hips, shoulders)
+    to_left = (places[:, hips[0]] - places[:, hips[1]]) * [1, 0, 1]
+    up = np.broadcast_to([0.0, 1.0, 0.0], trunk.shape)
+    return about(np.cross(to_left, up) if sideways else to_left, up, trunk)

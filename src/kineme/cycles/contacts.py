@@ -1,0 +1,231 @@
+"""When a foot is on the ground: from a gyroscope at the foot, from positions, from a force plate.
+
+*Gyroscope.* A foot that stands does not turn; between two stands it turns one way as the heel rises
+(fastest just before the toes leave), back as it swings, and the first way again as it comes down.
+The main axis of the turning is found by principal components, its sign by that order. The foot is
+off where the first turn has fallen to a share of its fastest, and on where the last has risen to
+one. The two shares were chosen on recordings of which people checked every contact, so that
+neither is early or late.
+
+*Positions.* Heel and toe each stand while they are low and slow; the foot while one of them does.
+
+*Force.* While a plate bears more than a threshold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme._checks import as_floats
+from kineme.cycles.channels import speed_of
+from kineme.errors import ParameterError
+
+Floats = NDArray[np.float64]
+
+STEADY = 0.12
+"""Of the usual turning of a foot that moves: slower than this, it stands."""
+FLAT_S = 0.08
+"""Seconds that a stand lasts, at least."""
+SWING_S = 0.15
+"""Seconds that a swing lasts, at least."""
+SMOOTH_S = 0.015
+"""A gyroscope is smoothed by a normal curve that deviates by this, in seconds."""
+OFF, ON = 0.62, 0.63
+"""Shares of the fastest turn before and after a swing at which the foot leaves and comes down."""
+HIGH, APART_S = 0.4, 0.3
+"""Of the fastest turn forward: what is faster is a swing; seconds between two of them, at least."""
+FIRST = 0.3
+"""Of a movement, in which the heel rises."""
+LOW, SLOW = 0.04, 0.8
+"""Metres above its lowest place, and metres per second, below which a heel or a toe stands."""
+LOWEST = 5.0
+"""Per cent of the frames in which a point is as low as its lowest place."""
+BRIDGE_S, STAND_S = 0.1, 0.1
+"""Seconds: a shorter break is none, and a shorter stand is none."""
+NEWTON = 20.0
+"""What a force plate bears when somebody stands on it, at least."""
+
+
+def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
+    """When a foot leaves the ground and comes down again, from how it turns.
+
+    Parameters
+    ----------
+    rates : (frames, 3) array
+        Angular velocity of a sensor at the foot, in any unit and direction.
+    fps : float
+        Frames per second.
+
+    Returns
+    -------
+    (swings, 2) array
+        Seconds at which the foot leaves the ground, and at which it is back.
+
+    Examples
+    --------
+    >>> from kineme.cycles import swings_from_gyroscope
+    >>> t = np.arange(-0.5, 0.5, 0.01)
+    >>> lobes = [(-0.25, 8.0, 0.05), (0.0, -5.0, 0.1), (0.2, 4.0, 0.04)]
+    >>> step = sum(high * np.exp(-((t - at) ** 2) / 2 / wide**2) for at, high, wide in lobes)
+    >>> rates = np.zeros((300, 3))
+    >>> rates[:, 1] = np.tile(step, 3)
+    >>> swings_from_gyroscope(rates, 100.0).shape
+    (3, 2)
+    """
+    from scipy.ndimage import gaussian_filter1d
+
+    turning = _columns(rates, "rates", 3)
+    turning = turning - np.median(turning, axis=0)
+    turning = gaussian_filter1d(turning, SMOOTH_S * fps, axis=0, mode="nearest")
+    size = np.linalg.norm(turning, axis=1)
+    if not size.any():
+        return np.empty((0, 2))
+    usual = float(np.percentile(size[size > 0.1 * size.max()], 75))
+    stands = [
+        (a, b) for a, b in _spans(size < STEADY * usual) if b - a >= FLAT_S * fps
+    ]  # fmt: skip
+    moves = [(before[1], after[0]) for before, after in pairwise(stands)]
+    axis = np.linalg.eigh(np.cov(turning.T))[1][:, -1]
+    pitch = turning @ axis
+    rises = sum(float(pitch[a : a + max(1, int(FIRST * (b - a)))].sum()) for a, b in moves)
+    if rises > 0:
+        pitch = -pitch  # the heel rises with a negative turn, the foot swings with a positive one
+    parts = [part for a, b in moves for part in _parts(pitch, a, b, fps)]
+    found = [(a, _swing(pitch[a:b])) for a, b in parts]
+    swings = [(a + each[0], a + each[1]) for a, each in found if each is not None]
+    seconds = np.array(swings, np.float64).reshape(-1, 2) / fps
+    return seconds[np.diff(seconds, axis=1)[:, 0] >= SWING_S]
+
+
+def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, int]]:
+    """A movement, parted where the foot stands too shortly to be seen standing.
+
+    There are two swings where two turns forward are `APART_S` from each other.
+    """
+    forward = _spans(pitch[start:stop] > HIGH * pitch[start:stop].max(initial=0.0))
+    cuts = [start]
+    for (_, before), (after, _) in pairwise(forward):
+        if after - before >= APART_S * fps:
+            turning = np.abs(pitch[start + before : start + after])
+            width = max(1, round(FLAT_S * fps))
+            steady = np.convolve(turning, np.ones(width) / width, "valid")
+            cuts.append(start + before + int(steady.argmin()) + width // 2)
+    return [*pairwise([*cuts, stop])]
+
+
+def _swing(pitch: Floats) -> tuple[float, float] | None:
+    """Frames at which the foot is off and on again, in a movement between two stands."""
+    middle = int(pitch.argmax())
+    if middle < 2 or pitch[middle] <= 0:
+        return None
+    rise = int(pitch[:middle].argmin())
+    if pitch[rise] >= 0:
+        return None
+    off = _crossing(pitch, rise, middle, OFF * pitch[rise])
+    slap = middle + int(pitch[middle:].argmin())
+    positive = np.flatnonzero(pitch[middle:slap] > 0)
+    last = middle + (int(positive[-1]) if len(positive) else 0)
+    on = _crossing(pitch, last, slap, ON * min(float(pitch[slap]), 0.0))
+    return off, on
+
+
+def _crossing(values: Floats, start: int, stop: int, level: float) -> float:
+    """Where values from one frame to another first reach a level, between two frames."""
+    span = values[start : stop + 1] - level
+    changed = np.flatnonzero(np.signbit(span) != np.signbit(span[0]))
+    if len(changed) == 0:
+        return float(stop)
+    at = int(changed[0])
+    before, after = span[at - 1], span[at]
+    return start + at - 1 + float(before / (before - after))
+
+
+def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
+    """When a foot stands, from where its heel and its toe are; one point alone will do.
+
+    Parameters
+    ----------
+    points : sequence of (frames, 3) array
+        Metres, y up.
+    fps : float
+        Frames per second.
+
+    Returns
+    -------
+    (stands, 2) array
+        Seconds from when and to when the foot stands.
+
+    Examples
+    --------
+    >>> from kineme.cycles import stands_from_positions
+    >>> height = np.array([0.0] * 30 + [0.2] * 30 + [0.0] * 30)
+    >>> path = np.stack([0 * height, height, 0 * height], axis=1)
+    >>> stands_from_positions([path], 60.0).round(2).tolist()
+    [[0.0, 0.48], [1.02, 1.5]]
+    """
+    if not points:
+        raise ParameterError("a foot needs one point at least: its heel, its toe or its ankle")
+    paths = [_columns(each, "points", 3) for each in points]
+    stands = np.zeros(len(paths[0]), bool)
+    for path in paths:
+        low = path[:, 1] < np.percentile(path[:, 1], LOWEST) + LOW
+        stands |= low & (speed_of(path, fps) < SLOW)
+    return _lasting(stands, fps)
+
+
+def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) -> Floats:
+    """When somebody stands on a force plate.
+
+    Parameters
+    ----------
+    force : (frames,) array
+        Upright, newtons; its sign does not matter.
+    fps : float
+        Frames per second.
+    least : float
+        Newtons.
+
+    Returns
+    -------
+    (stands, 2) array
+        Seconds.
+
+    Examples
+    --------
+    >>> from kineme.cycles import stands_from_force
+    >>> stands_from_force([0.0] * 100 + [700.0] * 600 + [0.0] * 100, 1000.0).tolist()
+    [[0.1, 0.7]]
+    """
+    values = as_floats(force, "force").ravel()
+    return _lasting(np.abs(values) > least, fps)
+
+
+def _lasting(stands: NDArray[np.bool_], fps: float) -> Floats:
+    """Seconds of stands, joined over short breaks, without short ones."""
+    joined: list[list[int]] = []
+    for start, stop in _spans(stands):
+        if joined and start - joined[-1][1] < BRIDGE_S * fps:
+            joined[-1][1] = stop
+        else:
+            joined.append([start, stop])
+    lasting = [each for each in joined if each[1] - each[0] >= STAND_S * fps]
+    return np.array(lasting, np.float64).reshape(-1, 2) / fps
+
+
+def _spans(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Frames [start, stop) of each span over which a mask is true."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(np.int8), [0]])))
+    return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
+
+
+def _columns(values: ArrayLike, name: str, n: int) -> Floats:
+    array = as_floats(values, name)
+    if array.ndim != 2 or array.shape[1] != n or len(array) == 0:
+        raise ParameterError(f"{name} must be frames x {n}, not of shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise ParameterError(f"{name} hold a value that is not finite")
+    return array

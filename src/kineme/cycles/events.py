@@ -1,0 +1,351 @@
+"""Events of a recording: foot contacts, those of its file; and what they tell of a gait."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._checks import check_type
+from kineme._counts import counted
+from kineme.cycles.contacts import (
+    stands_from_force,
+    stands_from_positions,
+    swings_from_gyroscope,
+)
+from kineme.cycles.landmarks import SIDES, landmarks
+from kineme.cycles.table import Columns
+from kineme.errors import ParameterError
+from kineme.recordings import Motion, Signals
+from kineme.segments.segmentation import Segmentation
+
+Floats = NDArray[np.float64]
+
+STRIKE, OFF = "foot strike", "foot off"
+LONGEST = 1.8
+"""Of the median stride: a longer one is a stop, or a step between that was missed."""
+_FOOT = {"left": ("lf", "leftfoot", "footleft", "lfoot", "footl"),
+         "right": ("rf", "rightfoot", "footright", "rfoot", "footr")}  # fmt: skip
+_SHANK = {"left": ("ls", "leftshank", "shankleft", "lshank", "shankl"),
+          "right": ("rs", "rightshank", "shankright", "rshank", "shankr")}  # fmt: skip
+_GYROSCOPE = ("gyr", "gyro", "gyroscope", "omega", "angularvelocity")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Events:
+    """What happens when, in time order.
+
+    Parameters
+    ----------
+    times : (n,) array
+        Seconds.
+    names : (n,) array of str
+        Such as ``left foot strike`` and ``right foot off``.
+    n_frames : int
+        Of the recording.
+    fps : float
+        Frames per second of the recording.
+    sources : dict of str to str
+        By foot: what its contacts were found from.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import foot_events
+    >>> from kineme.datasets import Action, synthesize
+    >>> walk = synthesize([Action("walk", 4)], fps=60).motion
+    >>> len(foot_events(walk).at("left foot strike"))
+    3
+    """
+
+    times: Floats
+    names: NDArray[np.str_]
+    n_frames: int
+    fps: float
+    sources: dict[str, str]
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __repr__(self) -> str:
+        return f"<Events: {counted(len(self), 'event')} of {counted(len({*self.names}), 'name')}>"
+
+    def at(self, name: str) -> Floats:
+        """The seconds of all events of a name; none where it does not happen.
+
+        Parameters
+        ----------
+        name : str
+            ``left foot contact`` and ``left_foot_strike`` are one.
+        """
+        return np.asarray(self.times[self.names == plain_name(name)])
+
+    def columns(self) -> Columns:
+        """A table: ``time_s``, ``frame`` (between two of them) and ``event``."""
+        return {"time_s": self.times, "frame": self.times * self.fps, "event": self.names}
+
+    def segmentation(self, name: str | None = None) -> Segmentation:
+        """The spans between events as activities, each called after the event that starts it.
+
+        Parameters
+        ----------
+        name : str, optional
+            Of the events that cut; all by default.
+
+        Returns
+        -------
+        Segmentation
+            What comes before the first event is a transition.
+
+        Raises
+        ------
+        ParameterError
+            There are no such events.
+        """
+        chosen = np.ones(len(self), bool) if name is None else self.names == plain_name(name)
+        frames = np.rint(self.times[chosen] * self.fps).astype(np.int64)
+        pairs = zip(frames.tolist(), self.names[chosen].tolist(), strict=True)
+        starts = {frame: text for frame, text in pairs if 0 <= frame < self.n_frames}
+        if not starts:
+            raise ParameterError(f"there is no event {name or ''}".rstrip())
+        first = [] if 0 in starts else [0]
+        cuts = [*first, *sorted(starts), self.n_frames]
+        labels = [*([""] * len(first)), *(starts[frame] for frame in sorted(starts))]
+        return Segmentation.from_columns(
+            {
+                "level": ["activity"] * len(labels),
+                "kind": ["activity" if label else "transition" for label in labels],
+                "start_frame": cuts[:-1],
+                "stop_frame": cuts[1:],
+                "label": labels,
+            },
+            n_frames=self.n_frames,
+            fps=self.fps,
+            provenance={"notes": [f"{foot} from {of}" for foot, of in self.sources.items()]},
+        )
+
+
+def plain_name(name: str) -> str:
+    """A name of an event as `Events` has it: lower case, a strike for a contact."""
+    words = re.sub(r"[\s_]+", " ", name).strip().lower()
+    return re.sub(r"\b(foot|heel) (contact|strike)\b|\binitial contact\b", STRIKE, words)
+
+
+def foot_events(
+    recording: Motion | Signals, *, left: str | None = None, right: str | None = None
+) -> Events:
+    """When each foot comes down (``left foot strike``) and leaves the ground (``left foot off``).
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+        A body, of which heel and toe are taken, or the ankle; or signals of sensors at the feet.
+    left, right : str, optional
+        Of signals: which channels are of a foot, with ``*`` for any characters: the three axes of
+        its gyroscope, or the upright force under it. Found by their names by default, as in
+        ``lf_gyr_x``.
+
+    Returns
+    -------
+    Events
+
+    Raises
+    ------
+    ParameterError
+        No foot was found.
+
+    Examples
+    --------
+    >>> from kineme.cycles import foot_events
+    >>> from kineme.datasets import Action, synthesize
+    >>> events = foot_events(synthesize([Action("walk", 4)], fps=60).motion)
+    >>> events.sources
+    {'left': 'LeftFoot and LeftToeBase', 'right': 'RightFoot and RightToeBase'}
+    """
+    check_type(recording, (Motion, Signals), "foot_events", "kineme.read(path) gives a recording")
+    times: list[float] = []
+    names: list[str] = []
+    sources: dict[str, str] = {}
+    for side, pattern in zip(SIDES, (left, right), strict=True):
+        found = (
+            _of_body(recording, side, pattern)
+            if isinstance(recording, Motion)
+            else _of_sensors(recording, side, pattern)
+        )
+        if found is None:
+            continue
+        strikes, offs, sources[side] = found
+        for seconds, event in ((strikes, STRIKE), (offs, OFF)):
+            times += seconds
+            names += [f"{side} {event}"] * len(seconds)
+    if not sources:
+        raise ParameterError(
+            "no foot was found: a body needs ankles; of signals name the channels of its "
+            "gyroscope or of the force under it, as in left='lf_gyr_*' (--left 'lf_gyr_*')"
+        )
+    order = np.argsort(times, kind="stable")
+    return Events(
+        np.array(times, np.float64)[order],
+        np.array(names, np.str_)[order],
+        recording.n_frames,
+        recording.fps,
+        sources,
+    )
+
+
+Found = tuple[list[float], list[float], str]
+"""Seconds at which a foot comes down, at which it leaves the ground, and what they are from."""
+
+
+def _of_body(motion: Motion, side: str, pattern: str | None) -> Found | None:
+    if pattern is not None:
+        raise ParameterError("left= and right= name channels of signals; this is a body")
+    joints = landmarks(motion)
+    heel = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
+    if heel is None:
+        return None
+    points = list(dict.fromkeys([heel, joints.get(f"{side}_toe", heel)]))
+    stands = stands_from_positions([motion.positions[:, j] for j in points], motion.fps)
+    strikes, offs = _ends(stands, motion)
+    return strikes, offs, " and ".join(motion.skeleton.names[j] for j in points)
+
+
+def _of_sensors(signals: Signals, side: str, pattern: str | None) -> Found | None:
+    chosen = _channels(signals.names, side, pattern)
+    if chosen is None:
+        return None
+    values = signals.values[:, [signals.names.index(name) for name in chosen]]
+    source = f"{', '.join(chosen)}"
+    if len(chosen) == 1:
+        strikes, offs = _ends(stands_from_force(values[:, 0], signals.fps), signals)
+        return strikes, offs, source
+    strikes, offs = [], []
+    for start, stop in signals.spans():
+        swings = swings_from_gyroscope(values[start:stop], signals.fps) + start / signals.fps
+        offs += swings[:, 0].tolist()
+        strikes += swings[:, 1].tolist()
+    return strikes, offs, source
+
+
+def _ends(stands: Floats, recording: Motion | Signals) -> tuple[list[float], list[float]]:
+    """Starts and stops of stands, but those at an end of the recording or in a gap."""
+
+    def inside(second: float) -> bool:
+        frame = second * recording.fps
+        return 0 < frame < recording.n_frames and not any(
+            a <= frame <= b for a, b in recording.gaps
+        )
+
+    starts, stops = stands.T.tolist() if len(stands) else ([], [])
+    return [*filter(inside, starts)], [*filter(inside, stops)]
+
+
+def _channels(names: Sequence[str], side: str, pattern: str | None) -> list[str] | None:
+    """The three axes of the gyroscope of a foot, else of a shank; or what a pattern names."""
+    if pattern is not None:
+        chosen = [name for name in names if fnmatchcase(name, pattern)]
+        if len(chosen) not in (1, 3):
+            raise ParameterError(
+                f"{side}={pattern!r} names {counted(len(chosen), 'channel')}: three axes of a "
+                "gyroscope are needed, or one force"
+            )
+        return chosen
+    for words in (_FOOT[side], _SHANK[side]):
+        chosen = [name for name in names if _is_gyroscope(name, words)]
+        if len(chosen) == 3:
+            return chosen
+    return None
+
+
+def _is_gyroscope(name: str, places: Sequence[str]) -> bool:
+    """Whether a name is an axis of a gyroscope at one of these places, as ``lf_gyr_x``."""
+    words = [word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)]
+    joined = {a + b for a, b in pairwise(words)} | set(words)
+    return (
+        words[-1:] in (["x"], ["y"], ["z"])
+        and bool(joined.intersection(places))
+        and bool(joined.intersection(_GYROSCOPE))
+    )
+
+
+def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
+    """What foot contacts tell of a gait: times of strides, stands, swings and steps, symmetry.
+
+    Parameters
+    ----------
+    events : Events
+        With contacts of both feet, or of one.
+    recording : Motion or Signals, optional
+        Of a body also the length and the speed of strides are told.
+
+    Returns
+    -------
+    dict of str to array
+        Columns: ``measure``, and for each foot its number ``left_n``, ``left_mean``, ``left_sd``;
+        ``asymmetry_percent``: left less right, of the mean of both. Strides much longer than the
+        median, over a stop, are left out.
+
+    Examples
+    --------
+    >>> from kineme.cycles import foot_events, gait
+    >>> from kineme.datasets import Action, synthesize
+    >>> table = gait(foot_events(synthesize([Action("walk", 6)], fps=60).motion))
+    >>> table["measure"].tolist()
+    ['stride_s', 'stance_s', 'swing_s', 'stance_percent', 'step_s', 'cadence_per_min']
+    """
+    check_type(events, Events, "gait", "foot_events(recording) gives them")
+    measured = {side: _strides(events, side, recording) for side in SIDES}
+    measures = list(dict.fromkeys(name for each in measured.values() for name in each))
+    columns: dict[str, list[Any]] = {"measure": measures}
+    for side in SIDES:
+        values = [measured[side].get(name, np.empty(0)) for name in measures]
+        columns[f"{side}_n"] = [len(each) for each in values]
+        columns[f"{side}_mean"] = [each.mean() if len(each) else np.nan for each in values]
+        columns[f"{side}_sd"] = [each.std(ddof=1) if len(each) > 1 else np.nan for each in values]
+    left, right = (np.array(columns[f"{side}_mean"], np.float64) for side in SIDES)
+    table = {name: np.array(column) for name, column in columns.items()}
+    table["asymmetry_percent"] = 100 * (left - right) / ((left + right) / 2)
+    return table
+
+
+def _strides(events: Events, side: str, recording: Motion | Signals | None) -> dict[str, Floats]:
+    """Of each stride of a foot, from strike to strike, what can be measured."""
+    strikes, offs = events.at(f"{side} {STRIKE}"), events.at(f"{side} {OFF}")
+    others = events.at(f"{SIDES[side == SIDES[0]]} {STRIKE}")
+    if len(strikes) < 2:
+        return {}
+    pairs = np.column_stack([strikes[:-1], strikes[1:]])
+    lengths = np.diff(pairs, axis=1)[:, 0]
+    pairs = pairs[lengths <= LONGEST * np.median(lengths)]
+    rows = []
+    for start, stop in pairs.tolist():
+        between = offs[(offs > start) & (offs < stop)]
+        step = others[(others > start) & (others < stop)]
+        off = between[0] if len(between) == 1 else np.nan
+        rows.append((start, off, stop, stop - step[0] if len(step) == 1 else np.nan))
+    start, off, stop, step = np.array(rows, np.float64).T
+    stride = stop - start
+    found = {
+        "stride_s": stride,
+        "stance_s": off - start,
+        "swing_s": stop - off,
+        "stance_percent": 100 * (off - start) / stride,
+        "step_s": step,
+        "cadence_per_min": 120 / stride,
+    }
+    if isinstance(recording, Motion):
+        joints = landmarks(recording)
+        foot = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
+        if foot is not None:
+            frames = np.clip(np.rint(np.stack([start, stop]) * recording.fps), 0,
+                             recording.n_frames - 1).astype(np.intp)  # fmt: skip
+            ends = recording.positions[frames, foot][..., [0, 2]]
+            found["stride_m"] = np.linalg.norm(ends[1] - ends[0], axis=1)
+            found["speed_m_per_s"] = found["stride_m"] / stride
+    return {name: values[np.isfinite(values)] for name, values in found.items()}

@@ -1,0 +1,206 @@
+"""Cycles in files: CSV, Parquet, Excel, MATLAB and netCDF.
+
+=========== ==================================================================================
+``.csv``    the cycles; the summary and the mean curves beside it, as ``NAME.summary.csv`` and
+            ``NAME.curves.csv``
+``.parquet`` the same three as Parquet
+``.xlsx``   sheets ``cycles``, ``summary``, ``curves`` and ``provenance``
+``.mat``    structs ``cycles``, ``summary``, ``mean_curves``; ``curves`` (cycles x channels x
+            points), ``channels``, ``units``; names of columns have ``_`` for what is no letter
+``.nc``     all curves with the columns of their cycles, as xarray reads it
+=========== ==================================================================================
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from math import isnan
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kineme._checks import check_path, check_type
+from kineme._files import atomic_write
+from kineme.cycles.table import Columns, Cycles
+from kineme.errors import MissingDependencyError, WriteError
+from kineme.labels.delimited import write_rows
+
+NAME_OF_MATLAB = 63
+"""Characters of a name in MATLAB."""
+SHEET_ROWS = 1_048_575
+"""Rows of a sheet in Excel, less the line of names."""
+
+
+def write_cycles(cycles: Cycles, path: str | PathLike[str], *, ends: bool = False) -> None:
+    """Write cycles, their summary and their curves; the suffix tells the format.
+
+    Parameters
+    ----------
+    cycles : Cycles
+    path : path-like
+        ``.csv``, ``.parquet``, ``.xlsx``, ``.mat`` or ``.nc``.
+    ends : bool
+        Whether the first and the last cycle of an activity count in means as well.
+
+    Raises
+    ------
+    WriteError
+        Another suffix, or the file cannot be written.
+    MissingDependencyError
+        The package that writes it is not installed.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import write_cycles
+    >>> from kineme.datasets import bundled_truth
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
+    >>> write_cycles(cycles, "squats.csv")
+    """
+    check_type(cycles, Cycles, "write_cycles", "kineme.cycles(recording, segments) gives them")
+    check_path(path, "write_cycles")
+    target = Path(path)
+    writer = _WRITERS.get(target.suffix.lower())
+    if writer is None:
+        raise WriteError(target, f"must end in {', '.join(_WRITERS)}")
+    writer(cycles, target, ends)
+
+
+def write_table(columns: Columns, path: str | PathLike[str]) -> None:
+    """Write a table, such as `Cycles.summary` gives, as CSV or Parquet.
+
+    Parameters
+    ----------
+    columns : dict of str to array
+    path : path-like
+        ``.csv`` or ``.parquet``.
+
+    Raises
+    ------
+    WriteError
+        Another suffix, or the file cannot be written.
+    MissingDependencyError
+        Parquet without pyarrow.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kineme.cycles import write_table
+    >>> write_table({"group": np.array(["squat"]), "n": np.array([3])}, "counts.csv")
+    """
+    check_path(path, "write_table")
+    target = Path(path)
+    if target.suffix.lower() == ".parquet":
+        _write_parquet(columns, target)
+    elif target.suffix.lower() == ".csv":
+        with atomic_write(target) as draft, draft.open("w", encoding="utf-8", newline="") as file:
+            write_rows(file, [*columns], zip(*map(_cells, columns.values()), strict=True))
+    else:
+        raise WriteError(target, "must end in .csv or .parquet")
+
+
+def _cells(column: np.ndarray[Any, Any]) -> list[Any]:
+    """The cells of a column; an empty one where a number is not known."""
+    cells = column.tolist()
+    if column.dtype.kind == "f":
+        return ["" if isnan(cell) else cell for cell in cells]
+    return list(cells)
+
+
+def _write_parquet(columns: Columns, path: Path) -> None:
+    try:
+        from pyarrow import parquet, table
+    except ImportError as error:
+        raise MissingDependencyError("pyarrow", "tables") from error
+    with atomic_write(path) as draft:
+        parquet.write_table(table(columns), draft)
+
+
+def _tables(cycles: Cycles, ends: bool) -> dict[str, Columns]:
+    return {
+        "cycles": cycles.columns,
+        "summary": cycles.summary(ends=ends),
+        "curves": cycles.mean_curves(ends=ends),
+    }
+
+
+def _write_three(cycles: Cycles, path: Path, ends: bool) -> None:
+    for name, columns in _tables(cycles, ends).items():
+        place = path if name == "cycles" else path.with_suffix(f".{name}{path.suffix}")
+        write_table(columns, place)
+
+
+def _write_excel(cycles: Cycles, path: Path, ends: bool) -> None:
+    try:
+        from openpyxl import Workbook
+    except ImportError as error:
+        raise MissingDependencyError("openpyxl", "excel") from error
+    book = Workbook(write_only=True)
+    for name, columns in _tables(cycles, ends).items():
+        n = len(next(iter(columns.values()))) if columns else 0
+        if n > SHEET_ROWS:
+            raise WriteError(path, f"a sheet cannot hold {n} rows of {name}: write .parquet")
+        sheet = book.create_sheet(name)
+        sheet.append([*columns])
+        cells = [
+            [None if cell == "" else cell for cell in _cells(each)] for each in columns.values()
+        ]
+        for row in zip(*cells, strict=True):
+            sheet.append(row)
+    sheet = book.create_sheet("provenance")
+    for key, value in cycles.provenance.items():
+        sheet.append([key, value if isinstance(value, str) else json.dumps(value)])
+    with atomic_write(path) as draft:
+        book.save(draft)
+
+
+def _write_matlab(cycles: Cycles, path: Path, ends: bool) -> None:
+    from scipy.io import savemat
+
+    tables = _tables(cycles, ends)
+    content = {
+        "cycles": _struct(tables["cycles"]),
+        "summary": _struct(tables["summary"]),
+        "mean_curves": _struct(tables["curves"]),
+        "curves": cycles.curves,
+        "channels": np.array(cycles.channels, object),
+        "units": np.array(cycles.units, object),
+        "provenance": json.dumps(dict(cycles.provenance)),
+    }
+    with atomic_write(path) as draft, draft.open("wb") as file:
+        savemat(file, content, long_field_names=True, oned_as="column")
+
+
+def _struct(columns: Columns) -> dict[str, Any]:
+    """Columns by names that MATLAB takes; texts as cells."""
+    struct: dict[str, Any] = {}
+    for name, column in columns.items():
+        plain = re.sub(r"\W", "_", name, flags=re.ASCII)
+        plain = (plain if plain[:1].isalpha() else f"x{plain}")[:NAME_OF_MATLAB]
+        if plain in struct:
+            number = f"_{len(struct)}"
+            plain = plain[: NAME_OF_MATLAB - len(number)] + number
+        struct[plain] = column.astype(object) if column.dtype.kind == "U" else column
+    return struct
+
+
+def _write_netcdf(cycles: Cycles, path: Path, ends: bool) -> None:  # noqa: ARG001 (curves only)
+    dataset = cycles.to_xarray()
+    dataset.attrs["provenance"] = json.dumps(dict(cycles.provenance))
+    with atomic_write(path) as draft:
+        dataset.to_netcdf(draft, engine="scipy")
+
+
+_WRITERS: dict[str, Callable[[Cycles, Path, bool], None]] = {
+    ".csv": _write_three,
+    ".parquet": _write_three,
+    ".xlsx": _write_excel,
+    ".mat": _write_matlab,
+    ".nc": _write_netcdf,
+}
+SUFFIXES = tuple(_WRITERS)

@@ -1,0 +1,93 @@
+"""What borders are compared by: the pose of a body, or all channels of signals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import EndEffectorError, MotionError
+from kineme.features import distance_features, pose_features
+from kineme.recordings import Motion, Signals
+
+Floats = NDArray[np.float64]
+
+RATE = 250.0
+"""Samples per second, at most: what is faster is averaged."""
+SMOOTH_S = 0.02
+"""Signals are smoothed by a normal curve that deviates by this."""
+STEADY_S = 0.08
+"""Features are, before their speed is taken, so that noise is no movement."""
+
+
+@dataclass(frozen=True)
+class FineFeatures:
+    """Features of a recording at its rate, or at most `RATE`.
+
+    Attributes
+    ----------
+    values : (samples, dims) array
+    rate : float
+        Samples per second.
+    comparable : bool
+        Whether those of another recording of as many dimensions can be compared with them.
+    """
+
+    values: Floats
+    rate: float
+    comparable: bool
+
+    @cached_property
+    def speed(self) -> Floats:
+        """How fast they change, per second, smoothed."""
+        from scipy.ndimage import gaussian_filter1d
+
+        if len(self.values) < 2:
+            return np.zeros(len(self.values))
+        steady = gaussian_filter1d(self.values, STEADY_S * self.rate, axis=0, mode="nearest")
+        return np.asarray(np.linalg.norm(np.gradient(steady, axis=0), axis=1) * self.rate)
+
+
+def fine_features(recording: Motion | Signals) -> FineFeatures:
+    """The pose of a body, distances between its points where it has none, or all channels.
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+
+    Returns
+    -------
+    FineFeatures
+    """
+    many = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
+    rate = recording.fps / many
+    if isinstance(recording, Signals):
+        return FineFeatures(_of_signals(recording, many), rate, comparable=True)
+    try:
+        return FineFeatures(_averaged(pose_features(recording), many), rate, comparable=True)
+    except (EndEffectorError, MotionError):
+        single = recording.skeleton.n_joints < 2
+        positions = recording.positions
+        found = positions[:, 0] if single else distance_features(positions)[0]
+        return FineFeatures(_averaged(found, many), rate, comparable=False)
+
+
+def _of_signals(signals: Signals, many: int) -> Floats:
+    from scipy.ndimage import gaussian_filter1d
+
+    values, rate = _averaged(signals.values, many), signals.fps / many
+    deviation = values.std(axis=0)
+    scaled = (values - values.mean(axis=0)) / np.where(deviation > 0, deviation, 1)
+    return np.asarray(gaussian_filter1d(scaled, SMOOTH_S * rate, axis=0, mode="nearest"))
+
+
+def _averaged(values: Floats, many: int) -> Floats:
+    """The mean of the frames about every so many; the last may be of fewer."""
+    if many == 1:
+        return values
+    from scipy.ndimage import uniform_filter1d
+
+    return np.asarray(uniform_filter1d(values, many, axis=0, mode="nearest")[::many])

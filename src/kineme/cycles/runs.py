@@ -1,0 +1,209 @@
+"""From the segment table to repetitions in seconds: at one phase, and without pauses."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.cycles.borders import Run, in_phase, run_of
+from kineme.cycles.features import FineFeatures, fine_features
+from kineme.recordings import Motion, Signals
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Segment
+
+Floats = NDArray[np.float64]
+
+PAUSE_S = 0.5
+"""Seconds of standing still between two repetitions that are a pause, at least."""
+STILL = 0.1
+"""Of the speed of a cluster, the root of its mean square: what is slower stands still."""
+OUTSIDE = 0.25
+"""Of a cycle: a repetition that is farther outside of its activity is not complete, nor is one at
+its ends that lacks more."""
+
+
+@dataclass(frozen=True)
+class Repetition:
+    """One repetition: what the segmentation says of it, and from when to when it is measured.
+
+    Attributes
+    ----------
+    recording : int
+        Which of the recordings.
+    segment : Segment
+        The primitive.
+    number : int
+        In its activity, from 0.
+    place : str
+        ``inner``, or where it touches an end of its run ``first``, ``last`` or ``only``.
+    start, stop : float
+        Seconds.
+    start_deviation, stop_deviation : float
+        How uncertain they are, seconds; nan where nothing tells.
+    pause : float
+        Seconds of standing still between it and the repetition before.
+    complete : bool
+        Whether its activity reaches from its start to its stop.
+    turned : float
+        Of a cycle: how much later it begins than its segment, to begin where others do.
+    missing : str
+        What it lacks to be measured, such as the event that it begins with.
+    """
+
+    recording: int
+    segment: Segment
+    number: int
+    place: str
+    start: float
+    stop: float
+    start_deviation: float
+    stop_deviation: float
+    pause: float = 0.0
+    complete: bool = True
+    turned: float = 0.0
+    missing: str = ""
+
+
+def repetitions(
+    recordings: Sequence[Motion | Signals],
+    tables: Sequence[Segmentation],
+    groups: Sequence[Mapping[int, Hashable]],
+) -> list[Repetition]:
+    """The repetitions of all recordings, in the order of recordings and of time.
+
+    Parameters
+    ----------
+    recordings : sequence of Motion or Signals
+    tables : sequence of Segmentation
+        One of each.
+    groups : sequence of mapping
+        Of each: the group that a cluster belongs to. Repetitions of one group begin at one phase.
+    """
+    fine = [fine_features(recording) for recording in recordings]
+    members: dict[Hashable, list[tuple[Run, list[Segment]]]] = defaultdict(list)
+    for number, table in enumerate(tables):
+        dims, comparable = fine[number].values.shape[1], fine[number].comparable
+        for segments in _back_to_back(table):
+            frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
+            run = run_of(number, np.array(frames) / table.fps)
+            cluster = segments[0].cluster
+            alone = id(run) if cluster < 0 else -1 if comparable else number
+            group = groups[number].get(cluster, cluster)
+            members[group, dims, alone].append((run, segments))
+    found: list[Repetition] = []
+    features, rates = [each.values for each in fine], [each.rate for each in fine]
+    for runs in members.values():
+        aligned = in_phase([run for run, _ in runs], features, rates)
+        still = _stillness(aligned, fine)
+        for run, (_, segments) in zip(aligned, runs, strict=True):
+            each = _each(run, segments, tables[run.recording])
+            found += _without_pauses(each, fine[run.recording], still)
+    found.sort(key=lambda each: (each.recording, each.segment.start_frame))
+    return _numbered(found)
+
+
+def _back_to_back(table: Segmentation) -> list[list[Segment]]:
+    """The repetitions of one cluster in one activity, one after the other without a gap."""
+    runs: list[list[Segment]] = []
+    for row in table.primitives:
+        if row.kind != "primitive":
+            continue
+        last = runs[-1][-1] if runs else None
+        if (
+            last is not None
+            and row.cluster >= 0
+            and (last.cluster, last.activity) == (row.cluster, row.activity)
+            and last.stop_frame == row.start_frame
+        ):
+            runs[-1].append(row)
+        else:
+            runs.append([row])
+    return runs
+
+
+def _each(run: Run, segments: Sequence[Segment], table: Segmentation) -> list[Repetition]:
+    """The repetitions of a run, cut off where its activity ends."""
+    n, found = len(segments), []
+    activity = table.activities[segments[0].activity]
+    least, most, end = activity.start_s, activity.stop_s, table.n_frames / table.fps
+    reach = OUTSIDE * run.period
+    for i, segment in enumerate(segments):
+        start, stop = run.borders[i : i + 2].tolist()
+        complete = least - reach <= start and stop <= most + reach
+        if not complete:
+            start, stop = max(start, least), min(stop, most)
+        start, stop = min(max(start, 0.0), end), min(max(stop, 0.0), end)
+        first, last = i == 0, i == n - 1
+        if first or last:
+            complete &= stop - start >= (1 - OUTSIDE) * run.period
+        place = "only" if first and last else "first" if first else "last" if last else "inner"
+        found.append(
+            Repetition(
+                recording=run.recording,
+                segment=segment,
+                number=i,
+                place=place,
+                start=start,
+                stop=max(start, stop),
+                start_deviation=float(run.uncertainty[i]),
+                stop_deviation=float(run.uncertainty[i + 1]),
+                complete=complete,
+                turned=run.turned,
+            )
+        )
+    return found
+
+
+def _stillness(runs: Sequence[Run], fine: Sequence[FineFeatures]) -> float:
+    """The speed below which repetitions of these runs stand still."""
+    total, count = 0.0, 0
+    for run in runs:
+        rate = fine[run.recording].rate
+        frames = slice(max(0, int(run.borders[0] * rate)), int(run.borders[-1] * rate) + 1)
+        speed = fine[run.recording].speed[frames]
+        total, count = total + float(np.square(speed).sum()), count + len(speed)
+    return STILL * float(np.sqrt(total / max(count, 1)))
+
+
+def _without_pauses(run: list[Repetition], fine: FineFeatures, still: float) -> list[Repetition]:
+    """The repetitions of a run, from where movement begins to where it ends.
+
+    Standing still counts as a pause where it lasts `PAUSE_S`, on both sides of a border together.
+    """
+    trimmed = list(run)
+    for i, each in enumerate(run):
+        following = run[i + 1] if i + 1 < len(run) else None
+        begins, ends = _movement(each, fine, still)
+        if i == 0 and begins - each.start >= PAUSE_S:
+            trimmed[0] = replace(trimmed[0], start=begins)
+        until = each.stop if following is None else _movement(following, fine, still)[0]
+        if ends > trimmed[i].start and until - ends >= PAUSE_S:
+            trimmed[i] = replace(trimmed[i], stop=ends)
+            if following is not None and until < following.stop:
+                trimmed[i + 1] = replace(following, start=until, pause=until - ends)
+    return trimmed
+
+
+def _movement(each: Repetition, fine: FineFeatures, still: float) -> tuple[float, float]:
+    """When the first and the last movement of a repetition are; its ends where there is none."""
+    first = max(0, int(np.ceil(each.start * fine.rate)))
+    moves = np.flatnonzero(fine.speed[first : int(each.stop * fine.rate) + 1] > still)
+    if len(moves) == 0:
+        return each.start, each.stop
+    begins, ends = (first + moves[[0, -1]]) / fine.rate
+    return max(each.start, float(begins)), min(each.stop, float(ends))
+
+
+def _numbered(found: Sequence[Repetition]) -> list[Repetition]:
+    """The repetitions counted from 0 in each activity."""
+    counts: dict[tuple[int, int], int] = defaultdict(int)
+    numbered = []
+    for each in found:
+        key = each.recording, each.segment.activity
+        numbered.append(replace(each, number=counts[key]))
+        counts[key] += 1
+    return numbered

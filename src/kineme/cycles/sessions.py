@@ -1,0 +1,161 @@
+"""Two sessions side by side: what changed, and within which bounds that is known.
+
+Sessions are compared group by group; a group is in both where it has the same name, as repetitions
+with a label do. Differences are the second less the first; their bounds hold the true one with a
+confidence of 95 %, by Welch's t for two means of unequal spread, each number and each point of a
+curve by itself.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._checks import check_type
+from kineme.cycles.table import CONFIDENCE, Columns, Cycles
+from kineme.errors import ParameterError
+
+Floats = NDArray[np.float64]
+
+
+def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:
+    """The numbers of two sessions side by side.
+
+    Parameters
+    ----------
+    first, second : Cycles
+        Of the same channels.
+    ends : bool
+        Whether the first and the last cycle of an activity count as well.
+
+    Returns
+    -------
+    dict of str to array
+        Columns: ``group``, ``measure`` as in `Cycles.summary`; of each session ``first_n``,
+        ``first_mean``, ``first_sd``; ``difference``, ``low`` and ``high``: its bounds, nan where
+        a session has fewer than two cycles.
+
+    Raises
+    ------
+    ParameterError
+        No group is in both, or their channels differ.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import compare_sessions
+    >>> from kineme.datasets import bundled_truth
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()), channels=["knee_l"])
+    >>> table = compare_sessions(cycles, cycles)
+    >>> table["group"][0].item(), table["measure"][0].item(), table["difference"][0].item()
+    ('walk', 'duration_s', 0.0)
+    """
+    groups = _common(first, second)
+    sides = [each.summary(ends=ends) for each in (first, second)]
+    rows = [np.isin(side["group"], groups) for side in sides]
+    keys = [list(zip(s["group"][r].tolist(), s["measure"][r].tolist(), strict=True))
+            for s, r in zip(sides, rows, strict=True)]  # fmt: skip
+    order = [keys[1].index(key) for key in keys[0]]
+    one = {name: sides[0][name][rows[0]] for name in ("group", "measure", "n", "mean", "sd")}
+    two = {name: sides[1][name][rows[1]][order] for name in ("n", "mean", "sd")}
+    difference, low, high = _welch(*(each[n] for each in (one, two) for n in ("n", "mean", "sd")))
+    return {
+        "group": one["group"],
+        "measure": one["measure"],
+        **{f"first_{name}": one[name] for name in two},
+        **{f"second_{name}": two[name] for name in two},
+        "difference": difference,
+        "low": low,
+        "high": high,
+    }
+
+
+def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:
+    """The mean curves of two sessions side by side.
+
+    Parameters
+    ----------
+    first, second : Cycles
+        Of the same channels and as many points.
+    ends : bool
+        Whether the first and the last cycle of an activity count as well.
+
+    Returns
+    -------
+    dict of str to array
+        Columns: ``group``, ``channel``, ``percent``, ``first_n``, ``first_mean``, ``first_sd``,
+        the same of the second, ``difference``, ``low``, ``high``.
+
+    Raises
+    ------
+    ParameterError
+        No group is in both, or their channels or points differ.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import compare_curves
+    >>> from kineme.datasets import bundled_truth
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()), channels=["knee_l"])
+    >>> len(compare_curves(cycles, cycles)["percent"]) == 101 * len(cycles.groups)
+    True
+    """
+    groups = _common(first, second)
+    if first.curves.shape[2] != second.curves.shape[2]:
+        raise ParameterError(
+            f"curves of {first.curves.shape[2]} and of {second.curves.shape[2]} points cannot be "
+            "compared: measure both with the same points="
+        )
+    one, two = (each.mean_curves(ends=ends) for each in (first, second))
+    rows = np.isin(one["group"], groups)
+    place = {group: i for i, group in enumerate(second.groups)}
+    size = first.curves.shape[2] * len(first.channels)
+    order = np.concatenate([np.arange(size) + size * place[group] for group in first.groups
+                            if group in place])  # fmt: skip
+    numbers = ("n", "mean", "sd")
+    left = {name: one[name][rows] for name in ("group", "channel", "percent", *numbers)}
+    right = {name: two[name][order] for name in numbers}
+    difference, low, high = _welch(*(each[name] for each in (left, right) for name in numbers))
+    return {
+        **{name: left[name] for name in ("group", "channel", "percent")},
+        **{f"first_{name}": left[name] for name in numbers},
+        **{f"second_{name}": right[name] for name in numbers},
+        "difference": difference,
+        "low": low,
+        "high": high,
+    }
+
+
+def _common(first: Cycles, second: Cycles) -> list[str]:
+    """The groups that are in both; ParameterError where nothing can be compared."""
+    for each in (first, second):
+        check_type(
+            each, Cycles, "comparing sessions", "kineme.cycles(recording, segments) gives them"
+        )
+    if first.channels != second.channels:
+        raise ParameterError("two sessions are compared by the same channels: choose them by name")
+    groups = [group for group in first.groups if group in second.groups]
+    if not groups:
+        raise ParameterError(
+            f"no group is in both sessions: {', '.join(first.groups) or 'none'} and "
+            f"{', '.join(second.groups) or 'none'}; name clusters, or give them numbers in common"
+        )
+    return groups
+
+
+def _welch(
+    n: Floats, mean: Floats, sd: Floats, other_n: Floats, other_mean: Floats, other_sd: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """The second mean less the first, and its bounds."""
+    from scipy.special import stdtrit
+
+    with np.errstate(divide="ignore", invalid="ignore"):
+        parts = sd**2 / n, other_sd**2 / other_n
+        error = np.sqrt(parts[0] + parts[1])
+        freedom = error**4 / (parts[0] ** 2 / (n - 1) + parts[1] ** 2 / (other_n - 1))
+        half = stdtrit(freedom, (1 + CONFIDENCE) / 2) * error
+    half = np.where(error == 0, 0.0, half)
+    difference = other_mean - mean
+    return difference, difference - half, difference + half

@@ -1,0 +1,447 @@
+"""`Cycles`: one row for each repetition, its curves, and what a cluster has in the mean.
+
+Only what stands in its columns is here; how it is measured is in `kineme.cycles.measure`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._checks import as_indices, check_flag, is_number
+from kineme._counts import counted
+from kineme.errors import MissingDependencyError, ParameterError
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+Floats = NDArray[np.float64]
+Columns = dict[str, NDArray[Any]]
+
+STATISTICS = ("range", "min", "max", "min_at", "max_at", "mean", "start", "stop")
+"""Of each channel in each cycle; ``_at`` in per cent of the cycle, ``start`` and ``stop`` at its
+borders."""
+INNER = "inner"
+BY_HAND, INCOMPLETE, FAR, UNSURE = "by hand", "incomplete", "far from the mean", "border not sure"
+FEWEST = 5
+"""Cycles of a group of which one can be far from the others."""
+DEVIATION = 0.6745
+"""Of a standard deviation: half of all values are nearer to the mean."""
+CONFIDENCE = 0.95
+"""Of the band about a mean curve."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Cycles:
+    """Repetitions measured; made by `kineme.cycles`.
+
+    Parameters
+    ----------
+    columns : mapping of str to array
+        By name, one value for each cycle: see `kineme.cycles`.
+    channels, units : sequence of str
+        What was measured, and in which units.
+    curves : (cycles, channels, points) array
+        Each channel from the start of a cycle (0 %) to its stop (100 %); nan where nothing was
+        recorded.
+    provenance : mapping
+        Version, recordings, what each channel was taken from, notes.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()), channels=["knee_*"])
+    >>> cycles
+    <Cycles: 32 of 6 groups, 2 channels>
+    >>> cycles.columns["group"][0].item(), cycles.curves.shape
+    ('walk', (32, 2, 101))
+    """
+
+    columns: Columns
+    channels: tuple[str, ...]
+    units: tuple[str, ...]
+    curves: Floats
+    provenance: Mapping[str, Any] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.curves)
+
+    def __repr__(self) -> str:
+        of = counted(len(self.groups), "group")
+        return f"<Cycles: {len(self)} of {of}, {counted(len(self.channels), 'channel')}>"
+
+    @property
+    def groups(self) -> list[str]:
+        """The groups, in the order of their first cycle."""
+        return list(dict.fromkeys(self.columns["group"].tolist()))
+
+    def select(self, rows: NDArray[np.bool_]) -> Cycles:
+        """Some of the cycles, such as those of one recording.
+
+        Parameters
+        ----------
+        rows : (cycles,) array of bool
+
+        Returns
+        -------
+        Cycles
+
+        Raises
+        ------
+        ParameterError
+            No mask of as many cycles.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> motion = kineme.read(kineme.bundled_recording())
+        >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
+        >>> cycles.select(cycles.columns["group"] == "squat")
+        <Cycles: 4 of 1 group, 12 channels>
+        """
+        mask = np.asarray(rows)
+        if mask.dtype != bool or mask.shape != (len(self),):
+            raise ParameterError(f"rows are chosen by a mask of {len(self)} cycles")
+        columns = {name: column[mask] for name, column in self.columns.items()}
+        return replace(self, columns=columns, curves=self.curves[mask])
+
+    def used(self, *, ends: bool = False) -> NDArray[np.bool_]:
+        """Which cycles count in means: the inner ones that nothing excludes.
+
+        Parameters
+        ----------
+        ends : bool
+            Whether the first and the last of an activity count as well.
+
+        Returns
+        -------
+        (cycles,) array of bool
+        """
+        check_flag(ends, "ends")
+        counts = np.asarray(self.columns["excluded"] == "")
+        return counts if ends else counts & (self.columns["place"] == INNER)
+
+    def exclude(self, rows: Collection[int], reason: str = BY_HAND) -> Cycles:
+        """The same where some cycles do not count in any mean, with the reason in their rows.
+
+        Parameters
+        ----------
+        rows : collection of int
+            Numbers of rows, from 0.
+        reason : str
+
+        Returns
+        -------
+        Cycles
+
+        Raises
+        ------
+        ParameterError
+            There is no such row.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> motion = kineme.read(kineme.bundled_recording())
+        >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
+        >>> cycles.exclude([1]).columns["excluded"][:2].tolist()
+        ['', 'by hand']
+        """
+        chosen = as_indices(rows, "rows")
+        for row in chosen:
+            if not 0 <= row < len(self):
+                raise ParameterError(f"there is no cycle {row}: they are 0 to {len(self) - 1}")
+        reasons = self.columns["excluded"].astype(object)
+        for row in chosen:
+            reasons[row] = reasons[row] or reason
+        return replace(self, columns={**self.columns, "excluded": reasons.astype(np.str_)})
+
+    def exclude_far(self, deviations: float = 4.0) -> Cycles:
+        """The same without cycles whose duration or curves are far from those of their group.
+
+        Parameters
+        ----------
+        deviations : float
+            How many times as far from the median as half of the cycles are: of a duration in
+            standard deviations that this tells, of curves as it is. What is far does not hide
+            itself so. Of fewer than five inner cycles none is far.
+
+        Returns
+        -------
+        Cycles
+        """
+        _check_number(deviations, "deviations")
+        far: set[int] = set()
+        for group in self.groups:
+            rows = np.flatnonzero((self.columns["group"] == group) & self.used())
+            if len(rows) < FEWEST:
+                continue
+            curves, duration = self.curves[rows], self.columns["duration_s"][rows]
+            apart = _distances(curves - np.median(curves, axis=0))
+            for values in (DEVIATION * np.abs(duration - np.median(duration)), *apart.T):
+                far |= set(rows[values > deviations * np.median(values)].tolist())
+        return self.exclude(sorted(far), FAR)
+
+    def exclude_unsure(self, least: float = 0.5) -> Cycles:
+        """The same without cycles whose start is right with less than this probability.
+
+        Parameters
+        ----------
+        least : float
+            From 0 to 1; cycles of which nobody says it stay.
+
+        Returns
+        -------
+        Cycles
+        """
+        _check_number(least, "least")
+        return self.exclude(np.flatnonzero(self.columns["border_confidence"] < least), UNSURE)
+
+    def summary(self, *, ends: bool = False) -> Columns:
+        """Number, mean and deviation of all that was measured, for each group.
+
+        Parameters
+        ----------
+        ends : bool
+            Whether the first and the last cycle of an activity count as well.
+
+        Returns
+        -------
+        dict of str to array
+            Columns: ``group``, ``measure`` (``duration_s``, ``cadence_per_min``, and each
+            statistic of each channel), ``n``, ``mean``, ``sd``, ``cv`` (sd / mean; of times only),
+            ``median``, ``q25``, ``q75``. nan where there are too few cycles.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> motion = kineme.read(kineme.bundled_recording())
+        >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
+        >>> summary = cycles.summary()
+        >>> [summary[name][0].item() for name in ("group", "measure", "n")]
+        ['walk', 'duration_s', 5]
+        >>> round(summary["mean"][0], 2).item()
+        1.13
+        """
+        used = self.used(ends=ends)
+        duration = self.columns["duration_s"]
+        with np.errstate(divide="ignore"):
+            measures = {"duration_s": duration, "cadence_per_min": 60 / duration}
+        measures |= {
+            f"{channel}.{name}": self.columns[f"{channel}.{name}"]
+            for channel in self.channels
+            for name in STATISTICS
+        }
+        lines = [
+            (group, measure, *_described(values[used & (self.columns["group"] == group)], measure))
+            for group in self.groups
+            for measure, values in measures.items()
+        ]
+        names = ("group", "measure", "n", "mean", "sd", "cv", "median", "q25", "q75")
+        columns = zip(*lines, strict=True) if lines else [()] * len(names)
+        return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
+
+    def mean_curves(self, *, ends: bool = False) -> Columns:
+        """Mean curve, deviation and confidence band of each channel of each group, tidy.
+
+        Parameters
+        ----------
+        ends : bool
+            Whether the first and the last cycle of an activity count as well.
+
+        Returns
+        -------
+        dict of str to array
+            Columns: ``group``, ``channel``, ``percent``, ``n``, ``mean``, ``sd``, ``low``, ``high``
+            (of the mean, with a confidence of 95 %, by Student's t at each point).
+        """
+        from scipy.special import stdtrit
+
+        blocks: list[Columns] = []
+        used, points = self.used(ends=ends), self.curves.shape[2]
+        for group in self.groups:
+            for place, channel in enumerate(self.channels):
+                curves = self.curves[used & (self.columns["group"] == group), place]
+                curves = curves[np.isfinite(curves).all(axis=1)]
+                n = len(curves)
+                missing = np.full(points, np.nan)
+                mean = curves.mean(axis=0) if n else missing
+                sd = curves.std(axis=0, ddof=1) if n > 1 else missing
+                half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * sd / np.sqrt(n) if n > 1 else missing
+                blocks.append(
+                    {
+                        "group": np.full(points, group),
+                        "channel": np.full(points, channel),
+                        "percent": np.linspace(0, 100, points),
+                        "n": np.full(points, n),
+                        "mean": mean,
+                        "sd": sd,
+                        "low": mean - half,
+                        "high": mean + half,
+                    }
+                )
+        if not blocks:
+            return {}
+        return {name: np.concatenate([each[name] for each in blocks]) for name in blocks[0]}
+
+    def layout(self, channel: str, group: str | None = None, *, ends: bool = False) -> Floats:
+        """The curves of a channel below each other, as `spm1d` takes them.
+
+        Parameters
+        ----------
+        channel : str
+        group : str, optional
+            The only one by default.
+        ends : bool
+            Whether the first and the last cycle of an activity count as well.
+
+        Returns
+        -------
+        (n, points) array
+            Without cycles in which something was not recorded.
+
+        Raises
+        ------
+        ParameterError
+            No such channel or group, or several groups of which none is chosen.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> motion = kineme.read(kineme.bundled_recording())
+        >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
+        >>> cycles.layout("knee_l", "walk").shape
+        (5, 101)
+        """
+        if channel not in self.channels:
+            raise ParameterError(f"no channel {channel!r}; there are {', '.join(self.channels)}")
+        if group is None and len(self.groups) == 1:
+            group = self.groups[0]
+        if group not in self.groups:
+            chosen = f"no group {group!r}" if group else "several groups"
+            raise ParameterError(f"{chosen}: choose one of {', '.join(self.groups)}")
+        rows = self.used(ends=ends) & (self.columns["group"] == group)
+        curves: Floats = self.curves[rows, self.channels.index(channel)]
+        return curves[np.isfinite(curves).all(axis=1)]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row for each cycle.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        MissingDependencyError
+            pandas is not installed.
+        """
+        try:
+            import pandas as pd
+        except ImportError as error:
+            raise MissingDependencyError("pandas", "tables") from error
+        return pd.DataFrame(self.columns)
+
+    def to_xarray(self) -> xr.Dataset:
+        """All curves as a data set: a variable of (cycle, percent) for each channel.
+
+        Returns
+        -------
+        xarray.Dataset
+            The columns of the table are coordinates of its cycles.
+
+        Raises
+        ------
+        MissingDependencyError
+            xarray is not installed.
+        """
+        try:
+            import xarray as xr
+        except ImportError as error:
+            raise MissingDependencyError("xarray", "xarray") from error
+        measured = {f"{channel}.{name}" for channel in self.channels for name in STATISTICS}
+        points = self.curves.shape[2]
+        return xr.Dataset(
+            {
+                channel: (("cycle", "percent"), self.curves[:, place], {"units": unit})
+                for place, (channel, unit) in enumerate(zip(self.channels, self.units, strict=True))
+            },
+            coords={
+                "percent": np.linspace(0, 100, points),
+                **{
+                    name: ("cycle", values)
+                    for name, values in self.columns.items()
+                    if name not in measured
+                },
+            },
+        )
+
+    def write(self, path: str | PathLike[str], *, ends: bool = False) -> None:
+        """Write the table, the summary and the curves; see `kineme.cycles.write_cycles`.
+
+        Parameters
+        ----------
+        path : path-like
+        ends : bool
+            Whether the first and the last cycle of an activity count in means as well.
+        """
+        from kineme.cycles.export import write_cycles
+
+        write_cycles(self, path, ends=ends)
+
+    def plot(self, channel: str, *, ends: bool = False, ax: Axes | None = None) -> Axes:
+        """The mean curve of a channel with its deviation, a line for each group.
+
+        Parameters
+        ----------
+        channel : str
+        ends : bool
+            Whether the first and the last cycle of an activity count as well.
+        ax : Axes, optional
+            Where to draw; Axes of a new figure of pyplot by default.
+
+        Returns
+        -------
+        Axes
+        """
+        from kineme.cycles.picture import draw_curves
+
+        return draw_curves(self, channel, ends=ends, ax=ax)
+
+
+def _described(values: Floats, measure: str) -> tuple[float, ...]:
+    """Number, mean, deviation, its share of the mean, median and quartiles; nan where too few."""
+    values = values[np.isfinite(values)]
+    n = len(values)
+    if n == 0:
+        return 0, *[np.nan] * 6
+    mean, sd = float(values.mean()), float(values.std(ddof=1)) if n > 1 else np.nan
+    # Of angles a share of the mean says nothing: their zero is chosen.
+    cv = sd / mean if measure in ("duration_s", "cadence_per_min") else np.nan
+    low, median, high = np.percentile(values, [25, 50, 75]).tolist()
+    return n, mean, sd, cv, median, low, high
+
+
+def _distances(differences: Floats) -> Floats:
+    """The root of the mean square of each curve; what was not recorded does not count."""
+    recorded = np.isfinite(differences)
+    total = (np.where(recorded, differences, 0.0) ** 2).sum(axis=2)
+    return np.asarray(np.sqrt(total / np.maximum(recorded.sum(axis=2), 1)))
+
+
+def _check_number(value: object, name: str) -> None:
+    if not is_number(value) or float(value) < 0:  # type: ignore[arg-type]
+        raise ParameterError(f"{name} is {value!r:.60}: give a number from 0")

@@ -1,0 +1,141 @@
+"""kineme cycles, kineme events: as people run them."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+from pathlib import Path
+
+import pytest
+
+from kineme.datasets import bundled_recording, bundled_truth
+
+
+@pytest.fixture
+def take(tmp_path: Path) -> Path:
+    path = tmp_path / "take.bvh"
+    shutil.copy(bundled_recording(), path)
+    shutil.copy(bundled_truth(), tmp_path / "truth.json")
+    return path
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_cycles_are_measured_written_and_drawn(kineme_process, take: Path, tmp_path: Path) -> None:
+    done = kineme_process(
+        "cycles", "take.bvh", "--segments", "truth.json", "--channels", "knee_l", "-o", "c.csv",
+        "--plot", "c.png", "--exclude", "6",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "squat" in done.stdout
+    assert "inner repetitions" in done.stdout
+    assert "1 cycle left out: by hand." in done.stdout
+    rows = rows_of(tmp_path / "c.csv")
+    assert [row["group"] for row in rows[5:9]] == ["squat"] * 4
+    assert rows[6]["excluded"] == "by hand"
+    assert float(rows[6]["knee_l.range"]) == pytest.approx(102, abs=3)
+    assert (tmp_path / "c.png").stat().st_size > 5000
+
+
+def test_several_recordings_are_measured_together(kineme, take: Path, tmp_path: Path) -> None:
+    shutil.copy(take, tmp_path / "other.bvh")
+    (tmp_path / "tables").mkdir()
+    for name in ("take", "other"):
+        shutil.copy(tmp_path / "truth.json", tmp_path / "tables" / f"{name}.json")
+    done = kineme(
+        "cycles", "take.bvh", "other.bvh", "--segments", "tables/{name}.json", "-o", "c.csv",
+        "--channels", "knee_l", "-q", "--compare", "both.csv",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    rows = rows_of(tmp_path / "c.csv")
+    assert {row["recording"] for row in rows} == {"take", "other"}
+    assert len({row["group"] for row in rows}) == 6
+    compared = rows_of(tmp_path / "both.csv")
+    assert (compared[0]["group"], compared[0]["measure"]) == ("walk", "duration_s")
+    assert float(compared[0]["difference"]) == pytest.approx(0, abs=1e-9)
+    assert (tmp_path / "both.curves.csv").exists()
+    alone = kineme("cycles", "take.bvh", "--compare", "both.csv")
+    assert alone.returncode == 2
+
+
+def test_an_anchor_begins_each_cycle(kineme, take: Path) -> None:
+    done = kineme("cycles", "take.bvh", "--segments", "truth.json", "--anchor", "knee_r max")
+    assert done.returncode == 0, done.stderr
+    assert "left out: no event ends it" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--channels", "kne"], "no channel 'kne'; there are knee_l, knee_r"),
+        (["--anchor", "hop"], "no event 'hop'; there are left foot strike"),
+        (["--exclude", "999"], "there is no cycle 999"),
+        (["-o", "no/folder/c.csv"], "c.csv"),
+    ],
+)
+def test_what_cannot_be_is_one_sentence(kineme, take: Path, options: list[str], said: str) -> None:
+    done = kineme("cycles", "take.bvh", "--segments", "truth.json", *options)
+    assert done.returncode == 1
+    assert said in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("options", [["-o", "c.doc"], ["--plot", "c.csv"], ["--exclude", "some"]])
+def test_what_makes_no_sense_is_refused_as_typed(kineme, take: Path, options: list[str]) -> None:
+    done = kineme("cycles", "take.bvh", "--segments", "truth.json", *options)
+    assert done.returncode == 2
+    assert options[0] in done.stderr or "--output" in done.stderr
+
+
+def test_events_are_told_and_written(kineme_process, take: Path, tmp_path: Path) -> None:
+    done = kineme_process(
+        "events", "take.bvh", "-o", "e.csv", "--gait", "g.csv", "--labels", "e.TextGrid"
+    )
+    assert done.returncode == 0, done.stderr
+    assert "left foot: from LeftFoot and LeftToeBase" in done.stdout
+    assert "stride_s" in done.stdout
+    rows = rows_of(tmp_path / "e.csv")
+    assert {row["event"] for row in rows} == {
+        f"{side} foot {what}" for side in ("left", "right") for what in ("strike", "off")
+    }
+    assert rows_of(tmp_path / "g.csv")[0]["measure"] == "stride_s"
+    assert "left foot strike" in (tmp_path / "e.TextGrid").read_text()
+
+
+def test_a_recording_without_feet_is_one_sentence(kineme, tmp_path: Path) -> None:
+    lines = ["time_s,x,y", *(f"{i / 50},{i % 7},{i % 5}" for i in range(100))]
+    (tmp_path / "s.csv").write_text("\n".join(lines))
+    done = kineme("events", "s.csv")
+    assert done.returncode == 1
+    assert "no foot was found" in done.stderr
+
+
+def test_info_lists_what_can_be_measured(kineme, take: Path) -> None:
+    done = kineme("info", "--channels", "take.bvh")
+    assert done.returncode == 0
+    assert "knee_l" in done.stdout
+    assert "LeftUpLeg, LeftLeg, LeftFoot" in done.stdout
+    assert "Head.up" in done.stdout
+
+
+def test_force_plates_of_a_c3d_are_measured_at_their_own_rate(
+    kineme_process, data_dir: Path, tmp_path: Path
+) -> None:
+    trial = data_dir / "formats" / "Eb015pi.c3d"
+    done = kineme_process("cycles", trial, "--channels", "FZ1,RFT1.speed", "-o", "c.csv")
+    assert done.returncode == 0, done.stderr
+    rows = rows_of(tmp_path / "c.csv")
+    assert all(row["FZ1.range"] for row in rows if row["excluded"] == "")
+    assert "FZ1" in kineme_process("info", "--channels", trial).stdout
+
+
+def test_where_no_repetition_is_an_inner_one_it_says_what_to_do(kineme, take: Path) -> None:
+    lines = ["start_s,stop_s,label,level", "0,5.5,walk,activity", "0,2.7,walk,primitive"]
+    lines.append("2.7,5.5,walk,primitive")
+    Path("two.csv").write_text("\n".join(lines) + "\n")
+    done = kineme("cycles", "take.bvh", "--segments", "two.csv", "--channels", "knee_l")
+    assert done.returncode == 0, done.stderr
+    assert "walk: no inner repetition; --ends counts the others" in done.stdout

@@ -1,0 +1,163 @@
+"""Feet come down and leave the ground when they do, whatever saw it."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import kineme
+from kineme import _rotations as rot
+from kineme.cycles import (
+    foot_events,
+    gait,
+    stands_from_force,
+    stands_from_positions,
+    swings_from_gyroscope,
+)
+from kineme.datasets import Action, synthesize
+from kineme.errors import ParameterError
+from kineme.recordings import Signals
+
+FPS = 100.0
+
+
+def steps(n: int = 6, period: float = 1.1) -> np.ndarray:
+    """How a foot turns over so many steps, about one axis."""
+    t = np.arange(0, 1 + n * period, 1 / FPS)
+    rate = np.zeros(len(t))
+    for step in range(n):
+        at = 1 + step * period
+        for when, high, wide in ((-0.25, 8.0, 0.05), (0.0, -5.5, 0.09), (0.2, 4.5, 0.03)):
+            rate += high * np.exp(-((t - at - when) ** 2) / 2 / wide**2)
+    return np.column_stack([0 * t, rate, 0 * t])
+
+
+@given(st.floats(0.01, 100), st.tuples(*[st.floats(-3, 3)] * 3))
+def test_neither_the_unit_nor_the_direction_of_a_sensor_matters(unit: float, turn) -> None:
+    rates = steps()
+    before = swings_from_gyroscope(rates, FPS)
+    turned = unit * rot.rotate(rot.from_euler(np.array([turn]), "xyz"), rates)
+    np.testing.assert_allclose(swings_from_gyroscope(turned, FPS), before, atol=1e-6)
+    assert len(before) == 6
+
+
+def test_a_swing_is_between_the_turns_of_the_foot() -> None:
+    offs, ons = swings_from_gyroscope(steps(), FPS).T
+    np.testing.assert_allclose(np.diff(offs), 1.1, atol=0.01)
+    assert ((offs > 1 - 0.25 + np.arange(6) * 1.1) & (offs < 1 + np.arange(6) * 1.1)).all()
+    assert ((ons > 1 + np.arange(6) * 1.1) & (ons < 1.2 + np.arange(6) * 1.1)).all()
+
+
+def test_a_sensor_that_lies_still_has_no_swings() -> None:
+    assert swings_from_gyroscope(np.zeros((500, 3)), FPS).shape == (0, 2)
+    with pytest.raises(ParameterError, match="frames x 3"):
+        swings_from_gyroscope(np.zeros(500), FPS)
+
+
+def test_a_foot_stands_while_heel_or_toe_does() -> None:
+    up, down = [0.2] * 30, [0.0] * 30
+    heel, toe = np.array(down + up + up + down), np.array(down + down + up + up)
+    paths = [np.column_stack([0 * y, y, 0 * y]) for y in (heel, toe)]
+    stands = stands_from_positions(paths, 60.0)
+    np.testing.assert_allclose(stands, [[0.0, 1.0], [1.5, 2.0]], atol=0.04)
+    with pytest.raises(ParameterError, match="one point at least"):
+        stands_from_positions([], 60.0)
+
+
+def test_a_plate_bears_who_stands_on_it() -> None:
+    force = np.r_[np.zeros(200), -700 * np.ones(600), np.zeros(200)]
+    assert stands_from_force(force, 1000.0).tolist() == [[0.2, 0.8]]
+    assert len(stands_from_force(force, 1000.0, least=800)) == 0
+
+
+def test_a_walk_has_steps_of_both_feet_in_turn() -> None:
+    walk = synthesize([Action("walk", 8)], fps=120, seed=1).motion
+    events = foot_events(walk)
+    left, right = events.at("left foot strike"), events.at("right_foot_contact")
+    assert 7 <= len(left) <= 8
+    assert 7 <= len(right) <= 8
+    both = sorted([(at, 0) for at in left] + [(at, 1) for at in right])
+    assert all(a[1] != b[1] for a, b in pairwise(both))
+    table = gait(events, walk)
+    values = dict(zip(table["measure"].tolist(), table["left_mean"].tolist(), strict=True))
+    assert values["stride_s"] == pytest.approx(1.1, abs=0.03)
+    assert values["stance_s"] + values["swing_s"] == pytest.approx(values["stride_s"])
+    assert values["cadence_per_min"] == pytest.approx(120 / 1.1, rel=0.03)
+    assert values["step_s"] == pytest.approx(0.55, abs=0.04)
+    assert 0.5 < values["stride_m"] < 2.5
+    assert abs(table["asymmetry_percent"][0]) < 5
+
+
+def test_events_become_labels(tmp_path: Path) -> None:
+    walk = synthesize([Action("walk", 4)], fps=60, seed=1).motion
+    events = foot_events(walk)
+    spans = events.segmentation("left foot strike")
+    assert spans.n_frames == walk.n_frames
+    named = spans.activities.select(spans.activities.label == "left foot strike")
+    assert named.start_frame.tolist() == np.rint(60 * events.at("left foot strike")).tolist()
+    kineme.write_segments(events.segmentation(), tmp_path / "e.TextGrid")
+    labels = kineme.read_segments(tmp_path / "e.TextGrid", fps=60).activities.label
+    assert {*labels.tolist()} >= {"left foot strike", "right foot off"}
+    with pytest.raises(ParameterError, match="there is no event hop"):
+        events.segmentation("hop")
+
+
+NAMES = {
+    "set of feet": "lf_gyr_{a}",
+    "sensor last": "gyro_lf_{a}",
+    "in words": "LeftFootGyro{A}",
+    "shank": "gyro_ls_{a}",
+}
+
+
+@pytest.mark.parametrize("pattern", NAMES.values(), ids=NAMES)
+def test_sensors_at_feet_are_found_by_their_names(pattern: str) -> None:
+    names = [pattern.format(a=a, A=a.upper()) for a in "xyz"]
+    signals = Signals(np.hstack([steps(), steps() * 0]), FPS, [*names, "acc_x", "acc_y", "acc_z"])
+    events = foot_events(signals)
+    assert len(events.at("left foot strike")) == 6
+    assert [*events.sources] == ["left"]
+    only = gait(events)
+    assert np.isnan(only["right_mean"]).all()
+
+
+def test_channels_of_a_foot_may_be_named() -> None:
+    signals = Signals(steps(), FPS, ["a1", "a2", "a3"])
+    with pytest.raises(ParameterError, match="no foot was found"):
+        foot_events(signals)
+    with pytest.raises(ParameterError, match="names 2 channels"):
+        foot_events(Signals(np.zeros((9, 2)), FPS, ["b1", "b2"]), left="b*")
+    assert len(foot_events(signals, right="a*").at("right foot off")) == 6
+    force = Signals(np.r_[np.zeros(50), 700 * np.ones(60), np.zeros(50)], FPS, ["Fz1"])
+    assert foot_events(force, left="Fz1").at("left foot strike").tolist() == [0.5]
+
+
+def test_gaps_hold_no_steps() -> None:
+    signals = Signals(steps(), FPS, ["lf_gyr_x", "lf_gyr_y", "lf_gyr_z"], gaps=[(300, 500)])
+    times = foot_events(signals).at("left foot strike")
+    assert 0 < len(times) < 6
+    assert not ((times > 3) & (times < 5)).any()
+
+
+def test_contacts_checked_by_people_are_found(data_dir: Path) -> None:
+    """One recording of people who walk with sensors at their feet; all of them: a benchmark."""
+    folder = data_dir / "sets" / "ipolgait"
+    if not folder.is_dir():
+        pytest.skip("no sets/ipolgait among the recordings")
+    true = defaultdict(list)
+    for line in (folder / "events.csv").read_text().splitlines()[1:]:
+        recording, foot, _, on = line.split(",")
+        if recording == "1-4":
+            true[foot].append(float(on))
+    events = foot_events(kineme.read(folder / "recordings" / "1-4.parquet"))
+    for foot, times in true.items():
+        found = events.at(f"{foot} foot strike")
+        near = [np.abs(found - at).min() < 0.05 for at in times]
+        assert np.mean(near) > 0.85
+        assert abs(len(found) - len(times)) <= 1

@@ -1,0 +1,287 @@
+"""What is measured of each repetition, and which of them count."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.cycles import Cycles
+from kineme.datasets.synthetic import SyntheticRecording
+from kineme.errors import ParameterError
+from kineme.recordings import Motion, Signals
+from kineme.recordings.operations import cut
+from kineme.segments.segmentation import Segmentation
+
+
+@pytest.fixture(scope="module")
+def cycles(walks: SyntheticRecording) -> Cycles:
+    return kineme.cycles(walks.motion, walks.truth)
+
+
+def repeated(starts: list[float], end: float, fps: float, n_frames: int) -> Segmentation:
+    """One activity with these repetitions, in a recording that goes on."""
+    frames = [round(at * fps) for at in [*starts, end]]
+    rows = [("activity", "activity", frames[0], frames[-1], 0)]
+    rows += [("primitive", "primitive", a, b, 0) for a, b in pairwise(frames)]
+    for level in ("activity", "primitive"):
+        if frames[0]:
+            rows.append((level, "transition", 0, frames[0], -1))
+        if frames[-1] < n_frames:
+            rows.append((level, "transition", frames[-1], n_frames, -1))
+    names = ("level", "kind", "start_frame", "stop_frame", "cluster")
+    columns = dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
+    return Segmentation.from_columns(columns, n_frames=n_frames, fps=fps)
+
+
+def rows_of(cycles: Cycles, group: str) -> np.ndarray:
+    return np.flatnonzero(cycles.columns["group"] == group)
+
+
+def test_there_are_as_many_as_the_segments_say(walks, cycles) -> None:
+    assert len(cycles) == (walks.truth.primitives.kind == "primitive").sum()
+    assert cycles.groups == ["walk", "squat"]
+    assert cycles.columns["number"][rows_of(cycles, "squat")].tolist() == [0, 1, 2, 3, 4]
+    places = cycles.columns["place"][rows_of(cycles, "squat")].tolist()
+    assert places == ["first", *["inner"] * 3, "last"]
+
+
+def test_durations_are_those_of_the_maker(walks, cycles) -> None:
+    true = walks.truth.primitives
+    true = true.select(true.kind == "primitive")
+    inner = cycles.columns["place"] == "inner"
+    wrong = cycles.columns["duration_s"] / true.duration_s - 1
+    assert np.abs(wrong[inner]).max() < 0.05
+    assert abs(wrong[inner].mean()) < 0.01
+
+
+def test_borders_are_seconds_and_frames_of_the_file(cycles) -> None:
+    columns = cycles.columns
+    np.testing.assert_allclose(columns["start_frame"], 60 * columns["start_s"])
+    np.testing.assert_allclose(columns["stop_s"] - columns["start_s"], columns["duration_s"])
+    assert columns["start_s"].min() >= 0
+
+
+def test_walks_that_begin_with_another_foot_are_measured_from_the_same(walks) -> None:
+    """Cut by half a stride later, the second walk is turned to the phase of the first."""
+    truth = walks.truth
+    second = truth.activities[truth.activities.label == "walk"][1]
+    columns = {name: np.array(column) for name, column in truth.table.columns().items()}
+    moved = (columns["activity"] == second.activity) & (columns["level"] == "primitive")
+    rows = np.flatnonzero(moved & (columns["kind"] == "primitive"))
+    half = 33
+    columns["start_frame"][rows[1:]] += half
+    columns["stop_frame"][rows[:-1]] += half
+    other = Segmentation.from_columns(columns, n_frames=truth.n_frames, fps=truth.fps)
+    found = kineme.cycles(walks.motion, other, channels=["knee_l", "knee_r"])
+    curves = found.curves[rows_of(found, "walk")][1:-1, 0]
+    assert np.corrcoef(curves[1], curves[-2])[0, 1] > 0.95
+    assert "begins" in " ".join(found.provenance["notes"])
+    assert len(found) == (truth.primitives.kind == "primitive").sum()
+
+
+def test_statistics_are_those_of_the_curve(cycles) -> None:
+    columns, knee = cycles.columns, cycles.channels.index("knee_l")
+    for row in rows_of(cycles, "squat"):
+        curve = cycles.curves[row, knee]
+        assert columns["knee_l.max"][row] == pytest.approx(curve.max(), abs=0.5)
+        assert columns["knee_l.max_at"][row] == pytest.approx(curve.argmax(), abs=3)
+        assert columns["knee_l.start"][row] == pytest.approx(curve[0])
+        assert columns["knee_l.mean"][row] == pytest.approx(curve.mean(), abs=1)
+        width = columns["knee_l.max"][row] - columns["knee_l.min"][row]
+        assert columns["knee_l.range"][row] == pytest.approx(width)
+
+
+def test_the_summary_is_over_inner_cycles(cycles) -> None:
+    summary = cycles.summary()
+    rows = (summary["group"] == "squat") & (summary["measure"] == "duration_s")
+    durations = cycles.columns["duration_s"][rows_of(cycles, "squat")]
+    assert summary["n"][rows] == [3]
+    assert summary["mean"][rows][0] == pytest.approx(durations[1:-1].mean())
+    assert summary["cv"][rows][0] == pytest.approx(
+        durations[1:-1].std(ddof=1) / durations[1:-1].mean()
+    )
+    whole = cycles.summary(ends=True)
+    assert whole["n"][rows] == [5]
+    cadence = (summary["group"] == "squat") & (summary["measure"] == "cadence_per_min")
+    assert summary["mean"][cadence][0] == pytest.approx((60 / durations[1:-1]).mean())
+
+
+def test_mean_curves_have_a_band(cycles) -> None:
+    table = cycles.mean_curves()
+    rows = (table["group"] == "squat") & (table["channel"] == "knee_l")
+    curves = cycles.layout("knee_l", "squat")
+    np.testing.assert_allclose(table["mean"][rows], curves.mean(axis=0))
+    assert (table["low"][rows] <= table["mean"][rows]).all()
+    assert table["percent"][rows].tolist() == [*range(101)]
+
+
+def test_an_excluded_cycle_stays_with_its_reason(cycles) -> None:
+    row = int(rows_of(cycles, "squat")[1])
+    less = cycles.exclude([row])
+    assert len(less) == len(cycles)
+    assert less.columns["excluded"][row] == "by hand"
+    assert less.layout("knee_l", "squat").shape[0] == cycles.layout("knee_l", "squat").shape[0] - 1
+    assert cycles.columns["excluded"][row] == ""
+    with pytest.raises(ParameterError, match="there is no cycle 99"):
+        cycles.exclude([99])
+
+
+def test_what_is_far_from_the_mean_is_left_out_by_rule(cycles) -> None:
+    curves = np.array(cycles.curves)
+    row = int(rows_of(cycles, "walk")[2])
+    curves[row] += 80
+    less = replace(cycles, curves=curves).exclude_far()
+    assert less.columns["excluded"][row] == "far from the mean"
+    assert (cycles.exclude_far().columns["excluded"] != "").sum() <= 1
+
+
+def test_borders_that_are_not_sure_are_left_out_by_rule(cycles) -> None:
+    confidence = np.where(np.arange(len(cycles)) == 3, 0.2, np.nan)
+    unsure = replace(cycles, columns={**cycles.columns, "border_confidence": confidence})
+    assert np.flatnonzero(unsure.exclude_unsure().columns["excluded"] != "").tolist() == [3]
+
+
+def test_a_pause_is_part_of_no_repetition() -> None:
+    fps, swing, rest = 50.0, 2.0, 1.5
+    t = np.arange(0, swing, 1 / fps)
+    once = np.concatenate([1 - np.cos(2 * np.pi * t / swing), np.zeros(round(rest * fps))])
+    values = np.tile(once, 6)
+    signals = Signals(np.stack([values, values**2], axis=1), fps, ["a", "b"])
+    starts = [3.5 * i for i in range(6)]
+    cycles = kineme.cycles(signals, repeated(starts, 21.0, fps, len(values)))
+    inner = cycles.columns["place"] == "inner"
+    assert len(cycles) == 6
+    np.testing.assert_allclose(cycles.columns["duration_s"][inner], swing, atol=0.35)
+    np.testing.assert_allclose(cycles.columns["pause_s"][1:], rest, atol=0.35)
+
+
+def test_a_gap_in_a_cycle_makes_its_values_missing(walks) -> None:
+    truth = walks.truth
+    squat = truth.activities[truth.activities.label == "squat"][0]
+    start = squat.start_frame + 60
+    motion = replace(walks.motion, gaps=((start, start + 10),))
+    cycles = kineme.cycles(motion, truth, channels=["knee_l"])
+    missing = np.isnan(cycles.columns["knee_l.range"])
+    assert missing.sum() == 1
+    assert np.isnan(cycles.curves[missing]).any()
+    assert cycles.layout("knee_l", "squat").shape[0] in (2, 3)
+    summary = cycles.summary(ends=True)
+    rows = (summary["group"] == "squat") & (summary["measure"] == "knee_l.range")
+    assert summary["n"][rows] == [4]
+
+
+def test_one_repetition_has_no_deviation_and_none_is_no_error(walks) -> None:
+    motion = cut(walks.motion, 0, 200)
+    one = kineme.cycles(motion, repeated([0.5], 2.0, 60.0, 200), channels=["knee_l"])
+    assert one.columns["place"].tolist() == ["only"]
+    assert np.isnan(one.summary(ends=True)["sd"]).all()
+    assert one.summary()["n"].tolist() == [0] * 10
+    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [200]}
+    none = Segmentation.from_columns(columns, n_frames=200, fps=60.0)
+    nothing = kineme.cycles(motion, none)
+    assert len(nothing) == 0
+    assert nothing.groups == []
+    assert len(nothing.summary()["n"]) == 0
+    assert nothing.mean_curves() == {}
+
+
+def test_recordings_are_measured_together_by_labels(walks) -> None:
+    both = kineme.cycles([walks.motion] * 2, [walks.truth] * 2, channels=["knee_l"])
+    assert both.groups == ["walk", "squat"]
+    assert len({*both.columns["recording"].tolist()}) == 2
+    bare = Segmentation.from_columns(
+        {**walks.truth.table.columns(), "label": [""] * len(walks.truth)},
+        n_frames=walks.truth.n_frames,
+        fps=60.0,
+    )
+    apart = kineme.cycles([walks.motion] * 2, [bare] * 2, channels=["knee_l"])
+    assert len(apart.groups) == 4
+    common = kineme.cycles([walks.motion] * 2, [bare] * 2, channels=["knee_l"], common=True)
+    assert common.groups == ["cluster 0", "cluster 1"]
+
+
+def test_signals_are_measured_as_bodies_are(walks) -> None:
+    places = walks.motion.positions[:, [17, 22]].reshape(walks.motion.n_frames, -1)
+    signals = Signals(places, 60.0, list("abcdef"))
+    cycles = kineme.cycles(signals, walks.truth)
+    assert cycles.channels == tuple("abcdef")
+    assert cycles.units == ("",) * 6
+    assert len(cycles) == 16
+
+
+def test_channels_beside_are_measured_at_their_own_rate(walks) -> None:
+    fast = Signals(np.arange(walks.motion.n_frames * 10) / 600, 600.0, ["clock"])
+    cycles = kineme.cycles(walks.motion, walks.truth, channels=["clock"], beside=[fast])
+    np.testing.assert_allclose(cycles.columns["clock.start"], cycles.columns["start_s"], atol=1e-9)
+    np.testing.assert_allclose(
+        cycles.columns["clock.range"], cycles.columns["duration_s"], atol=2e-3
+    )
+
+
+@pytest.mark.parametrize("anchor", ["knee_r max", "knee_r > 40", "left foot strike"])
+def test_cycles_begin_at_their_anchor(walks, anchor: str) -> None:
+    cycles = kineme.cycles(walks.motion, walks.truth, channels=["knee_r"], anchor=anchor)
+    walk = rows_of(cycles, "walk")
+    assert len(cycles) == 16
+    measured = walk[cycles.columns["excluded"][walk] == ""]
+    assert len(measured) >= 8
+    start = cycles.columns["knee_r.start"][measured]
+    if anchor == "knee_r max":
+        assert (start > 0.9 * cycles.columns["knee_r.max"][measured]).all()
+    elif anchor == "knee_r > 40":
+        np.testing.assert_allclose(start, 40, atol=1e-6)
+    last = cycles.columns["place"] == "last"
+    assert {*cycles.columns["excluded"][last].tolist()} <= {"no event ends it", "no event"}
+    assert np.isnan(cycles.columns["duration_s"][last]).all()
+
+
+def test_seconds_and_events_of_the_file_are_anchors(walks) -> None:
+    truth = walks.truth.primitives
+    squats = truth.select((truth.label == "squat") & (truth.kind == "primitive"))
+    middles = (squats.start_s + squats.stop_s) / 2
+    by_time = kineme.cycles(walks.motion, walks.truth, channels=["knee_r"], anchor=middles)
+    rows = rows_of(by_time, "squat")
+    np.testing.assert_allclose(by_time.columns["start_s"][rows], middles)
+    provenance = walks.motion.provenance.marked([(at, "Deepest") for at in middles.tolist()])
+    marked = replace(walks.motion, provenance=provenance)
+    by_name = kineme.cycles(marked, walks.truth, channels=["knee_r"], anchor="deepest")
+    np.testing.assert_allclose(by_name.columns["start_s"][rows], middles)
+    with pytest.raises(ParameterError, match="no event 'deepst'; there are Deepest, left foot"):
+        kineme.cycles(marked, walks.truth, anchor="deepst")
+
+
+def test_what_does_not_belong_together_is_refused(walks) -> None:
+    with pytest.raises(ParameterError, match="the segments are of"):
+        kineme.cycles(cut(walks.motion, 0, 100), walks.truth)
+    with pytest.raises(ParameterError, match="a segmentation of each recording"):
+        kineme.cycles([walks.motion], [walks.truth] * 2)
+    with pytest.raises(ParameterError, match="several groups: choose one of walk, squat"):
+        kineme.cycles(walks.motion, walks.truth).layout("knee_l")
+    signals = Signals(np.ones((walks.motion.n_frames, 1)), 60.0, ["knee_l"])
+    with pytest.raises(ParameterError, match="do not have the same channels"):
+        kineme.cycles([walks.motion, signals], [walks.truth] * 2)
+
+
+def test_a_turned_recording_has_the_same_cycles(walks) -> None:
+    from kineme.recordings.operations import turn
+
+    before = kineme.cycles(walks.motion, walks.truth)
+    after = kineme.cycles(turn(walks.motion, 2.0), walks.truth)
+    np.testing.assert_allclose(before.columns["start_s"], after.columns["start_s"], atol=1e-6)
+    np.testing.assert_allclose(
+        before.columns["knee_l.range"], after.columns["knee_l.range"], atol=1e-4
+    )
+
+
+def test_the_room_can_be_called_whatever_was_imported_first() -> None:
+    import importlib
+
+    room = importlib.import_module("kineme.cycles")
+    assert callable(room)
+    assert isinstance(kineme.Cycles, type)
+    with pytest.raises(ParameterError):
+        room(Motion, None)

@@ -1,0 +1,161 @@
+"""The angles that made a recording come out of it again, whatever its joints are called."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.cycles import channels_of, landmarks
+from kineme.errors import ParameterError
+from kineme.recordings import Motion, Signals, Skeleton
+from kineme.recordings.operations import move, scale, turn
+from posed_figures import posed
+
+T = np.linspace(0, 2 * np.pi, 121)
+ANGLES = {
+    "left_knee": 40 - 40 * np.cos(T),
+    "right_knee": 30 + 20 * np.sin(T),
+    "left_hip": 35 * np.sin(T) + 10,
+    "right_hip": -25 * np.sin(T),
+    "left_spread": 8 + 5 * np.cos(T),
+    "left_elbow": 45 + 30 * np.sin(T),
+    "tilt": 10 * np.sin(T),
+    "heading": 20 * T,
+}
+
+
+def value(motion: Motion | Signals, name: str) -> np.ndarray:
+    return channels_of(motion, [name])[0].values()
+
+
+@pytest.fixture(scope="module")
+def motion() -> Motion:
+    return posed(**ANGLES)
+
+
+@pytest.mark.parametrize(
+    ("name", "angle"),
+    [
+        ("knee_l", "left_knee"),
+        ("knee_r", "right_knee"),
+        ("hip_l", "left_hip"),
+        ("hip_r", "right_hip"),
+        ("elbow_l", "left_elbow"),
+        ("trunk_lean", "tilt"),
+        ("LeftLeg.rx", "left_knee"),
+        ("LeftUpLeg.rz", "left_spread"),
+        ("Hips.rx", "tilt"),
+    ],
+)
+def test_angles_are_those_that_made_the_recording(motion: Motion, name: str, angle: str) -> None:
+    if name == "Hips.rx":
+        motion = posed(tilt=ANGLES["tilt"])
+    np.testing.assert_allclose(value(motion, name), ANGLES[angle], atol=0.1)
+
+
+@pytest.mark.parametrize("name", ["knee_l", "knee_r", "elbow_l", "hip_l", "hip_r", "trunk_lean"])
+def test_positions_alone_tell_them_within_three_degrees(motion: Motion, name: str) -> None:
+    bare = replace(motion, rotations=None)
+    assert np.abs(value(bare, name) - value(motion, name)).max() < 3
+    assert "against" not in channels_of(motion, ["knee_l"])[0].source
+
+
+def test_what_is_measured_against_what_is_said(motion: Motion) -> None:
+    assert channels_of(motion, ["hip_l"])[0].source == "against Hips, LeftUpLeg, LeftLeg"
+    bare = replace(motion, rotations=None)
+    assert channels_of(bare, ["hip_l"])[0].source == "against the trunk, LeftUpLeg, LeftLeg"
+
+
+def test_where_a_body_stands_and_how_large_it_is_changes_no_angle(motion: Motion) -> None:
+    other = scale(move(turn(motion, 1.0), [3.0, 0.0, -2.0]), 0.8)
+    for before, after in zip(channels_of(motion), channels_of(other), strict=True):
+        np.testing.assert_allclose(before.values(), after.values(), atol=1e-6)
+    turned = value(other, "heading") - value(motion, "heading")
+    np.testing.assert_allclose(turned, np.degrees(1.0), atol=1e-6)
+
+
+def test_a_mirror_exchanges_left_and_right(motion: Motion) -> None:
+    mirrored = kineme.mirror(motion)
+    for name in ("knee", "hip", "elbow", "shoulder"):
+        np.testing.assert_allclose(
+            value(motion, f"{name}_l"), value(mirrored, f"{name}_r"), atol=1e-6
+        )
+    side = posed(list=10 * np.sin(T), lean=5 * np.sin(T))
+    np.testing.assert_allclose(
+        value(side, "trunk_side"), -value(kineme.mirror(side), "trunk_side"), atol=1e-6
+    )
+    assert value(side, "trunk_side")[30] > 10  # to the right
+
+
+def test_heading_has_no_jumps(motion: Motion) -> None:
+    heading = value(motion, "heading")
+    np.testing.assert_allclose(
+        heading - heading[0], ANGLES["heading"] - ANGLES["heading"][0], atol=0.1
+    )
+
+
+def test_positions_and_speeds(motion: Motion) -> None:
+    moving = replace(
+        motion, positions=motion.positions + np.arange(121)[:, None, None] * [0.02, 0, 0]
+    )
+    assert np.allclose(value(moving, "Hips.speed"), 0.02 * 60)
+    foot = motion.joint("LeftFoot")
+    assert np.array_equal(value(motion, "LeftFoot.y"), motion.positions[:, foot, 1])
+    assert (value(motion, "LeftFoot.left") > 0).all()
+    assert np.allclose(value(motion, "LeftFoot.up"), value(moving, "LeftFoot.up"))
+
+
+NAMES = {
+    "Mixamo": "mixamorig:{s}UpLeg mixamorig:{s}Leg mixamorig:{s}Foot mixamorig:{s}ToeBase",
+    "Unreal": "thigh_{l} calf_{l} foot_{l} ball_{l}",
+    "Biped": "Bip01 {S} Thigh,Bip01 {S} Calf,Bip01 {S} Foot,Bip01 {S} Toe0",
+    "ASF": "{l}femur {l}tibia {l}foot {l}toes",
+}
+
+
+@pytest.mark.parametrize("names", NAMES.values(), ids=NAMES)
+def test_legs_are_found_whatever_they_are_called(motion: Motion, names: str) -> None:
+    renamed = dict(zip(motion.skeleton.names, motion.skeleton.names, strict=True))
+    for side in ("Left", "Right"):
+        texts = names.format(s=side, S=side[0], l=side[0].lower())
+        texts = texts.split("," if "," in texts else " ")
+        parts = ("UpLeg", "Leg", "Foot", "ToeBase")
+        renamed |= {side + part: text for part, text in zip(parts, texts, strict=True)}
+    skeleton = replace(motion.skeleton, names=tuple(renamed.values()))
+    other = replace(motion, skeleton=skeleton)
+    assert [*landmarks(other).values()] == [*landmarks(motion).values()]
+
+
+def test_markers_are_told_by_their_names() -> None:
+    """Points that all hang on one joint, as those of a C3D."""
+    names = ["pelvis", "left_hip", "right_hip", "LKNE", "RKNE", "left_ankle", "right_ankle",
+             "LHEE", "LTOE", "LSHO", "RSHO"]  # fmt: skip
+    skeleton = Skeleton(tuple(names), (-1, *[0] * 10), np.eye(11, 3))
+    found = landmarks(Motion(skeleton, np.random.default_rng(0).normal(size=(5, 11, 3)), 60.0))
+    assert found["left_knee"] == 3
+    assert found["left_heel"] == 7
+    assert found["right_shoulder"] == 10
+    assert "right_toe" not in found
+
+
+def test_channels_of_signals_are_its_channels_and_gaps_are_missing() -> None:
+    signals = Signals(np.ones((10, 2)), 10.0, ["a", "b"], gaps=[(2, 4)])
+    a, b = channels_of(signals)
+    assert (a.name, b.name, a.group) == ("a", "b", "channel")
+    assert np.isnan(a.values()).tolist() == [False] * 2 + [True] * 2 + [False] * 6
+    beside = channels_of(signals, ["b", "fz"], beside=[Signals([[1.0]] * 100, 100.0, ["fz"])])
+    assert [(each.name, each.fps) for each in beside] == [("b", 10.0), ("fz", 100.0)]
+
+
+def test_a_channel_that_is_not_there_is_named(motion: Motion) -> None:
+    with pytest.raises(ParameterError, match="no channel 'kne_l'; there are knee_l, knee_r"):
+        channels_of(motion, ["kne_l"])
+
+
+def test_points_that_nobody_named_are_measured_by_their_speed() -> None:
+    skeleton = Skeleton(("a", "b"), (-1, 0), [[0, 0, 0], [1, 0, 0]])
+    motion = Motion(skeleton, np.zeros((5, 2, 3)), 10.0)
+    assert [each.name for each in channels_of(motion)] == ["a.speed", "b.speed"]

@@ -1,0 +1,20 @@
+"""The synthetic figure at known angles."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.datasets.figure import ANGLES, figure, joint_rotations
+from kineme.recordings import Motion
+
+
+def posed(fps: float = 60.0, **angles: NDArray[np.float64]) -> Motion:
+    """The figure at angles in degrees, by names with ``_`` for a blank; the others are 0."""
+    n = max(map(len, angles.values()))
+    given = {name.replace("_", " "): values for name, values in angles.items()}
+    full = {name: np.resize(given.get(name, np.zeros(1)), n) for name in ANGLES}
+    heading = np.resize(given.get("heading", np.zeros(1)), n)
+    skeleton = figure()
+    rotations = joint_rotations(skeleton, full, heading)
+    return Motion.from_rotations(skeleton, rotations, fps, np.tile([0.0, 1.0, 0.0], (n, 1)))
