@@ -36,6 +36,8 @@ class ReadOptions:
         order; all if it is empty.
     emg : bool
         Take channels as signals; of the analog channels of a C3D those of muscles.
+    take : str, optional
+        Which of several animations in a file, by name or number.
 
     Raises
     ------
@@ -51,6 +53,7 @@ class ReadOptions:
     confidence: float | None = None
     columns: Sequence[str] | None = None
     emg: bool = False
+    take: str | None = None
 
     def __post_init__(self) -> None:
         if self.skeleton is not None:

@@ -54,6 +54,14 @@ Confidence = Annotated[
         rich_help_panel=UNSAID,
     ),
 ]
+Take = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME",
+        help="Which of several animations in an FBX, by name or number.",
+        rich_help_panel=UNSAID,
+    ),
+]
 Effectors = Annotated[
     str | None,
     typer.Option(
@@ -97,6 +105,7 @@ BODY: dict[str, Any] = {
     "up": Up,
     "person": Person,
     "confidence": Confidence,
+    "take": Take,
 }
 """What `kineme.read` takes besides the path, for a motion."""
 OPTIONS: dict[str, Any] = {**BODY, "columns": Columns, "emg": Emg}
