@@ -38,7 +38,8 @@ def imported(job: dict[str, Any]) -> None:
         bpy.context.object.location.x += number
     scene = bpy.context.scene
     scene.frame_start = 1
-    scene.frame_end = min(scene.frame_end, job["frames"])
+    lengths = [int(action.frame_range[1]) for action in bpy.data.actions]
+    scene.frame_end = min(*lengths, scene.frame_end, job["frames"])
     if job.get("prop"):
         bpy.ops.mesh.primitive_cube_add()
         cube = bpy.context.object

@@ -102,7 +102,7 @@ class Candidate(Protocol):
 _EXPORT = "export BVH or C3D from the program that made it"
 _UNPACK = "unpack it first"
 INSTEAD = {
-    **dict.fromkeys((".gltf", ".glb", ".mvnx", ".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
+    **dict.fromkeys((".mvnx", ".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
     **dict.fromkeys((".xlsx", ".xls", ".ods"), "save it as CSV"),
     **dict.fromkeys((".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz"), _UNPACK),
 }
@@ -128,6 +128,7 @@ FORMATS: Registry[Format] = Registry(
         "skeletons.amc:FORMAT",
         "skeletons.amc:SKELETON",
         "scenes.fbx:FORMAT",
+        "scenes.gltf:FORMAT",
     ),
     newest_first=True,
 )

@@ -25,8 +25,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.formats.files import FileContent, unique
-from kineme.formats.scenes.characters import SceneNode, is_end
+from kineme.formats.files import MOST_EXPANSION, FileContent, unique
+from kineme.formats.scenes.characters import SceneNode
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks
 from kineme.recordings import Motion, Provenance, Skeleton
@@ -62,10 +62,13 @@ class Local(NamedTuple):
     slides: dict[int, Floats]
 
 
-def claim_frames(content: FileContent, joints: int, frames: int) -> None:
-    """ReadError where so many frames are more than a file of this size can honestly have."""
+def claim_frames(content: FileContent, joints: int, frames: int, *, beside: int = 0) -> None:
+    """ReadError where so many frames are more than a file of this size can honestly have.
+
+    ``beside`` are the bytes of other files that belong to it.
+    """
     size = BYTES_PER_JOINT * joints * frames
-    if size > MOST_SAMPLED:
+    if size > max(MOST_SAMPLED, MOST_EXPANSION * beside):
         content.claim(size, f"{joints} joints in {frames} frames")
 
 
@@ -114,7 +117,7 @@ def assemble(
         for j, node in enumerate(joints)
         if j not in inner
         and j not in slides
-        and is_end(nodes[node].name)
+        and nodes[node].end
         and np.ptp(rotations[:, j], axis=0).max() < STILL
     ]
     rotations[:, ends] = rot.IDENTITY

@@ -45,6 +45,8 @@ class SceneNode:
         Whether it carries a mesh, a camera or a light.
     animated : bool
         Whether the animation that is read moves it.
+    end : bool
+        Whether it ends a limb, if it is a leaf without rotations.
     """
 
     name: str
@@ -52,6 +54,7 @@ class SceneNode:
     bone: bool
     geometry: bool
     animated: bool
+    end: bool = False
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.fbx_nodes import FBXNode
+from kineme.formats.scenes.sampling import between
 
 Floats = NDArray[np.float64]
 
@@ -210,13 +211,7 @@ class Sampler:
         if len(times) == len(self._times) and np.array_equal(times, self._times):
             return
         self._times = times
-        found = np.searchsorted(times, self.at + SLACK, "right") - 1
-        self._index = np.clip(found, 0, len(times) - 2)
-        passed = self.at - times[self._index]
-        share = passed / np.diff(times)[self._index]
-        share[np.abs(passed) <= SLACK] = 0.0
-        share[np.abs(self.at - times[self._index + 1]) <= SLACK] = 1.0
-        self._share = np.clip(share, 0.0, 1.0)
+        self._index, self._share = between(times, self.at, SLACK)
 
 
 def _bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:

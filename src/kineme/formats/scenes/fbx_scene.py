@@ -34,7 +34,7 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.assembly import Inheritance, Transform
-from kineme.formats.scenes.characters import SceneNode
+from kineme.formats.scenes.characters import SceneNode, is_end
 from kineme.formats.scenes.fbx_curves import Curve, CurveReader, Sampler
 from kineme.formats.scenes.fbx_nodes import FBXNode
 from kineme.formats.units import blocks
@@ -175,6 +175,7 @@ class FBXScene:
                 model.kind in BONES,
                 model.kind in GEOMETRY,
                 model.number in moved,
+                is_end(model.name),
             )
             for model in self.models
         ]
