@@ -11,6 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from kineme._rotations import to_euler_zyx
+from kineme.recordings import Motion
+from kineme.recordings.kinematics import local_translations
+
 TICKS = 46_186_158_000
 CODES = {"<f4": "f", "<f8": "d", "<i8": "l", "<i4": "i"}
 LINEAR, CONSTANT, CUBIC = 0x4, 0x2, 0x8
@@ -272,4 +276,28 @@ def walker(**settings: Any) -> Scene:
     scene.animate(layers[0], hips, "T", (0, 95, 0), Z=Keys([0, 2], [0, 200]))
     scene.animate(layers[0], box, "T", X=Keys([0, 1], [0, 100]))
     scene.animate(layers[1], spine, "R", X=Keys([0.5, 1], [0, 60], CUBIC | 0x6100))
+    return scene
+
+
+def of_motion(motion: Motion) -> Scene:
+    """A motion with rotations as a scene: bones, and keys at each frame."""
+    if motion.rotations is None:
+        raise ValueError("a scene needs rotations")
+    scene = Scene(TimeMode=14, CustomFrameRate=float(motion.fps))
+    skeleton, times = motion.skeleton, np.arange(motion.n_frames) / motion.fps
+    layer = scene.layer(scene.take("motion", 0.0, float(times[-1])))
+    shifts = 100 * local_translations(skeleton, motion.positions, motion.rotations)
+    angles = np.degrees(to_euler_zyx(motion.rotations))[..., ::-1]  # about x, first applied
+    models: list[int] = []
+    for j, parent in enumerate(skeleton.parents):
+        rest = [float(x) for x in 100 * skeleton.offsets[j]]
+        carrier = models[parent] if parent >= 0 else 0
+        models.append(scene.model(skeleton.names[j], carrier, LclTranslation=rest))
+        if j not in skeleton.end_sites:
+            turns = np.unwrap(angles[:, j], axis=0, period=360)
+            axes = {axis: Keys(times, turns[:, i]) for i, axis in enumerate("XYZ")}
+            scene.animate(layer, models[j], "R", **axes)
+        if parent < 0:
+            axes = {axis: Keys(times, shifts[:, j, i]) for i, axis in enumerate("XYZ")}
+            scene.animate(layer, models[j], "T", **axes)
     return scene

@@ -31,7 +31,7 @@ from kineme.formats.scenes.assembly import (
 )
 from kineme.formats.scenes.characters import SceneNode, character_of, choose_take, is_end
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
-from kineme.formats.scenes.gltf_writer import OURS, write_gltf
+from kineme.formats.scenes.gltf_writer import OURS, write_animations, write_gltf
 from kineme.formats.scenes.sampling import between, slerp
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
@@ -284,4 +284,5 @@ FORMAT = Format(
     lambda head: head.startswith(MAGIC) or _JSON.search(head) is not None,
     read_gltf,
     write_gltf,
+    write_animations=write_animations,
 )
