@@ -89,6 +89,26 @@ def test_text_says_the_same(tmp_path: Path, encoding: str) -> None:
     np.testing.assert_allclose(motion.positions, expected.positions, atol=1e-9)
 
 
+def test_a_file_of_blender(tmp_path: Path) -> None:
+    """Five bones, 13 frames at 30 Hz, by Blender 5.0 with z up; made from this motion."""
+    t = np.arange(13) / 30
+    skeleton = kineme.Skeleton(
+        ("Hips", "Chest", "Head", "Leg", "Foot"),
+        (-1, 0, 1, 0, 3),
+        [[0, 0, 0], [0, 0.5, 0], [0, 0.4, 0], [0.1, -0.1, 0], [0, -0.8, 0.1]],
+    )
+    turns = [("y", 2), ("x", -3), ("z", 1), ("x", 4), ("x", -2)]
+    rotations = [Rotation.from_euler(axis, (times * t)[:, None]).as_quat() for axis, times in turns]
+    rotations = np.roll(np.stack(rotations, axis=1), 1, axis=2)
+    places = np.stack([t, 0.9 + 0 * t, 2 * t], axis=1)
+    expected = Motion.from_rotations(skeleton, rotations, 30, places)
+    motion = kineme.read(Path(__file__).parent / "blender.fbx")
+    assert motion.skeleton.names == skeleton.names
+    assert motion.fps == 30
+    assert np.abs(motion.positions - expected.positions).max() < 1e-5
+    assert "turned: z is up in the file" in motion.provenance.notes
+
+
 def test_takes_by_name_and_number(tmp_path: Path) -> None:
     for take in ("bow", 1, "1"):
         (tmp_path / "a.fbx").write_bytes(walker().binary())
