@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+import _fbx
 import kineme
 from kineme import formats, labels
 from kineme.datasets import bundled_recording, bundled_truth
@@ -115,6 +116,9 @@ def _recordings(root: Path, motion: Motion, _: Segmentation) -> None:
     signals = kineme.Signals(rng.normal(size=(80, 3)), 50, ["a", "b", "c"])
     for suffix in (".csv", ".parquet"):
         formats.write(signals, folder / f"signals{suffix}")
+    for name, scene in (("packed", _fbx.walker().binary()), ("text", _fbx.walker().text())):
+        (folder / f"{name}.fbx").write_bytes(scene)
+    (folder / "wide.fbx").write_bytes(_fbx.walker().binary(7700, packed=False))
     np.save(folder / "array.npy", np.asarray(motion.positions[:20]))
     data = Path(os.environ.get("KINEME_DATA", "/nowhere"))
     for path in sorted(data.glob("*formats/*")) + sorted(data.glob("timeseries/*")):

@@ -224,7 +224,7 @@ def _parquet(data: bytes, chance: Chance) -> bytes:
 
 
 CHANGES: dict[str, Callable[[bytes, Chance], bytes]] = {
-    ".json": _json, ".npy": _npy, ".npz": _npz, ".parquet": _parquet,
+    ".json": _json, ".gltf": _json, ".npy": _npy, ".npz": _npz, ".parquet": _parquet,
     **dict.fromkeys((".csv", ".tsv", ".txt", ".trc", ".mot", ".sto"), _cells),
     **dict.fromkeys((".bvh", ".asf", ".amc"), _words),
 }  # fmt: skip

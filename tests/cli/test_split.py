@@ -102,6 +102,23 @@ def test_convert_goes_through_every_format_and_back(kineme, tmp_path: Path) -> N
     assert back.table.label.tolist() == truth.table.label.tolist()
 
 
+def test_clips_as_animations_of_a_glb_and_back(kineme, tmp_path: Path) -> None:
+    cuts = ("--segments", bundled_truth(), "--cluster", "0")
+    done = kineme("split", bundled_recording(), *cuts, "--format", "glb", "-o", "clips")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert {path.name for path in (tmp_path / "clips").iterdir()} == {
+        "exercises.glb",
+        "manifest.csv",
+    }
+    (name, *_) = (tmp_path / "clips" / "manifest.csv").read_text().splitlines()[1].split(",")[-1:]
+    done = kineme("convert", "clips/exercises.glb", "walk.bvh", "--take", name, "-q")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert package.read(tmp_path / "walk.bvh").n_frames == 326
+    done = kineme("split", bundled_recording(), *cuts, "--format", "doc", "-o", "more")
+    assert done.returncode == 1
+    assert "format is 'doc': motions are written as amc, bvh, csv, glb" in done.stderr
+
+
 def test_convert_overwrites_nothing_and_knows_its_formats(kineme, tmp_path: Path) -> None:
     (tmp_path / "mine.eaf").write_text("corrected by hand")
     done = kineme("convert", bundled_truth(), "mine.eaf")

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import kineme
 from kineme.clips.loops import Carry, loop
-from kineme.clips.split import split
+from kineme.clips.split import split, write_clips
 from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.formats.channels.writing import write_signals
 from kineme.recordings import Motion
@@ -78,6 +78,42 @@ def test_a_motion_without_rotations_becomes_tables(tmp_path, motion, truth) -> N
     assert first["Hips_y"].to_numpy() == pytest.approx(
         motion.positions[: len(first), 0, 1], abs=1e-6
     )
+
+
+def test_a_glb_holds_all_clips_as_animations(tmp_path, motion, truth) -> None:
+    paths = split(motion, truth, tmp_path / "clips", format="glb", loops=True)
+    assert {path.name for path in paths} == {"exercises.glb"}
+    assert len(paths) == len(truth.activities)
+    manifest = pd.read_csv(tmp_path / "clips" / "manifest.csv")
+    assert manifest.columns[-4:].tolist() == ["turn_deg", "x_m", "z_m", "animation"]
+    assert manifest.animation[0] == "exercises_0000_walk"
+    looped, _ = loop(cut(motion, truth.activities[1].start_frame, truth.activities[1].stop_frame))
+    clip = kineme.read(paths[1], take=manifest.animation[1])
+    assert clip.fps == motion.fps
+    assert np.abs(clip.positions - looped.positions).max() < 1e-5
+
+
+def test_glb_of_recordings_of_one_name_are_files_of_their_own(tmp_path, motion, truth) -> None:
+    rows = truth.primitives[:2]
+    paths = write_clips([(motion, rows), (motion, rows)], tmp_path / "clips", format="glb")
+    assert [path.name for path in paths] == ["exercises.glb"] * 2 + ["exercises_0002.glb"] * 2
+    assert kineme.read(paths[3], take="1").n_frames == rows[1].stop_frame - rows[1].start_frame
+
+
+def test_clips_in_any_format_that_motions_are_written_in(tmp_path, motion, truth) -> None:
+    for suffix in ("amc", "trc"):
+        paths = split(motion, truth, tmp_path / suffix, cluster=0, format=suffix)
+        assert {path.suffix for path in paths} == {f".{suffix}"}
+        assert kineme.read(paths[0]).n_frames == truth.activities[0].stop_frame
+    with pytest.raises(ParameterError, match="format is 'fbx': motions are written as amc, bvh"):
+        split(motion, truth, tmp_path / "fbx", format="fbx")
+    bare = Motion(motion.skeleton, motion.positions, motion.fps)
+    with pytest.raises(WriteError, match="a glTF needs rotations"):
+        split(bare, truth, tmp_path / "bare", format="glb")
+    signals = kineme.Signals(motion.positions[:, 0], motion.fps)
+    with pytest.raises(ParameterError, match="signals are rows of their file"):
+        split(signals, truth, tmp_path / "signals", format="glb")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["amc", "trc"]
 
 
 def test_loops_play_without_a_jump(motion, truth) -> None:

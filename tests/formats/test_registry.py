@@ -68,7 +68,11 @@ def test_what_is_worth_a_warning_is_warned_of_once(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "what"),
-    [("a.fbx", "export BVH or C3D"), ("a.xlsx", "save it as CSV"), ("a.csv.gz", "unpack it first")],
+    [
+        ("a.mvnx", "export BVH or C3D"),
+        ("a.xlsx", "save it as CSV"),
+        ("a.csv.gz", "unpack it first"),
+    ],
 )
 def test_files_that_people_try(tmp_path: Path, name: str, what: str) -> None:
     (tmp_path / name).write_bytes(b"PK\x03\x04")

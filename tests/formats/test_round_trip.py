@@ -10,8 +10,10 @@ import pytest
 from format_samples import PLAIN, motions
 from hypothesis import given
 
+import _fbx
+from kineme import bundled_recording, segment
 from kineme.errors import KinemeWarning, WriteError
-from kineme.formats import read, supported_formats, write
+from kineme.formats import read, read_motion, supported_formats, write
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import world_rotations
 
@@ -105,3 +107,22 @@ def test_unknown_suffix(tmp_path: Path) -> None:
 
 def test_formats_are_listed() -> None:
     assert {"AMC", "BVH"} <= {known.name for known in supported_formats()}
+
+
+def test_one_recording_has_the_same_segments_in_every_format(tmp_path: Path) -> None:
+    """Borders within 0.05 s, clusters and counts the same: AMC, BVH, FBX, GLB."""
+    motion = read_motion(bundled_recording())
+    (tmp_path / "a.fbx").write_bytes(_fbx.of_motion(motion).binary())
+    for suffix in (".amc", ".bvh", ".glb"):
+        write(motion, tmp_path / f"a{suffix}")
+    expected = segment(read_motion(tmp_path / "a.bvh", unit="cm"))
+    for suffix in (".amc", ".fbx", ".glb"):
+        found = segment(read_motion(tmp_path / f"a{suffix}"))
+        for ours, theirs in (
+            (expected.activities, found.activities),
+            (expected.primitives, found.primitives),
+        ):
+            assert [row.kind for row in theirs] == [row.kind for row in ours]
+            assert [row.cluster for row in theirs] == [row.cluster for row in ours]
+            away = [abs(a.start_s - b.start_s) for a, b in zip(ours, theirs, strict=True)]
+            assert max(away) <= 0.05

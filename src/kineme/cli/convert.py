@@ -93,7 +93,8 @@ def convert(
 ) -> None:
     """Turn segments into labels of another program and back, or a recording into another format.
 
-    The suffixes say what is read and written: .bvh, .amc, .trc, .csv and .npz hold recordings.
+    The suffixes say what is read and written: .bvh, .amc, .glb, .trc, .csv and .npz hold
+    recordings; .fbx is read only.
     Signals keep the columns of their file, or those that --columns names. For labels that hold
     seconds only, --fps is the frame rate of their recording.
     """

@@ -36,6 +36,16 @@ def split(
     loop: Annotated[
         bool, option(OUTPUT, "Blend the ends, so that each clip plays as a cycle.", "--loop")
     ] = False,
+    to_format: Annotated[
+        str | None,
+        option(
+            OUTPUT,
+            "Format of the clips: bvh, amc, glb (one file with an animation for each clip) or any "
+            "other that motions are written in. By default bvh, or csv without rotations.",
+            "--format",
+            metavar="SUFFIX",
+        ),
+    ] = None,
     segments: SegmentTable = None,
     detail: Detail = 1.0,
     preset: PresetName = DEFAULT,
@@ -47,8 +57,8 @@ def split(
 ) -> None:
     """Write each segment of a recording as a file of its own, and a list of them.
 
-    Clips are BVH, or CSV of joint positions where there are no rotations; of signals, rows of
-    their file. The list is manifest.csv.
+    Clips are BVH, or CSV of joint positions where there are no rotations; with --format others.
+    Of signals they are rows of their file. The list is manifest.csv.
     """
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
@@ -64,7 +74,15 @@ def split(
 
             if not batch.single:
                 make_folder_of(folder)
-            clips = write_clips(recording, cuts, folder, level=level, cluster=cluster, loops=loop)
+            clips = write_clips(
+                recording,
+                cuts,
+                folder,
+                level=level,
+                cluster=cluster,
+                loops=loop,
+                format=to_format,
+            )
             if not quiet:
                 typer.echo(f"{counted(len(clips), 'clip')} in {folder}")
     batch.exit()

@@ -38,6 +38,7 @@ class ReadOptions:
     confidence: float | None = None
     columns: Sequence[str] | None = None
     emg: bool = False
+    take: str | None = None
 
     def __post_init__(self) -> None:
         if self.skeleton is not None:

@@ -30,6 +30,7 @@ def read(
     up: str | None = None,
     person: str | int | None = None,
     confidence: float | None = None,
+    take: str | int | None = None,
 ) -> Motion | Signals:
     """The recording in a file: a motion in metres with y up, or signals.
 
@@ -60,6 +61,9 @@ def read(
         Which of several people in a file, by name or number.
     confidence : float, optional
         From which a keypoint counts as seen, in place of its format's limit.
+    take : str or int, optional
+        Which of several animations in an FBX or glTF, by name or number; the first by default,
+        with a warning.
 
     Returns
     -------
@@ -82,7 +86,8 @@ def read(
     <Motion of 2898 frames (48.3 s) at 60 Hz: 26 joints, 5 of them end sites>
     """
     who = None if person is None else str(person)
-    options = ReadOptions(skeleton, fps, unit, up, who, confidence, columns, emg)
+    which = None if take is None else str(take)
+    options = ReadOptions(skeleton, fps, unit, up, who, confidence, columns, emg, which)
     recording = read_quietly(path, options)
     if remarks := recording.provenance.warnings:
         warn(f"{path}: {'; '.join(remarks)}")

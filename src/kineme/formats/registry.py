@@ -11,7 +11,7 @@ of the group ``kineme.formats``.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -52,6 +52,8 @@ class Format:
         From a motion to a path.
     write_signals : callable, optional
         From signals to a path.
+    write_animations : callable, optional
+        From motions of one skeleton, by their names, to a path; for formats that hold several.
     read_folder : callable, optional
         From a folder of files that are one recording to this recording, None where there
         are none of this format in it.
@@ -78,6 +80,7 @@ class Format:
     read: Callable[[FileContent, ReadOptions], Motion | Signals] | None = None
     write: Callable[[Motion, Path], None] | None = None
     write_signals: Callable[[Signals, Path], None] | None = None
+    write_animations: Callable[[Mapping[str, Motion], Path], None] | None = None
     read_folder: Callable[[Path, ReadOptions], Motion | Signals | None] | None = None
     channels: bool = False
     analog: bool = False
@@ -90,7 +93,7 @@ class Format:
 _EXPORT = "export BVH or C3D from the program that made it"
 _UNPACK = "unpack it first"
 INSTEAD = {
-    **dict.fromkeys((".fbx", ".gltf", ".glb", ".mvnx", ".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
+    **dict.fromkeys((".mvnx", ".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
     **dict.fromkeys((".xlsx", ".xls", ".ods"), "save it as CSV"),
     **dict.fromkeys((".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz"), _UNPACK),
 }
@@ -115,6 +118,8 @@ FORMATS: Registry[Format] = Registry(
         "skeletons.bvh:FORMAT",
         "skeletons.amc:FORMAT",
         "skeletons.amc:SKELETON",
+        "scenes.fbx:FORMAT",
+        "scenes.gltf:FORMAT",
     ),
     newest_first=True,
 )
@@ -159,6 +164,12 @@ def supported_formats() -> tuple[Format, ...]:
     True
     """
     return tuple(FORMATS.values())
+
+
+def writer_of(suffix: str) -> Format | None:
+    """The format that writes motions to files of this suffix; None where there is none."""
+    found = (each for each in supported_formats() if each.write and suffix in each.suffixes)
+    return next(found, None)
 
 
 def recognise(content: FileContent) -> Format:

@@ -34,6 +34,14 @@ Confidence = Annotated[
     float | None,
     option(UNSAID, "Leave out points that a pose estimator is less sure of, such as 0.5."),
 ]
+Take = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME",
+        help="Which of several animations in an FBX or glTF, by name or number.",
+        rich_help_panel=UNSAID,
+    ),
+]
 Effectors = Annotated[
     str | None,
     option(
@@ -70,6 +78,7 @@ BODY: dict[str, Any] = {
     "up": Up,
     "person": Person,
     "confidence": Confidence,
+    "take": Take,
 }
 """What `kineme.read` takes besides the path, for a motion."""
 OPTIONS: dict[str, Any] = {**BODY, "columns": Columns, "emg": Emg}

@@ -1,0 +1,322 @@
+"""From the transforms of a scene's nodes to a motion in metres with y up.
+
+A node's transform in its parent's frame is a translation, a rotation and a scale::
+
+    x -> t + R S x
+
+A motion has no scales: they are multiplied out. Where they are one constant, positive number
+for each node, which is nearly always so, the rotations of the nodes are those of the motion, and
+bones become as much longer. Else positions and axes are those of the products of the matrices
+(a sheared one's are made orthogonal, the first axis kept), and joints slide.
+
+How scales are inherited is that of FBX, whose names say in which order rotation (R, r) and
+scale (S, s) of parent and child are applied: "RSrs" multiplies the matrices, "RrSs" scales along
+the child's axes, "Rrs" leaves the parent's own scale out.
+
+Source: Autodesk, FBX SDK, sample "Transformations".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.formats.files import MOST_EXPANSION, FileContent, unique
+from kineme.formats.scenes.characters import SceneNode
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
+from kineme.formats.units import blocks
+from kineme.recordings import Motion, Provenance, Skeleton
+
+Floats = NDArray[np.float64]
+Inheritance = Literal["RrSs", "RSrs", "Rrs"]
+
+STILL = 2e-6
+"""Share of its size by which a length or scale may change and still count as constant."""
+
+MOST_SAMPLED = 1 << 28
+"""Bytes that a motion may take however small its file is: few keys make many frames."""
+
+
+class Transform(NamedTuple):
+    """A node's transform in its parent's frame: one for all frames, or one for each.
+
+    ``translation`` is (3,) or (frames, 3), ``rotation`` (4,) or (frames, 4), unit quaternions
+    (w, x, y, z), ``scale`` (3,) or (frames, 3).
+    """
+
+    translation: Floats
+    rotation: Floats
+    scale: Floats
+    inheritance: Inheritance = "RSrs"
+
+
+class Local(NamedTuple):
+    """How joints are turned and where they are in their parents' frames, as `place` takes it."""
+
+    rotations: Floats
+    offsets: Floats
+    slides: dict[int, Floats]
+
+
+def claim_frames(content: FileContent, joints: int, frames: int, *, beside: int = 0) -> None:
+    """ReadError where so many frames are more than a file of this size can honestly have.
+
+    ``beside`` are the bytes of other files that belong to it.
+    """
+    size = BYTES_PER_JOINT * joints * frames
+    if size > max(MOST_SAMPLED, MOST_EXPANSION * beside):
+        content.claim(size, f"{joints} joints in {frames} frames")
+
+
+def assemble(
+    content: FileContent,
+    nodes: Sequence[SceneNode],
+    joints: Sequence[int],
+    transform: Callable[[int], Transform],
+    n_frames: int,
+    fps: float,
+    *,
+    unit: str | float,
+    turn: Floats,
+    provenance: Provenance,
+) -> Motion:
+    """The motion of a character.
+
+    Parameters
+    ----------
+    content : FileContent
+        Let go once all transforms are known.
+    nodes : sequence of SceneNode
+    joints : sequence of int
+        The character's nodes, parents first.
+    transform : callable
+        From the number of a node to its transform.
+    n_frames : int
+    fps : float
+    unit : str or float
+        Of the scene's lengths.
+    turn : ndarray of shape (4,)
+        The rotation of the scene's axes to those with y up.
+    provenance : Provenance
+    """
+    number_of = {node: j for j, node in enumerate(joints)}
+    parents = [number_of.get(nodes[node].parent, -1) for node in joints]
+    above = _above(nodes, joints[0])
+    found = _scaled(above, joints, parents, transform, n_frames, turn)
+    if found is None:
+        found = _multiplied(above, joints, parents, transform, n_frames, turn)
+    content.let_go()
+    rotations, offsets, slides = found
+    inner = set(parents)
+    ends = [
+        j
+        for j, node in enumerate(joints)
+        if j not in inner
+        and j not in slides
+        and nodes[node].end
+        and np.ptp(rotations[:, j], axis=0).max() < STILL
+    ]
+    rotations[:, ends] = rot.IDENTITY
+    names = tuple(unique(nodes[node].name for node in joints))
+    skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
+    return place(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
+
+
+def _above(nodes: Sequence[SceneNode], node: int) -> list[int]:
+    """The nodes that carry this one, topmost first."""
+    found = []
+    while (node := nodes[node].parent) >= 0:
+        found.append(node)
+    return found[::-1]
+
+
+def _scaled(
+    above: Sequence[int],
+    joints: Sequence[int],
+    parents: Sequence[int],
+    transform: Callable[[int], Transform],
+    n_frames: int,
+    turn: Floats,
+) -> Local | None:
+    """Rotations as they are and bones as much longer; None where a scale is not one number."""
+    position, rotation, world, own = np.zeros(3), turn, 1.0, 1.0
+    for node in above:
+        found = transform(node)
+        factor = _factor(found.scale)
+        if factor is None:
+            return None
+        position = position + world * rot.rotate(rotation, found.translation)
+        rotation = rot.multiply(rotation, found.rotation)
+        world, own = _inherited(world, own, factor, found.inheritance), factor
+    rotations = np.empty((n_frames, len(joints), 4))
+    offsets = np.zeros((len(joints), 3))
+    slides: dict[int, Floats] = {}
+    scales: list[tuple[float, float]] = []
+    for j, (node, parent) in enumerate(zip(joints, parents, strict=True)):
+        found = transform(node)
+        factor = _factor(found.scale)
+        if factor is None:
+            return None
+        if parent < 0:
+            at = position + world * rot.rotate(rotation, found.translation)
+            slides[j] = np.array(np.broadcast_to(at, (n_frames, 3)))
+            rotations[:, j] = rot.multiply(rotation, found.rotation)
+            scales.append((_inherited(world, own, factor, found.inheritance), factor))
+            continue
+        scale, own_scale = scales[parent]
+        rotations[:, j] = found.rotation
+        scales.append((_inherited(scale, own_scale, factor, found.inheritance), factor))
+        _carry(j, scale * found.translation, offsets, slides)
+    return Local(rotations, offsets, slides)
+
+
+def _inherited(world: float, own: float, factor: float, inheritance: Inheritance) -> float:
+    """A node's scale in the world, from its parent's and its own."""
+    return world / own * factor if inheritance == "Rrs" else world * factor
+
+
+def _factor(scale: Floats) -> float | None:
+    """The one number that a scale is in all axes and frames, or None."""
+    least, most = float(scale.min()), float(scale.max())
+    if not (least > 0 and most - least <= STILL * most):
+        return None
+    return (least + most) / 2
+
+
+def _carry(j: int, shift: Floats, offsets: Floats, slides: dict[int, Floats]) -> None:
+    """Note where a joint is in its parent's frame: always the same, or over time."""
+    if shift.ndim == 1:
+        offsets[j] = shift
+        return
+    offsets[j] = np.median(shift, axis=0)
+    if np.abs(shift - offsets[j]).max() > STILL * np.abs(offsets[j]).max():
+        slides[j] = shift
+
+
+def _multiplied(
+    above: Sequence[int],
+    joints: Sequence[int],
+    parents: Sequence[int],
+    transform: Callable[[int], Transform],
+    n_frames: int,
+    turn: Floats,
+) -> Local:
+    """Positions and axes of the products of matrices."""
+    carriers = range(-len(above), 0)
+    chain = [*zip(carriers, [-len(above) - 1, *carriers], above, strict=False)]
+    chain += [
+        (j, parent if parent >= 0 else -1 if above else -len(above) - 1, node)
+        for j, (node, parent) in enumerate(zip(joints, parents, strict=True))
+    ]
+    transforms = {number: transform(node) for number, _, node in chain}
+    rotations = np.empty((n_frames, len(joints), 4))
+    shifts = np.empty((len(joints), n_frames, 3))
+    for span in blocks(n_frames):
+        n = span.stop - span.start
+        ground = np.broadcast_to(matrices(turn), (n, 3, 3))
+        worlds = {-len(above) - 1: (ground, ground, np.zeros((n, 3)))}
+        turned: dict[int, Floats] = {}
+        for number, parent, _ in chain:
+            found = transforms[number]
+            before = transforms.get(parent)
+            worlds[number] = _product(worlds[parent], found, before, span)
+            if number < 0:
+                continue
+            axes, _, position = worlds[number]
+            turned[number] = quaternions(axes)
+            if parents[number] < 0:
+                rotations[span, number] = turned[number]
+                shifts[number, span] = position
+                continue
+            back = rot.conjugate(turned[parent])
+            rotations[span, number] = rot.multiply(back, turned[number])
+            shifts[number, span] = rot.rotate(back, position - worlds[parent][2])
+    offsets = np.zeros((len(joints), 3))
+    slides: dict[int, Floats] = {}
+    for j, parent in enumerate(parents):
+        if parent < 0:
+            slides[j] = shifts[j]
+        else:
+            _carry(j, shifts[j], offsets, slides)
+    return Local(rotations, offsets, slides)
+
+
+World = tuple[Floats, Floats, Floats]
+"""A node's axes, its whole matrix and its position: (frames, 3, 3) twice and (frames, 3)."""
+
+
+def _product(parent: World, found: Transform, before: Transform | None, span: slice) -> World:
+    """A node's world, from its parent's and the transforms of both."""
+    axes, matrix, position = parent
+    turn = matrices(_frames(found.rotation, span))
+    scale = _frames(found.scale, span)
+    inherited = axes.transpose(0, 2, 1) @ matrix
+    if found.inheritance == "RSrs":
+        product = matrix @ turn
+    else:
+        if found.inheritance == "Rrs" and before is not None:
+            own = _frames(before.scale, span)
+            inherited = inherited / np.where(own == 0, 1, own)[:, None, :]
+        product = axes @ turn @ inherited
+    product = product * scale[:, None, :]
+    place = position + np.einsum("fij,fj->fi", matrix, _frames(found.translation, span))
+    return orthogonal(product), product, place
+
+
+def _frames(values: Floats, span: slice) -> Floats:
+    """The values of these frames, (frames, ...)."""
+    if values.ndim > 1:
+        return values[span]
+    return np.broadcast_to(values, (span.stop - span.start, len(values)))
+
+
+def orthogonal(matrices: Floats) -> Floats:
+    """Right-handed orthonormal axes (frames, 3, 3), the first along that of the matrix."""
+    first = _unit(matrices[:, :, 0], np.array([1.0, 0.0, 0.0]))
+    second = matrices[:, :, 1]
+    second = second - first * np.einsum("fi,fi->f", first, second)[:, None]
+    spare = np.cross(first, np.roll(first, 1, axis=1) + np.array([0.1, 0.2, 0.4]))
+    second = _unit(second, spare)
+    return np.stack([first, second, np.cross(first, second)], axis=2)
+
+
+def _unit(vectors: Floats, spare: Floats) -> Floats:
+    """The vectors at length one; ``spare`` where they have none."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    flat = length < 1e-12
+    instead = spare / np.linalg.norm(spare, axis=-1, keepdims=True)
+    return np.where(flat, instead, vectors / np.where(flat, 1, length))
+
+
+def matrices(rotations: Floats) -> Floats:
+    """Unit quaternions (..., 4) as matrices (..., 3, 3)."""
+    axes = [rot.rotate(rotations, axis) for axis in np.eye(3)]
+    return np.stack(axes, axis=-1)
+
+
+def quaternions(axes: Floats) -> Floats:
+    """Rotation matrices (frames, 3, 3) as unit quaternions: the largest component first.
+
+    Source: S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1, 1978.
+    """
+    trace = np.trace(axes, axis1=1, axis2=2)
+    diagonal = np.diagonal(axes, axis1=1, axis2=2)
+    squares = np.column_stack([1 + trace, *(1 + 2 * diagonal - trace[:, None]).T])
+    largest = squares.argmax(axis=1)
+    x = axes[:, 2, 1] - axes[:, 1, 2], axes[:, 0, 2] - axes[:, 2, 0], axes[:, 1, 0] - axes[:, 0, 1]
+    xy, yz, zx = (axes[:, i, j] + axes[:, j, i] for i, j in ((0, 1), (1, 2), (2, 0)))
+    w2, x2, y2, z2 = squares.T
+    rows = np.stack(
+        [
+            np.column_stack([w2, *x]),
+            np.column_stack([x[0], x2, xy, zx]),
+            np.column_stack([x[1], xy, y2, yz]),
+            np.column_stack([x[2], zx, yz, z2]),
+        ]
+    )
+    found = rows[largest, np.arange(len(axes))]
+    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True), np.float64)

@@ -1,0 +1,253 @@
+"""Which joints of a scene are a character's, and which of its animations is read.
+
+A scene is a tree of nodes. Bones are those that the file calls so; where it calls none so,
+those that are animated and carry no geometry. What lies between two bones belongs to the
+skeleton, too, and so do nodes below a bone that carry nothing: they are the ends of limbs.
+What stands above the topmost bone carries the whole body, and is part of its root.
+
+Each topmost bone is a skeleton of its own. Those with less than a quarter of the joints of the
+largest, and those that stand still while others move, are props.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from kineme._counts import counted
+from kineme.errors import SeveralPeopleError
+from kineme.formats.files import FileContent, unique
+from kineme.recordings import Note
+
+SMALLEST = 0.25
+"""Share of the joints of the largest skeleton below which another one is a prop."""
+
+_END = re.compile(
+    r"(?:(?:^|[\s_.:-])(?i:end|nub|tip)|(?<=[a-z\d])(?:End|Nub|Tip))"
+    r"(?:[\s_.-]?(?i:site|effector))?[\s_.-]?\d*$"
+)
+_SHOWN = 8
+
+
+@dataclass(frozen=True)
+class SceneNode:
+    """One node of a scene.
+
+    Parameters
+    ----------
+    name : str
+    parent : int
+        -1 for none; parents come before their children.
+    bone : bool
+        Whether the file calls it a bone.
+    geometry : bool
+        Whether it carries a mesh, a camera or a light.
+    animated : bool
+        Whether the animation that is read moves it.
+    end : bool
+        Whether it ends a limb, if it is a leaf without rotations.
+    """
+
+    name: str
+    parent: int
+    bone: bool
+    geometry: bool
+    animated: bool
+    end: bool = False
+
+
+@dataclass(frozen=True)
+class Character:
+    """A skeleton in a scene.
+
+    Parameters
+    ----------
+    joints : list of int
+        Nodes, parents first; the root is the first one.
+    notes : list of str
+        What was left out.
+    """
+
+    joints: list[int]
+    notes: list[str]
+
+
+def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str | None) -> Character:
+    """The only skeleton that moves, or the one of the person wanted.
+
+    Raises
+    ------
+    ReadError
+        The scene has no skeleton.
+    SeveralPeopleError
+        It has several and none was chosen, or none of this name.
+    """
+    skeletons = _skeletons(nodes)
+    if not skeletons:
+        raise content.error(
+            "holds no skeleton, neither bones nor animated nodes: export the armature with its "
+            "animation"
+        )
+    largest = max(map(len, skeletons))
+    bodies = [joints for joints in skeletons if len(joints) >= SMALLEST * largest]
+    moving = [joints for joints in bodies if any(nodes[j].animated for j in joints)]
+    bodies = moving or bodies
+    people = dict(zip(_names(nodes, bodies), bodies, strict=True))
+    numbers = {str(number): name for number, name in enumerate(people)}
+    name = person if person in people else numbers.get(person or "", person)
+    if name is None and len(people) == 1:
+        (name,) = people
+    if name is None or name not in people:
+        listed = _listing([f"{name} ({len(joints)} joints)" for name, joints in people.items()])
+        which = (
+            f"{len(people)} characters are in it: choose one with person= (--person), of"
+            if name is None
+            else f"there is no person {name!r}: choose from"
+        )
+        raise SeveralPeopleError(content.path, f"{which} {listed}", people)
+    notes = [f"person {name} of {len(people)}"] if len(people) > 1 else []
+    if props := _props(nodes, list(people.values())):
+        notes.append(f"left out as props: {_listing(props)}")
+    return Character(people[name], notes)
+
+
+def choose_take(
+    content: FileContent, names: Sequence[str], lively: Sequence[int], wanted: str | None
+) -> tuple[int, list[str]]:
+    """The number of the animation that is read, by name or number, and what to say of it.
+
+    Parameters
+    ----------
+    content : FileContent
+    names : sequence of str
+        Of all animations, each once.
+    lively : sequence of int
+        Those that move a skeleton: the first of them is read where none is wanted.
+    wanted : str, optional
+
+    Raises
+    ------
+    ReadError
+        None moves a skeleton, or none of this name is there.
+    """
+    if wanted is not None:
+        number = _numbered(names, wanted)
+        if number is None:
+            listed = _listing(names) or "none"
+            raise content.error(f"there is no take {wanted!r}: choose from {listed}")
+        return number, [f"take {names[number]} of {len(names)}"]
+    if not lively:
+        raise content.error(
+            "holds no animation of its skeleton: export it with its animation, or baked"
+        )
+    first = lively[0]
+    if len(lively) == 1:
+        return first, [f"take {names[first]}"]
+    others = _listing([names[number] for number in lively[1:]])
+    remark = (
+        f"{len(lively)} takes are in it and {names[first]!r} is read: take= (--take) reads "
+        f"another, of {others}"
+    )
+    return first, [Note(remark, "warning")]
+
+
+def _numbered(names: Sequence[str], wanted: str) -> int | None:
+    """The number of a take, by its name, what follows the armature's in it, or its number."""
+    if wanted in names:
+        return names.index(wanted)
+    short = [name.rpartition("|")[2] for name in names]
+    if short.count(wanted) == 1:
+        return short.index(wanted)
+    if wanted.isdecimal() and len(wanted) < 10 and int(wanted) < len(names):
+        return int(wanted)
+    return None
+
+
+def bones_of(parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]) -> list[bool]:
+    """Which nodes are joints: bones, what is between two of them, and free ends below.
+
+    Parameters
+    ----------
+    parents : sequence of int
+    bones : sequence of bool
+    free : sequence of bool
+        Whether a node carries no geometry.
+    """
+    joints = list(bones)
+    above = [False] * len(parents)  # a bone is somewhere above
+    for node, parent in enumerate(parents):
+        above[node] = parent >= 0 and (above[parent] or bones[parent])
+    holds_bone, bare = list(bones), list(free)
+    for node in range(len(parents) - 1, -1, -1):
+        joints[node] = bones[node] or (above[node] and (holds_bone[node] or bare[node]))
+        if (parent := parents[node]) >= 0:
+            holds_bone[parent] |= holds_bone[node]
+            bare[parent] &= bare[node]
+    for node, parent in enumerate(parents):  # what hangs on what was left out
+        joints[node] &= bones[node] or (parent >= 0 and joints[parent])
+    return joints
+
+
+def is_end(name: str) -> bool:
+    """Whether a leaf of this name ends a limb, as ``Head_end`` and ``HeadNub`` do."""
+    return _END.search(name) is not None
+
+
+def _skeletons(nodes: Sequence[SceneNode]) -> list[list[int]]:
+    """The joints of each, parents first."""
+    bones = [node.bone for node in nodes]
+    if not any(bones):
+        bones = [node.animated and not node.geometry for node in nodes]
+    parents = [node.parent for node in nodes]
+    joints = bones_of(parents, bones, [not node.geometry for node in nodes])
+    found: list[list[int]] = []
+    home: dict[int, list[int]] = {}
+    for j, joint in enumerate(joints):
+        if not joint:
+            continue
+        if nodes[j].parent in home:
+            home[j] = home[nodes[j].parent]
+        else:
+            home[j] = []
+            found.append(home[j])
+        home[j].append(j)
+    return found
+
+
+def _names(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
+    """What each body is called: as what carries it alone, by its namespace, or as its root."""
+    carriers = [nodes[joints[0]].parent for joints in bodies]
+    names = []
+    for joints, carrier in zip(bodies, carriers, strict=True):
+        root = nodes[joints[0]].name
+        space = root.rpartition(":")[0]
+        alone = carrier >= 0 and carriers.count(carrier) == 1
+        names.append(nodes[carrier].name if alone else space or root)
+    return unique(names)
+
+
+def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
+    """The topmost nodes that are animated, or bones, and neither part of a body nor above one."""
+    body = {joint for joints in bodies for joint in joints}
+    for joints in bodies:
+        above = nodes[joints[0]].parent
+        while above >= 0:
+            body.add(above)
+            above = nodes[above].parent
+    names: list[str] = []
+    props: set[int] = set()
+    for number, node in enumerate(nodes):
+        if number in body:
+            continue
+        if node.parent in props:
+            props.add(number)
+        elif node.bone or node.animated:
+            props.add(number)
+            names.append(node.name)
+    return names
+
+
+def _listing(names: Sequence[str]) -> str:
+    more = f" and {counted(len(names) - _SHOWN, 'other')}" if len(names) > _SHOWN else ""
+    return ", ".join(names[:_SHOWN]) + more

@@ -1,0 +1,164 @@
+"""FBX: the scenes of animators' programs, from version 7.0 on, binary or text.
+
+What is read is the skeleton of one character and one of its takes, at the file's frame rate
+(``TimeMode``). A curve says more than its values at frames: ``fps=`` samples it at other times,
+and does not play it faster. Unit and axes are those of the file (``UnitScaleFactor``, ``UpAxis``).
+Meshes, cameras, lights and constraints are passed over: a rig that is moved by these is baked to
+keys when it is exported.
+
+See `kineme.formats.scenes.characters` for what counts as a character,
+`kineme.formats.scenes.fbx_scene` for how its joints are placed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.formats.files import FileContent, unique
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
+from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames, quaternions
+from kineme.formats.scenes.characters import character_of, choose_take
+from kineme.formats.scenes.fbx_curves import SLACK, TICKS, Sampler
+from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx
+from kineme.formats.scenes.fbx_scene import BONES, FBXScene, Pose, Take
+from kineme.formats.scenes.fbx_text import TEXT
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT
+from kineme.formats.units import up_rotation
+from kineme.recordings import Motion, Note
+
+Floats = NDArray[np.float64]
+
+RATES = {
+    1: 120.0, 2: 100.0, 3: 60.0, 4: 50.0, 5: 48.0, 6: 30.0, 7: 30.0, 8: 30 / 1.001, 9: 30 / 1.001,
+    10: 25.0, 11: 24.0, 12: 1000.0, 13: 24 / 1.001, 15: 96.0, 16: 72.0, 17: 60 / 1.001,
+    18: 120 / 1.001,
+}  # fmt: skip
+"""Frames per second of a ``TimeMode``."""
+
+CUSTOM = 14
+"""The ``TimeMode`` whose rate is in ``CustomFrameRate``."""
+
+USUAL_RATE = 30.0
+"""Of files that tell none, and have no keys that do."""
+
+CENTIMETRE = 0.01
+
+SLOWEST, FASTEST = 0.01, 100_000.0
+"""Frames per second that are taken for a rate."""
+
+_EVEN_KEYS = 8  # fewer tell no rate
+_ROUNDED = 1e-3  # of a frame, by which the end of a take misses it
+_MOST_FRAMES = 1e12
+
+
+def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
+    """The motion of a character in an FBX file."""
+    version, root = parse_fbx(content)
+    scene = FBXScene(content, root)
+    bones = {model.number for model in scene.models if model.kind in BONES}
+    moved = [scene.moved(take) for take in scene.takes]
+    lively = [i for i, models in enumerate(moved) if models & bones or (models and not bones)]
+    number, notes = choose_take(
+        content, unique(take.name for take in scene.takes), lively, options.take
+    )
+    take, nodes = scene.takes[number], scene.nodes(moved[number])
+    character = character_of(content, nodes, options.person)
+    joints = [scene.models[j].number for j in character.joints]
+    fps, rated = _rate(scene, take, joints, options)
+    at = _frames(scene, take, joints, fps)
+    turn, turned = _turn(scene, options)
+    notes = [f"FBX {version // 1000}.{version % 1000 // 100}", *notes, *character.notes]
+    return assemble(
+        content,
+        nodes,
+        character.joints,
+        Pose(scene, take, Sampler(at)).transform,
+        len(at),
+        fps,
+        unit=options.unit or CENTIMETRE * scene.setting("UnitScaleFactor", 1.0),
+        turn=turn,
+        provenance=content.provenance("FBX", [*notes, *rated, *turned]),
+    )
+
+
+def _rate(
+    scene: FBXScene, take: Take, joints: list[int], options: ReadOptions
+) -> tuple[float, list[str]]:
+    """Frames per second, and what to say of them."""
+    if options.fps is not None:
+        return options.fps, [f"sampled {options.fps:g} times a second, as asked for"]
+    mode = int(scene.setting("TimeMode", 0))
+    fps = RATES.get(mode, 0.0) if mode != CUSTOM else scene.setting("CustomFrameRate", 0.0)
+    keys = _rate_of_keys(scene, take, joints)
+    if not SLOWEST <= fps <= FASTEST:
+        if keys:
+            return keys, [f"frame rate {keys:g} Hz: the file tells none, its keys are so far apart"]
+        remark = f"the file tells no frame rate: {USUAL_RATE:g} Hz assumed; give fps= (--fps)"
+        return USUAL_RATE, [Note(remark, "warning")]
+    if keys > 1.5 * fps:
+        return fps, [f"{keys:g} keys a second are sampled at the file's {fps:g} Hz: fps= asks more"]
+    return fps, []
+
+
+def _rate_of_keys(scene: FBXScene, take: Take, joints: list[int]) -> float:
+    """How many keys a second the first curve with evenly spaced ones has; 0 where none has."""
+    for times in scene.key_times(take, joints):
+        steps = np.diff(times)
+        if len(steps) < _EVEN_KEYS:
+            continue
+        usual = float(np.median(steps))
+        even = np.abs(steps - usual) <= max(2 * SLACK, 1e-3 * usual)
+        fps = TICKS / usual
+        if even.mean() > 0.9 and SLOWEST <= fps <= FASTEST:
+            return round(fps, 3)
+        return 0.0
+    return 0.0
+
+
+def _frames(scene: FBXScene, take: Take, joints: list[int], fps: float) -> Floats:
+    """Ticks of each frame: from the start of the take to its end, or of its keys."""
+    start, stop = take.start, take.stop
+    count = (stop - start) / TICKS * fps + 1
+    room = max(MOST_SAMPLED, scene.content.room)
+    if stop <= start or count * BYTES_PER_JOINT * len(joints) > room:
+        ends = [(times[0], times[-1]) for times in scene.key_times(take, joints)]
+        start = min((first for first, _ in ends), default=0.0)
+        stop = max((last for _, last in ends), default=0.0)
+        count = (stop - start) / TICKS * fps + 1
+    n_frames = int(min(count + _ROUNDED, _MOST_FRAMES))
+    claim_frames(scene.content, len(joints), n_frames)
+    return np.asarray(start + np.arange(n_frames) * (TICKS / fps), np.float64)
+
+
+def _turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]]:
+    """The rotation to axes with y up, and what to say of it.
+
+    The file tells which of its axes are those to the right, up and to the front.
+    """
+    if options.up is not None:
+        return up_rotation(options.up), []
+    rows = np.zeros((3, 3))
+    for row, (name, usual) in enumerate((("Coord", 0), ("Up", 1), ("Front", 2))):
+        axis = int(scene.setting(f"{name}Axis", usual))
+        sign = -1.0 if scene.setting(f"{name}AxisSign", 1) < 0 else 1.0
+        if 0 <= axis < 3:
+            rows[row, axis] = sign
+    up = int(np.abs(rows[1]).argmax())
+    name = ("-" if rows[1, up] < 0 else "") + "xyz"[up]
+    notes: list[str] = [] if name == "y" else [f"turned: {name} is up in the file"]
+    if np.linalg.det(rows) > 0.5:
+        return quaternions(rows[None]).reshape(4), notes
+    remark = (
+        "the file's axes are left-handed or no axes: read as right-handed ones with the same up"
+    )
+    return up_rotation(name), [*notes, Note(remark, "warning")]
+
+
+FORMAT = Format(
+    "FBX",
+    (".fbx",),
+    lambda head: head.startswith(MAGIC) or TEXT.search(head) is not None,
+    read_fbx,
+)

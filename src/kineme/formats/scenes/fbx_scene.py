@@ -1,0 +1,432 @@
+"""The objects of an FBX file, how they are connected, and the transforms of its models.
+
+Objects have a number, a name, a class and properties; what a file leaves out is in the templates
+of its classes. Connections make one object part of another, or drive a property of it. An
+animation stack (a take) has layers, a layer has curve nodes, each of which drives a property of
+a model by a curve for each axis::
+
+    AnimationStack <- AnimationLayer <- AnimationCurveNode <- AnimationCurve
+                                        AnimationCurveNode -> Model, "Lcl Rotation"
+
+A model's transform in its parent's frame is the product::
+
+    T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1
+
+of translation, rotation offset and pivot, pre-rotation, rotation, post-rotation, scaling offset
+and pivot, and scaling. Rotations are Euler angles in degrees; that of the model in its own order
+(``RotationOrder``), pre- and post-rotation about x, then y, then z.
+
+Layers above the first add to it or replace it, to the share of their weight; whether rotations
+are added axis by axis or multiplied the layer says.
+
+Source: Autodesk, FBX SDK, "Computing transformation matrices", and `FbxAnimLayer`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.formats.files import FileContent
+from kineme.formats.scenes.assembly import Inheritance, Transform
+from kineme.formats.scenes.characters import SceneNode, is_end
+from kineme.formats.scenes.fbx_curves import Curve, CurveReader, Sampler
+from kineme.formats.scenes.fbx_nodes import FBXNode
+from kineme.formats.units import blocks
+
+Floats = NDArray[np.float64]
+
+BONES = frozenset({"LimbNode", "Limb", "Root", "Effector", "IKEffector", "FKEffector"})
+GEOMETRY = frozenset({"Mesh", "Camera", "CameraSwitcher", "Light", "Nurbs", "NurbsCurve", "Line"})
+
+TRANSLATION, ROTATION, SCALING = "Lcl Translation", "Lcl Rotation", "Lcl Scaling"
+
+# The axes from left to right in the product of rotations, of which the last is applied first.
+_ORDERS = ("zyx", "yzx", "xzy", "zxy", "yxz", "xyz", "zyx")
+_INHERITANCE: tuple[Inheritance, ...] = ("RrSs", "RSrs", "Rrs")
+_OVERRIDE, _PASS_THROUGH = 1, 2
+_LARGEST = 1e100
+
+Properties = dict[str, list[object]]
+
+
+@dataclass(frozen=True)
+class Take:
+    """An animation stack.
+
+    Parameters
+    ----------
+    name : str
+    layers : list of int
+        Their numbers, the base first.
+    start, stop : float
+        Ticks of the first and last frame; both 0 where the file does not say.
+    """
+
+    name: str
+    layers: list[int]
+    start: float
+    stop: float
+
+
+@dataclass(frozen=True)
+class Model:
+    """A node of the scene: its number, and what the file says of it."""
+
+    number: int
+    name: str
+    kind: str
+    parent: int
+    properties: Properties
+
+
+class FBXScene:
+    """Models, takes and settings of a file.
+
+    Parameters
+    ----------
+    content : FileContent
+    root : FBXNode
+        Its nodes.
+    """
+
+    def __init__(self, content: FileContent, root: FBXNode) -> None:
+        self.content = content
+        self.objects: dict[int, FBXNode] = {}
+        for group in root.all("Objects"):
+            for node in group.children:
+                if node.values and isinstance(node.values[0], int):
+                    self.objects[node.values[0]] = node
+        self._reader = CurveReader(content)
+        self.settings = _properties(root.child("GlobalSettings"))
+        self._templates = _templates(root)
+        self._parts: dict[int, list[int]] = {}
+        self._driven: dict[int, list[tuple[int, str]]] = {}
+        self._driving: dict[int, list[tuple[int, str]]] = {}
+        for group in root.all("Connections"):
+            for link in group.children:
+                self._connect(link)
+        self.models = self._models()
+        self.takes = self._takes(root)
+
+    def _connect(self, link: FBXNode) -> None:
+        part, whole = link.number(1, -1), link.number(2, -1)
+        if not (isinstance(part, int) and isinstance(whole, int)):
+            return
+        if link.text(0) == "OO":
+            self._parts.setdefault(whole, []).append(part)
+        elif link.text(0) == "OP":
+            self._driven.setdefault(part, []).append((whole, link.text(3)))
+            self._driving.setdefault(whole, []).append((part, link.text(3)))
+
+    def _models(self) -> list[Model]:
+        """All models, parents before their children; those in a circle are left out."""
+        found: list[Model] = []
+        carried = {part for whole in self.objects for part in self._parts.get(whole, ())}
+        tops = dict.fromkeys(self._parts.get(0, []))
+        tops |= dict.fromkeys(number for number in self.objects if number not in carried)
+        waiting = [(number, -1) for number in reversed(tops)]
+        known: set[int] = set()
+        while waiting:
+            number, parent = waiting.pop()
+            node = self.objects.get(number)
+            if node is None or node.name != "Model" or number in known:
+                continue
+            known.add(number)
+            name = _plain(node.text(1))
+            properties = {**self._templates.get("Model", {}), **_properties(node)}
+            here = len(found)
+            found.append(Model(number, name or "joint", node.text(2), parent, properties))
+            waiting += [(part, here) for part in reversed(self._parts.get(number, []))]
+        return found
+
+    def _takes(self, root: FBXNode) -> list[Take]:
+        spans = _spans(root)
+        takes = []
+        for number, node in self.objects.items():
+            if node.name != "AnimationStack":
+                continue
+            name = _plain(node.text(1)) or "take"
+            layers = [p for p in self._parts.get(number, ()) if self._is(p, "AnimationLayer")]
+            properties = _properties(node)
+            span = None
+            for kind in ("Local", "Reference"):
+                start, stop = (_number(properties, f"{kind}{end}", 0) for end in ("Start", "Stop"))
+                if span is None and stop > start:
+                    span = start, stop
+            takes.append(Take(name, layers, *(span or spans.get(name, (0.0, 0.0)))))
+        return takes
+
+    def _is(self, number: int, name: str) -> bool:
+        node = self.objects.get(number)
+        return node is not None and node.name == name
+
+    def nodes(self, moved: set[int]) -> list[SceneNode]:
+        """The models as nodes of a scene, of which those are animated."""
+        return [
+            SceneNode(
+                model.name,
+                model.parent,
+                model.kind in BONES,
+                model.kind in GEOMETRY,
+                model.number in moved,
+                is_end(model.name),
+            )
+            for model in self.models
+        ]
+
+    def moved(self, take: Take) -> set[int]:
+        """The numbers of the models that a take drives."""
+        return {
+            model
+            for layer in take.layers
+            for part in self._parts.get(layer, ())
+            if self._has_curve(part)
+            for model, what in self._driven.get(part, ())
+            if what in (TRANSLATION, ROTATION, SCALING)
+        }
+
+    def _has_curve(self, number: int) -> bool:
+        return any(self._is(curve, "AnimationCurve") for curve, _ in self._driving.get(number, ()))
+
+    def tracks(self, take: Take) -> dict[tuple[int, str], list[tuple[int, int]]]:
+        """For each model and property its layers and curve nodes, the base layer first."""
+        found: dict[tuple[int, str], list[tuple[int, int]]] = {}
+        for layer in take.layers:
+            for part in self._parts.get(layer, ()):
+                if self._is(part, "AnimationCurveNode"):
+                    for driven in self._driven.get(part, ()):
+                        found.setdefault(driven, []).append((layer, part))
+        return found
+
+    def curves(self, number: int) -> dict[str, Curve]:
+        """The curves of a curve node by their axes, ``d|X`` and so on."""
+        found = {}
+        for part, axis in self._driving.get(number, ()):
+            node = self.objects.get(part)
+            if node is not None and node.name == "AnimationCurve":
+                curve = self._reader.read(node)
+                if curve is not None:
+                    found[axis] = curve
+        return found
+
+    def key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
+        """The times of the keys of each curve that moves one of these models, in ticks."""
+        wanted = set(models)
+        for (model, what), parts in self.tracks(take).items():
+            if model in wanted and what in (TRANSLATION, ROTATION, SCALING):
+                for _, part in parts:
+                    yield from (curve.times for curve in self.curves(part).values())
+
+    def setting(self, name: str, usual: float) -> float:
+        """A number of the file's settings."""
+        return _number(self.settings, name, usual)
+
+    def properties(self, number: int) -> Properties:
+        return _properties(self.objects.get(number))
+
+
+class Pose:
+    """The transforms of models at the frames of a take.
+
+    Parameters
+    ----------
+    scene : FBXScene
+    take : Take
+    sampler : Sampler
+    """
+
+    def __init__(self, scene: FBXScene, take: Take, sampler: Sampler) -> None:
+        self.scene, self.sampler = scene, sampler
+        self.tracks = scene.tracks(take)
+        self.layers = {number: scene.properties(number) for number in take.layers}
+
+    def transform(self, number: int) -> Transform:
+        """Of the model of this number among the nodes of the scene."""
+        model = self.scene.models[number]
+        said = model.properties
+        order = _ORDERS[_choice(said, "RotationOrder", len(_ORDERS))]
+        turn = self._rotation(model, order)
+        before, after = _vector(said, "PreRotation"), _vector(said, "PostRotation")
+        if before.any():
+            turn = rot.multiply(_euler(before, "zyx"), turn)
+        if after.any():
+            turn = rot.multiply(turn, rot.conjugate(_euler(after, "zyx")))
+        scale, shift = self._values(model, SCALING, 1.0), self._values(model, TRANSLATION, 0.0)
+        shift = _pivoted(said, shift, turn, scale)
+        inheritance = _INHERITANCE[_choice(said, "InheritType", len(_INHERITANCE))]
+        return Transform(shift, turn, scale, inheritance)
+
+    def _rotation(self, model: Model, order: str) -> Floats:
+        """(4,) or (frames, 4)."""
+        angles = _vector(model.properties, ROTATION)
+        turn: Floats | None = None  # in place of the angles, once layers were multiplied
+        for value, weight, said in self._layers(model, ROTATION, angles):
+            if weight is None:
+                angles, turn = value, None
+            elif _choice(said, "RotationAccumulationMode", 2) == 1:
+                angles = angles if turn is None else _angles(turn, order)
+                angles = angles * (1 - weight if _replaces(said) else 1) + value * weight
+                turn = None
+            else:
+                turn = _euler(angles, order) if turn is None else turn
+                layer = _euler(value, order)
+                if _replaces(said):
+                    layer = rot.multiply(rot.conjugate(turn), layer)
+                turn = rot.multiply(turn, _share_of(layer, weight))
+        return _euler(angles, order) if turn is None else turn
+
+    def _values(self, model: Model, what: str, usual: float) -> Floats:
+        """(3,) or (frames, 3): a property with all layers on it."""
+        result = _vector(model.properties, what, usual)
+        for value, weight, said in self._layers(model, what, result):
+            if weight is None:
+                result = value
+            elif what == SCALING and _choice(said, "ScaleAccumulationMode", 2) == 0:
+                rest = 1 - weight if _replaces(said) else 1
+                result = np.abs(result) ** rest * np.abs(value) ** weight
+            else:
+                result = result * (1 - weight if _replaces(said) else 1) + value * weight
+        return result
+
+    def _layers(
+        self, model: Model, what: str, usual: Floats
+    ) -> Iterator[tuple[Floats, Floats | float | None, Properties]]:
+        """Value, weight and properties of each layer; the weight is None where it is all."""
+        base = next(iter(self.layers), None)
+        for layer, part in self.tracks.get((model.number, what), ()):
+            said = self.layers[layer]
+            if layer == base:
+                yield self._sampled(part, usual), None, said
+            elif not _number(said, "Mute", 0):
+                rest = np.full(3, 1.0 if what == SCALING else 0.0)
+                whole = _choice(said, "BlendMode", 3) == _OVERRIDE
+                yield self._sampled(part, rest), None if whole else self._weight(layer), said
+
+    def _weight(self, layer: int) -> Floats | float:
+        """The share of a layer: one, or (frames, 1)."""
+        said = self.layers[layer]
+        for _, part in self.tracks.get((layer, "Weight"), ()):
+            for curve in self.scene.curves(part).values():
+                sampled = np.clip(np.asarray(self.sampler.values(curve)) / 100, 0, 1)
+                return sampled[:, None] if sampled.ndim else float(sampled)
+        return min(max(_number(said, "Weight", 100.0) / 100, 0.0), 1.0)
+
+    def _sampled(self, part: int, usual: Floats) -> Floats:
+        """(3,) or (frames, 3): what a curve node has for the three axes."""
+        curves, said = self.scene.curves(part), self.scene.properties(part)
+        axes = []
+        for letter, rest in zip("XYZ", usual.tolist(), strict=True):
+            curve = curves.get(f"d|{letter}")
+            value = (
+                _number(said, f"d|{letter}", rest) if curve is None else self.sampler.values(curve)
+            )
+            axes.append(np.asarray(value, np.float64))
+        return np.stack(np.broadcast_arrays(*axes)).T  # contiguous per axis
+
+
+def _replaces(said: Properties) -> bool:
+    """Whether a layer takes the place of what is below it, to its share, and is not added."""
+    return _choice(said, "BlendMode", 3) == _PASS_THROUGH
+
+
+def _share_of(turn: Floats, weight: Floats | float) -> Floats:
+    """A rotation so large a share as far, along the shorter arc."""
+    turn = np.where(turn[..., :1] < 0, -turn, turn)
+    norm = np.linalg.norm(turn[..., 1:], axis=-1, keepdims=True)
+    angle = np.arctan2(norm, turn[..., :1]) * weight
+    axis = turn[..., 1:] / np.maximum(norm, 1e-300) + 0 * angle
+    return np.asarray(np.concatenate([np.cos(angle), np.sin(angle) * axis], axis=-1), np.float64)
+
+
+def _euler(angles: Floats, axes: str) -> Floats:
+    """The rotation (..., 4) by angles about x, y and z in degrees, multiplied in this order."""
+    order = ["xyz".index(axis) for axis in axes]
+    if angles.ndim == 1:
+        return rot.from_euler(np.radians(angles[None, order]), axes).reshape(4)
+    turned = np.empty((4, len(angles)))
+    for span in blocks(len(angles)):
+        turned[:, span] = rot.from_euler(np.radians(angles[span].T[order]).T, axes).T
+    return turned.T
+
+
+def _angles(turn: Floats, axes: str) -> Floats:
+    """Angles about x, y and z in degrees whose rotations, multiplied in this order, are these."""
+    from scipy.spatial.transform import Rotation  # heavy, and seldom needed
+
+    columns = Rotation.from_quat(np.roll(turn, -1, axis=-1)).as_euler(axes.upper(), degrees=True)
+    return np.asarray(columns[..., [axes.index(axis) for axis in "xyz"]], np.float64)
+
+
+def _pivoted(said: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
+    """The translation with what pivots and their offsets add to it."""
+    shift = shift + _vector(said, "RotationOffset")
+    pivot, center = _vector(said, "RotationPivot"), _vector(said, "ScalingPivot")
+    carried = _vector(said, "ScalingOffset") - pivot
+    if center.any():
+        carried = carried + center - scale * center
+    if pivot.any() or carried.any():
+        shift = shift + pivot + rot.rotate(turn, carried)
+    return np.asarray(shift, np.float64)
+
+
+def _templates(root: FBXNode) -> dict[str, Properties]:
+    """What the objects of a class have where they do not say."""
+    found: dict[str, Properties] = {}
+    for group in root.all("Definitions"):
+        for kind in group.all("ObjectType"):
+            for template in kind.all("PropertyTemplate"):
+                found.setdefault(kind.text(0), _properties(template))
+    return found
+
+
+def _spans(root: FBXNode) -> dict[str, tuple[float, float]]:
+    """The spans of takes by their names, as programs write them for older ones."""
+    found = {}
+    for group in root.all("Takes"):
+        for take in group.all("Take"):
+            for kind in ("ReferenceTime", "LocalTime"):
+                span = take.child(kind)
+                if span and span.number(1) > span.number(0):
+                    found[take.text(0)] = float(span.number(0)), float(span.number(1))
+    return found
+
+
+def _properties(node: FBXNode | None) -> Properties:
+    """The values of an object's properties, by their names."""
+    held = node.child("Properties70") if node else None
+    if held is None:
+        return {}
+    return {entry.text(0): entry.values[4:] for entry in held.all("P")}
+
+
+def _number(said: Properties, name: str, usual: float) -> float:
+    values = said.get(name) or [usual]
+    value = values[0]
+    if not isinstance(value, int | float) or not isfinite(value):
+        return usual
+    return float(value)
+
+
+def _choice(said: Properties, name: str, count: int) -> int:
+    """One of so many values, the first where it is none of them."""
+    value = _number(said, name, 0)
+    return int(value) if 0 <= value < count else 0
+
+
+def _vector(said: Properties, name: str, usual: float = 0.0) -> Floats:
+    values = said.get(name) or []
+    numbers = [v for v in values[:3] if isinstance(v, int | float) and abs(v) < _LARGEST]
+    return np.array(numbers, np.float64) if len(numbers) == 3 else np.full(3, usual)
+
+
+def _plain(name: str) -> str:
+    """An object's name without its class, which binary files have behind it, texts before it."""
+    name = name.partition("\0\1")[0]
+    head, mark, tail = name.partition("::")
+    return tail if mark and head.isidentifier() else name

@@ -1,0 +1,139 @@
+"""FBX written as text (7.x): ``Name: value, value { nodes }``, arrays as ``*3 { a: 1,2,3 }``.
+
+A semicolon begins a comment. Arrays are left where they are until somebody asks for one.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ReadError
+from kineme.formats.files import FileContent
+from kineme.formats.scenes.fbx_nodes import FBXNode, claim_nodes
+
+TEXT = re.compile(rb"^(\xef\xbb\xbf)?\s*;\s*FBX\s+\d|^FBXHeaderExtension\s*:", re.MULTILINE)
+
+_TOKEN = re.compile(
+    rb"""\s*+ (?: ; [^\n]*+ \s*+ )*+ (?:
+    (?P<text> "[^"]*" ) | (?P<name> [A-Za-z_][\w|]* ) [ \t]* : | (?P<mark> [{},] ) |
+    \* (?P<count> \d+ ) | (?P<word> [^\s,{}":;*]+ ) )""",
+    re.VERBOSE,
+)
+_ARRAY = re.compile(rb"\s*\{\s*a\s*:")
+_ESCAPES = ((b"&quot;", b'"'), (b"&lf;", b"\n"), (b"&cr;", b"\r"))
+_BOM = b"\xef\xbb\xbf"
+_LONGEST = 40  # digits of a whole number
+
+
+def parse_text(content: FileContent) -> FBXNode:
+    """The nodes of a text, below one without a name.
+
+    Raises
+    ------
+    ReadError
+        It breaks off, or is no such text; the message has the line.
+    """
+    return _Text(content).root
+
+
+class _Text:
+    """Reads one token after another."""
+
+    def __init__(self, content: FileContent) -> None:
+        self.content = content
+        self.data = content.text.encode("utf-8") if content.is_utf16 else content.data
+        self.root = FBXNode("")
+        self.open_nodes = [self.root]
+        self.node: FBXNode | None = None  # whose values are being read
+        self.count = 0
+        self.at = len(_BOM) if self.data.startswith(_BOM) else 0
+        while match := _TOKEN.match(self.data, self.at):
+            self.at = match.end()
+            self._take(match)
+        if self.data[self.at :].strip():
+            raise self._error(f"{self.data[self.at : self.at + 40].strip()!r} is no FBX", self.at)
+        if len(self.open_nodes) > 1:
+            raise content.error(f"the '}}' of {self.open_nodes[-1].name!r:.40} is missing")
+
+    def _error(self, reason: str, at: int) -> ReadError:
+        return self.content.error(reason, self.data.count(b"\n", 0, at) + 1)
+
+    def _take(self, match: re.Match[bytes]) -> None:
+        kind = match.lastgroup or ""
+        value, at = match[kind], match.start(kind)
+        if kind == "name":
+            self.node = FBXNode(value.decode())
+            self.open_nodes[-1].children.append(self.node)
+            self.count += 1
+            claim_nodes(self.content, self.count)
+        elif value == b"}" and kind == "mark":
+            if len(self.open_nodes) == 1:
+                raise self._error("a '}' too many", at)
+            self.open_nodes.pop()
+            self.node = None
+        elif self.node is None:
+            raise self._error(f"a name expected, found {value[:40]!r}", at)
+        elif value == b"{" and kind == "mark":
+            self.open_nodes.append(self.node)
+            self.node = None
+        elif kind == "count":
+            self.node.values.append(self._array(value))
+            self.node = None
+        elif kind == "text":
+            self.node.values.append(_unquoted(value))
+        elif kind == "word":
+            self.node.values.append(_word(value))
+
+    def _array(self, count: bytes) -> _Array:
+        """The array that begins here, which is skipped."""
+        start, stop = _ARRAY.match(self.data, self.at), self.data.find(b"}", self.at)
+        if start is None or stop < 0:
+            raise self._error("an array without its numbers", self.at)
+        found = _Array(int(count[:_LONGEST]), self.data, start.end(), stop)
+        self.at = stop + 1
+        return found
+
+
+def _unquoted(quoted: bytes) -> str:
+    raw = quoted[1:-1]
+    for escape, letter in _ESCAPES:
+        raw = raw.replace(escape, letter)
+    return raw.decode("utf-8", "replace")
+
+
+def _word(word: bytes) -> int | float | str:
+    for number in (int, float):
+        try:
+            return number(word[:_LONGEST])
+        except ValueError:
+            continue
+    return word.decode("utf-8", "replace")
+
+
+@dataclass(slots=True)
+class _Array:
+    """An array in a text."""
+
+    count: int
+    data: bytes
+    start: int
+    stop: int
+
+    def raw(self, _: FileContent) -> bytes:
+        return self.data[self.start : self.stop]
+
+    def read(self, content: FileContent) -> NDArray[Any]:
+        words = self.raw(content).split(b",")
+        line = self.data.count(b"\n", 0, self.start) + 1
+        try:
+            values = np.array(words, np.float64) if words != [b""] else np.empty(0)
+        except ValueError:
+            raise content.error("an array holds what is no number", line) from None
+        if len(values) != self.count:
+            raise content.error(f"{len(values)} numbers in an array of {self.count}", line)
+        return values

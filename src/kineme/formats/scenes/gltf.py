@@ -1,0 +1,288 @@
+"""glTF 2.0, ``.glb`` and ``.gltf``: the scenes of the web and of game engines.
+
+What is read is the skeleton of one character and one of its animations. Lengths are metres, y is
+up. A glTF has no frame rate: it is that of the keys, where these are evenly spaced. Keys are held
+(STEP), on the shorter arc or in a line (LINEAR), or cubic (CUBICSPLINE); ``fps=`` samples them at
+another rate. Bones are the joints of its skins, else all nodes that are animated.
+
+What is written is described in `kineme.formats.scenes.gltf_writer`.
+
+Source: Khronos Group, "glTF 2.0 specification", section 3.11 and appendix C.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.formats.files import FileContent, unique
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
+from kineme.formats.scenes.assembly import (
+    Transform,
+    assemble,
+    claim_frames,
+    orthogonal,
+    quaternions,
+)
+from kineme.formats.scenes.characters import SceneNode, character_of, choose_take, is_end
+from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
+from kineme.formats.scenes.gltf_writer import OURS, write_animations, write_gltf
+from kineme.formats.scenes.sampling import between, slerp
+from kineme.formats.units import up_rotation
+from kineme.recordings import Motion, Note
+
+Floats = NDArray[np.float64]
+
+USUAL_RATE = 30.0
+"""Of files whose keys are not evenly spaced."""
+
+TRANSLATION, ROTATION, SCALE = "translation", "rotation", "scale"
+SLACK = 0.05
+"""Of the time between two frames, by which a key may miss the frame it was made for."""
+
+SLOWEST, FASTEST = 0.01, 100_000.0
+"""Frames per second that are taken for a rate."""
+
+_JSON = re.compile(rb'"asset"\s*:\s*\{')
+_WIDTHS = {TRANSLATION: 3, ROTATION: 4, SCALE: 3}
+_EVEN = 0.02  # share of their mean by which the times between keys may differ from it
+_ROUNDED = 0.1  # of a frame, by which the last key may miss it
+_MOST_FRAMES = 1e12
+
+
+class Keys(NamedTuple):
+    """Of one property of a node: times, values and how they go on."""
+
+    times: Floats
+    values: Floats
+    interpolation: str
+
+
+def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
+    """The motion of a character in a glTF file."""
+    file = GLTFFile(content)
+    order, parents = _tree(file)
+    objects = [file.tree.nodes[number] for number in order]
+    bones = {joint for skin in file.tree.skins for joint in skin.joints}
+    moved = [
+        {channel.target.node for channel in animation.channels if channel.target.path in _WIDTHS}
+        for animation in file.tree.animations
+    ]
+    lively = [i for i, nodes in enumerate(moved) if nodes & bones or (nodes and not bones)]
+    names = unique(animation.name or "animation" for animation in file.tree.animations)
+    number, notes = choose_take(content, names, lively, options.take)
+    nodes = [
+        SceneNode(
+            each.name or f"node{order[j]}",
+            parents[j],
+            order[j] in bones,
+            each.mesh is not None or each.camera is not None,
+            order[j] in moved[number],
+            end=_is_marked(each) if _is_ours(file) else is_end(each.name),
+        )
+        for j, each in enumerate(objects)
+    ]
+    character = character_of(content, nodes, options.person)
+    keys = _keys(file, file.tree.animations[number], _needed(nodes, character.joints, order))
+    fps, rated = _rate(file, keys, options)
+    start, n_frames = _span(keys, fps)
+    claim_frames(content, len(character.joints), n_frames, beside=file.beside)
+    at = start + np.arange(n_frames) / fps
+
+    def transform(j: int) -> Transform:
+        return _transform(objects[j], {what: keys.get((order[j], what)) for what in _WIDTHS}, at)
+
+    return assemble(
+        content,
+        nodes,
+        character.joints,
+        transform,
+        len(at),
+        fps,
+        unit=options.unit or 1.0,
+        turn=up_rotation(options.up or "y"),
+        provenance=content.provenance("glTF", [*notes, *character.notes, *rated]),
+    )
+
+
+def _is_ours(file: GLTFFile) -> bool:
+    extras = file.tree.asset.extras
+    return isinstance(extras, dict) and OURS in extras
+
+
+def _is_marked(each: SceneObject) -> bool:
+    return isinstance(each.extras, dict) and each.extras.get("end_site") is True
+
+
+def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
+    """The numbers of the nodes, parents first, and the place of each one's parent among them."""
+    held = file.tree.nodes
+    carried = {child for node in held for child in node.children}
+    waiting = [(number, -1) for number in reversed(range(len(held))) if number not in carried]
+    order: list[int] = []
+    parents: list[int] = []
+    known: set[int] = set()
+    while waiting:
+        number, parent = waiting.pop()
+        if number in known or not 0 <= number < len(held):
+            continue
+        known.add(number)
+        waiting += [(child, len(order)) for child in reversed(held[number].children)]
+        order.append(number)
+        parents.append(parent)
+    return order, parents
+
+
+def _needed(nodes: list[SceneNode], joints: list[int], order: list[int]) -> set[int]:
+    """The numbers of the nodes that a character consists of, and of those that carry it."""
+    needed = set(joints)
+    above = nodes[joints[0]].parent
+    while above >= 0:
+        needed.add(above)
+        above = nodes[above].parent
+    return {order[j] for j in needed}
+
+
+def _keys(file: GLTFFile, animation: Animation, nodes: set[int]) -> dict[tuple[int, str], Keys]:
+    """The keys of each node's properties."""
+    found: dict[tuple[int, str], Keys] = {}
+    times: dict[int, Floats] = {}
+    for channel in animation.channels:
+        node, what = channel.target.node, channel.target.path
+        if node is None or node not in nodes or what not in _WIDTHS:
+            continue
+        sampler = file.part(animation.samplers, channel.sampler, "sampler")
+        if sampler.input not in times:
+            times[sampler.input] = file.array(sampler.input)[:, 0]
+            if (np.diff(times[sampler.input]) <= 0).any():
+                raise file.content.error("the times of keys are in no order: damaged")
+        values = file.array(sampler.output)
+        count = len(times[sampler.input]) * (3 if sampler.interpolation == "CUBICSPLINE" else 1)
+        if values.shape != (count, _WIDTHS[what]):
+            raise file.content.error(f"{what} of node {node} has other keys than times: damaged")
+        found[node, what] = Keys(times[sampler.input], values, sampler.interpolation)
+    return found
+
+
+def _rate(
+    file: GLTFFile, keys: dict[tuple[int, str], Keys], options: ReadOptions
+) -> tuple[float, list[str]]:
+    """Frames per second, and what to say of them."""
+    if options.fps is not None:
+        return options.fps, [f"sampled {options.fps:g} times a second, as asked for"]
+    extras = file.tree.asset.extras
+    said = extras.get(OURS) if isinstance(extras, dict) else None
+    fps = said.get("fps") if isinstance(said, dict) else None
+    if isinstance(fps, int | float) and SLOWEST <= fps <= FASTEST:
+        return float(fps), []
+    times = max((each.times for each in keys.values()), key=len, default=np.empty(0))
+    steps = np.diff(times)
+    if len(steps) > 1 and np.abs(steps / steps.mean() - 1).max() <= _EVEN:
+        fps = len(steps) / float(times[-1] - times[0])
+        near = abs(fps / max(round(fps), 1) - 1) * len(steps) <= SLACK  # at the last key, too
+        fps = float(round(fps)) if near else round(fps, 3)
+        if SLOWEST <= fps <= FASTEST:
+            return fps, [f"frame rate {fps:g} Hz: that of its keys"]
+    remark = f"its keys are not evenly spaced: {USUAL_RATE:g} Hz assumed; give fps= (--fps)"
+    return USUAL_RATE, [Note(remark, "warning")]
+
+
+def _span(keys: dict[tuple[int, str], Keys], fps: float) -> tuple[float, int]:
+    """The second of the first key, and how many frames there are up to the last one."""
+    start = min((float(each.times[0]) for each in keys.values()), default=0.0)
+    stop = max((float(each.times[-1]) for each in keys.values()), default=0.0)
+    return start, int(min((stop - start) * fps + 1 + _ROUNDED, _MOST_FRAMES))
+
+
+def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> Transform:
+    """A node's transform at these seconds."""
+    rest = _rest(node)
+    found = {
+        what: rest[what] if held is None else _sampled(held, at, turns=what == ROTATION)
+        for what, held in keys.items()
+    }
+    return Transform(found[TRANSLATION], found[ROTATION], found[SCALE])
+
+
+def _rest(node: SceneObject) -> dict[str, Floats]:
+    """Translation, rotation (w, x, y, z) and scale of a node without an animation."""
+    if node.matrix is not None and len(node.matrix) == 16:
+        matrix = np.array(node.matrix).reshape(4, 4).T  # columns are stored one after another
+        scale = np.linalg.norm(matrix[:3, :3], axis=0)
+        if np.linalg.det(matrix[:3, :3]) < 0:
+            scale = -scale
+        axes = orthogonal((matrix[:3, :3] / np.where(scale == 0, 1, scale))[None])
+        return {TRANSLATION: matrix[:3, 3], ROTATION: quaternions(axes)[0], SCALE: scale}
+    turn = np.roll(_numbers(node.rotation, [0.0, 0.0, 0.0, 1.0]), 1)
+    norm = np.linalg.norm(turn)
+    return {
+        TRANSLATION: _numbers(node.translation, [0.0] * 3),
+        ROTATION: turn / norm if norm > 0 else rot.IDENTITY,
+        SCALE: _numbers(node.scale, [1.0] * 3),
+    }
+
+
+def _numbers(values: list[float] | None, usual: list[float]) -> Floats:
+    fits = values is not None and len(values) == len(usual)
+    return np.array(values if fits else usual, np.float64)
+
+
+def _sampled(keys: Keys, at: Floats, *, turns: bool) -> Floats:
+    """Values at these seconds, (frames, 3); rotations as (frames, 4), w first."""
+    times, values = keys.times, keys.values
+    cubic = keys.interpolation == "CUBICSPLINE"
+    tangents = values.reshape(len(times), 3, -1) if cubic else values[:, None]
+    values = tangents[:, 1] if cubic else values
+    if turns:
+        values = _unit(values)
+    slack = SLACK * (at[1] - at[0] if len(at) > 1 else 1.0)
+    if len(times) == 1:
+        found = values[0]
+    elif len(times) == len(at) and np.abs(times - at).max() <= slack:
+        found = values
+    else:
+        index, share = between(times, at, slack)
+        start, stop = values[index], values[index + 1]
+        if keys.interpolation == "STEP":
+            found = np.where(share[:, None] >= 1, stop, start)
+        elif cubic:
+            step = np.diff(times)[index]
+            out, into = tangents[index, 2], tangents[index + 1, 0]
+            found = _hermite(start, stop, out, into, share[:, None], step[:, None])
+        elif turns:
+            found = slerp(start, stop, share)
+        else:
+            found = start + share[:, None] * (stop - start)
+    return np.roll(_unit(found), 1, axis=-1) if turns else found
+
+
+def _hermite(
+    start: Floats, stop: Floats, out: Floats, into: Floats, share: Floats, step: Floats
+) -> Floats:
+    """Cubic values between keys with slopes at both ends."""
+    square, cube = share**2, share**3
+    first, last = 2 * cube - 3 * square + 1, 3 * square - 2 * cube
+    slopes = (cube - 2 * square + share) * out + (cube - square) * into
+    return np.asarray(first * start + last * stop + step * slopes, np.float64)
+
+
+def _unit(turns: Floats) -> Floats:
+    """Quaternions at length one; where they have none, no rotation."""
+    norm = np.linalg.norm(turns, axis=-1, keepdims=True)
+    none = np.array([0.0, 0.0, 0.0, 1.0])
+    return np.where(norm > 0, turns / np.where(norm > 0, norm, 1.0), none)
+
+
+FORMAT = Format(
+    "glTF",
+    (".glb", ".gltf"),
+    lambda head: head.startswith(MAGIC) or _JSON.search(head) is not None,
+    read_gltf,
+    write_gltf,
+    write_animations=write_animations,
+)

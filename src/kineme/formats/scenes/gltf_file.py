@@ -1,0 +1,247 @@
+"""The parts of a glTF 2.0 file: its JSON, and the arrays in its buffers.
+
+A GLB is a header and two chunks, JSON and bytes. A ``.gltf`` is the JSON alone, with buffers in
+base64 or in files beside it. An accessor is an array in a view of a buffer: its type says how many
+numbers an element has, its component type of which kind they are.
+
+Source: Khronos Group, "glTF 2.0 specification", sections 3.6 and 4.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import struct
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+from urllib.parse import unquote
+
+import numpy as np
+from msgspec import Struct, field
+from numpy.typing import NDArray
+
+from kineme._json import decoded
+from kineme.formats.files import FileContent, load
+
+Floats = NDArray[np.float64]
+Part = TypeVar("Part")
+
+MAGIC = b"glTF"
+JSON, BYTES = 0x4E4F534A, 0x004E4942
+"""Types of chunks."""
+
+COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+"""Numpy's types of an accessor's ``componentType``."""
+
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+
+HEADER, CHUNK = struct.Struct("<4sII"), struct.Struct("<II")
+
+
+class Asset(Struct):
+    """What the file is."""
+
+    version: str
+    extras: Any = None
+
+
+class Buffer(Struct):
+    """Bytes: in the GLB, in the text, or in a file beside it."""
+
+    uri: str | None = None
+
+
+class BufferView(Struct, rename="camel"):
+    """A span of a buffer."""
+
+    buffer: int
+    byte_length: int
+    byte_offset: int = 0
+    byte_stride: int | None = None
+    extensions: dict[str, Any] = field(default_factory=dict)
+
+
+class Accessor(Struct, rename="camel"):
+    """An array in a view."""
+
+    component_type: int
+    count: int
+    type: str
+    buffer_view: int | None = None
+    byte_offset: int = 0
+    normalized: bool = False
+    sparse: Any = None
+
+
+class SceneObject(Struct):
+    """A node of the scene."""
+
+    name: str = ""
+    children: list[int] = field(default_factory=list)
+    matrix: list[float] | None = None
+    translation: list[float] | None = None
+    rotation: list[float] | None = None
+    scale: list[float] | None = None
+    mesh: int | None = None
+    camera: int | None = None
+    extras: Any = None
+
+
+class Skin(Struct):
+    """The joints that carry a mesh."""
+
+    joints: list[int]
+
+
+class KeySampler(Struct):
+    """Times of keys and values at them, by the numbers of accessors."""
+
+    input: int
+    output: int
+    interpolation: str = "LINEAR"
+
+
+class Target(Struct):
+    """What a channel drives: a property of a node."""
+
+    path: str
+    node: int | None = None
+
+
+class Channel(Struct):
+    """A sampler, and what it drives."""
+
+    sampler: int
+    target: Target
+
+
+class Animation(Struct):
+    """Channels that play together."""
+
+    channels: list[Channel]
+    samplers: list[KeySampler]
+    name: str = ""
+
+
+class Tree(Struct, rename="camel"):
+    """What is read of the JSON."""
+
+    asset: Asset
+    buffers: list[Buffer] = field(default_factory=list)
+    buffer_views: list[BufferView] = field(default_factory=list)
+    accessors: list[Accessor] = field(default_factory=list)
+    nodes: list[SceneObject] = field(default_factory=list)
+    skins: list[Skin] = field(default_factory=list)
+    animations: list[Animation] = field(default_factory=list)
+
+
+class GLTFFile:
+    """What a file holds.
+
+    Parameters
+    ----------
+    content : FileContent
+
+    Raises
+    ------
+    ReadError
+        It is no glTF 2.0.
+    """
+
+    def __init__(self, content: FileContent) -> None:
+        self.content = content
+        text, self._own = content.data, b""
+        if text.startswith(MAGIC):
+            text, self._own = _chunks(content)
+        self.tree = decoded(text, content.path, Tree)
+        if not self.tree.asset.version.startswith("2"):
+            version = self.tree.asset.version
+            raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
+        self.beside = 0
+        """Bytes of files beside it."""
+        self._buffers: dict[int, bytes] = {}
+
+    def part(self, parts: Sequence[Part], number: int | None, what: str) -> Part:
+        """One of a list of the JSON; ReadError where there is none of this number."""
+        if number is None or not 0 <= number < len(parts):
+            raise self.content.error(f"{what} {number} is not in the file: damaged")
+        return parts[number]
+
+    def array(self, number: int) -> Floats:
+        """The numbers of an accessor, (elements, numbers of each).
+
+        Raises
+        ------
+        ReadError
+            It is not there, is longer than its buffer, or is packed in a way that is not read.
+        """
+        accessor = self.part(self.tree.accessors, number, "accessor")
+        code, width = COMPONENTS.get(accessor.component_type), WIDTHS.get(accessor.type)
+        if code is None or width is None:
+            raise self.content.error(f"accessor {number} is of a type that glTF does not know")
+        if accessor.sparse is not None or accessor.buffer_view is None:
+            raise self.content.error(f"accessor {number} is sparse, which is not read")
+        view = self.part(self.tree.buffer_views, accessor.buffer_view, "buffer view")
+        if "EXT_meshopt_compression" in view.extensions:
+            raise self.content.error("its keys are packed by meshopt: export them unpacked")
+        data = self._buffer(view.buffer)
+        size = np.dtype(code).itemsize
+        step = view.byte_stride or size * width
+        start = view.byte_offset + accessor.byte_offset
+        stop = min(view.byte_offset + view.byte_length, len(data))
+        last = start + (accessor.count - 1) * step + size * width
+        if min(view.byte_offset, accessor.byte_offset) < 0 or accessor.count < 1 or step < size:
+            raise self.content.error(f"accessor {number} is nowhere in its buffer: damaged")
+        if last > stop:
+            raise self.content.error(f"accessor {number} is longer than its buffer: truncated")
+        strides = step, size
+        stored = np.ndarray((accessor.count, width), code, data, start, strides)
+        values = stored.astype(np.float64)
+        if accessor.normalized and stored.dtype.kind in "iu":
+            values = np.maximum(values / np.iinfo(stored.dtype).max, -1.0)
+        if not np.isfinite(values).all():
+            raise self.content.error(f"accessor {number} has values that are not finite: damaged")
+        return values
+
+    def _buffer(self, number: int) -> bytes:
+        if number not in self._buffers:
+            place = self.part(self.tree.buffers, number, "buffer").uri
+            self._buffers[number] = self._own if place is None else self._stored(place)
+        return self._buffers[number]
+
+    def _stored(self, place: str) -> bytes:
+        """A buffer that is in the JSON, or in a file beside it."""
+        if place.startswith("data:"):
+            try:
+                return base64.b64decode(place.partition(",")[2], validate=True)
+            except (binascii.Error, ValueError):
+                raise self.content.error("a buffer is no base64: damaged") from None
+        name = unquote(place)
+        if Path(name).is_absolute() or ".." in Path(name).parts or ":" in name:
+            raise self.content.error(f"has a buffer in {name!r:.60}: put that file beside it")
+        data = load(self.content.path.parent / name).data
+        self.beside += len(data)
+        return data
+
+
+def _chunks(content: FileContent) -> tuple[bytes, bytes]:
+    """The JSON and the bytes of a GLB."""
+    data = content.data
+    if len(data) < HEADER.size:
+        raise content.error("the file ends in its header: it is truncated")
+    _, version, length = HEADER.unpack_from(data)
+    if version != 2:
+        raise content.error(f"is a GLB of version {version}: export glTF 2.0")
+    if length > len(data):
+        raise content.error(f"is of {len(data)} bytes instead of {length}: it is truncated")
+    found: dict[int, bytes] = {}
+    at = HEADER.size
+    while at + CHUNK.size <= length:
+        size, kind = CHUNK.unpack_from(data, at)
+        at += CHUNK.size
+        found.setdefault(kind, data[at : at + size])
+        at += size
+    if JSON not in found:
+        raise content.error("has no JSON in it: damaged")
+    return found[JSON], found.get(BYTES, b"")

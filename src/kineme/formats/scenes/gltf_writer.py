@@ -1,0 +1,273 @@
+"""Writing glTF 2.0: a skeleton, a mesh on it, and one animation or several.
+
+Each joint is a node at its offset, without a rotation of its own; all hang on one node that is
+called as the file. A mesh of a slim bone for each joint makes programs see a skeleton: without one
+Blender imports empties, and Godot nothing. Rotations have a key at each frame, translations where
+a joint slides. All numbers are of 32 bits: a thousandth of a millimetre.
+
+``asset.extras.kineme.fps`` is the frame rate, which the format has no place for; ``end_site``
+among the extras of a node says that it is one.
+
+The JSON is written by hand: it is a few dictionaries, and packages for it bring no check that
+Khronos' validator, which the benchmarks run, does not make better.
+
+Source: Khronos Group, "glTF 2.0 specification", sections 3.7.3 and 3.11.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._files import atomic_write
+from kineme._version import __version__
+from kineme.errors import WriteError
+from kineme.formats.files import spelled
+from kineme.formats.scenes.gltf_file import BYTES, CHUNK, HEADER, JSON, MAGIC
+from kineme.formats.skeletons.bvh_writer import RIGID
+from kineme.recordings import Motion, Skeleton
+from kineme.recordings.kinematics import local_translations
+
+Floats = NDArray[np.float64]
+
+OURS = "kineme"
+"""The name of what kineme adds to the extras of a file."""
+
+THICK = 0.08
+"""Share of its length that a bone of the mesh is wide."""
+
+SHORT = 0.05
+"""Metres: how long a bone without a child is drawn."""
+
+_FLOAT, _BYTE, _SHORT, _INT = 5126, 5121, 5123, 5125
+_KEYS, _VERTICES, _INDICES = None, 34962, 34963
+_TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+_RING = ((1, 0), (0, 1), (-1, 0), (0, -1))
+
+
+def write_gltf(motion: Motion, path: Path) -> None:
+    """Leave ``motion`` in a GLB, or in a ``.gltf`` with its buffer in it."""
+    write_animations({path.stem: motion}, path)
+
+
+def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
+    """Leave motions of one skeleton in a file, each as an animation of its name.
+
+    Parameters
+    ----------
+    motions : mapping of str to Motion
+        At least one.
+    path : Path
+        ``.glb``, or ``.gltf`` with its buffer in it.
+
+    Raises
+    ------
+    WriteError
+        A motion has no rotations, or another skeleton than the first.
+    """
+    first = next(iter(motions.values()))
+    for motion in motions.values():
+        if motion.rotations is None:
+            raise WriteError(
+                path,
+                "a glTF needs rotations, and this motion has positions only: write .trc, .csv "
+                "or .npz",
+            )
+        if motion.skeleton is not first.skeleton and not _same(motion.skeleton, first.skeleton):
+            raise WriteError(path, "its animations are of different skeletons: write several files")
+    file = _Writer(first, path)
+    for name, motion in motions.items():
+        file.animate(name, motion)
+    buffer: dict[str, Any] = {"byteLength": len(file.data)}
+    binary = path.suffix.lower() != ".gltf"
+    if not binary:
+        stored = base64.b64encode(file.data).decode()
+        buffer["uri"] = f"data:application/octet-stream;base64,{stored}"
+    tree = {**file.tree, "buffers": [buffer]}
+    text = json.dumps(tree, ensure_ascii=False, separators=(",", ":")).encode()
+    with atomic_write(path) as draft:
+        draft.write_bytes(_glb(text, bytes(file.data)) if binary else text)
+
+
+def _same(one: Skeleton, other: Skeleton) -> bool:
+    same = one.names == other.names and one.parents == other.parents
+    return same and np.allclose(one.offsets, other.offsets, atol=RIGID)
+
+
+class _Writer:
+    """Gathers the parts of a file."""
+
+    def __init__(self, motion: Motion, path: Path) -> None:
+        self.skeleton = motion.skeleton
+        self.data = bytearray()
+        self.tree: dict[str, Any] = {
+            "asset": {
+                "version": "2.0",
+                "generator": f"kineme {__version__}",
+                "extras": {OURS: {"fps": motion.fps}},
+            },
+            "scene": 0,
+            "bufferViews": [],
+            "accessors": [],
+            "animations": [],
+        }
+        n = self.skeleton.n_joints
+        self.tree["nodes"] = self._nodes(path)
+        self.tree["scenes"] = [{"nodes": [n, n + 1]}]
+        self._add_mesh()
+
+    def _nodes(self, path: Path) -> list[dict[str, Any]]:
+        """A node for each joint, then what carries them, then the mesh."""
+        skeleton = self.skeleton
+        names = spelled(path, skeleton.names, str.strip)
+        nodes: list[dict[str, Any]] = []
+        for j, name in enumerate(names):
+            node: dict[str, Any] = {"name": name}
+            if skeleton.offsets[j].any():
+                node["translation"] = skeleton.offsets[j].tolist()
+            if skeleton.children[j]:
+                node["children"] = list(skeleton.children[j])
+            if j in skeleton.end_sites:
+                node["extras"] = {"end_site": True}
+            nodes.append(node)
+        roots = [j for j, parent in enumerate(skeleton.parents) if parent < 0]
+        return [
+            *nodes,
+            {"name": path.stem, "children": roots},
+            {"name": f"{path.stem}_mesh", "mesh": 0, "skin": 0},
+        ]
+
+    def _add_mesh(self) -> None:
+        """Bones to look at, bound to the joints where they are without rotations."""
+        skeleton = self.skeleton
+        places = np.array(skeleton.offsets)
+        for j, parent in enumerate(skeleton.parents):
+            if parent >= 0:
+                places[j] += places[parent]
+        vertices, faces, joints = _bones(skeleton, places)
+        kind = np.uint8 if skeleton.n_joints <= 256 else np.uint16
+        bound = np.zeros((len(vertices), 4), kind)
+        bound[:, 0] = joints
+        weights = np.zeros((len(vertices), 4))
+        weights[:, 0] = 1.0
+        inverse = np.tile(np.eye(4), (skeleton.n_joints, 1, 1))
+        inverse[:, 3, :3] = -places  # its columns one after another
+        code = _BYTE if kind is np.uint8 else _SHORT
+        attributes = {
+            "POSITION": self._accessor(vertices, _VERTICES, bounds=True),
+            "JOINTS_0": self._accessor(bound, _VERTICES, code),
+            "WEIGHTS_0": self._accessor(weights, _VERTICES),
+        }
+        indices = self._accessor(faces.reshape(-1, 1), _INDICES, _INT)
+        matrices = self._accessor(inverse.reshape(-1, 16), _KEYS)
+        self.tree["meshes"] = [
+            {"name": "bones", "primitives": [{"attributes": attributes, "indices": indices}]}
+        ]
+        self.tree["skins"] = [
+            {
+                "joints": list(range(skeleton.n_joints)),
+                "skeleton": skeleton.n_joints,
+                "inverseBindMatrices": matrices,
+            }
+        ]
+
+    def animate(self, name: str, motion: Motion) -> None:
+        """Add a motion of the same skeleton."""
+        skeleton, n, turns = self.skeleton, motion.n_frames, motion.rotations
+        if turns is None:
+            return
+        shifts = local_translations(skeleton, motion.positions, motion.rotations)
+        slides = np.abs(shifts - skeleton.offsets).max(axis=(0, 2)) > RIGID
+        seconds = self._accessor(np.arange(n)[:, None] / motion.fps, _KEYS, bounds=True)
+        channels: list[dict[str, Any]] = []
+        samplers: list[dict[str, Any]] = []
+
+        def add(joint: int, what: str, values: Floats) -> None:
+            channels.append({"sampler": len(samplers), "target": {"node": joint, "path": what}})
+            samplers.append({"input": seconds, "output": self._accessor(values, _KEYS)})
+
+        for j in range(skeleton.n_joints):
+            if slides[j] or skeleton.parents[j] < 0:
+                add(j, "translation", shifts[:, j])
+            if j not in skeleton.end_sites:
+                add(j, "rotation", np.roll(_steady(turns[:, j]), -1, axis=1))
+        self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
+
+    def _accessor(
+        self, values: NDArray[Any], target: int | None, kind: int = _FLOAT, *, bounds: bool = False
+    ) -> int:
+        """Keep an array (elements, numbers of each); its number."""
+        codes = {_FLOAT: "<f4", _BYTE: "<u1", _SHORT: "<u2", _INT: "<u4"}
+        stored = np.ascontiguousarray(values, codes[kind])
+        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": stored.nbytes}
+        if target is not None:
+            view["target"] = target
+        self.data += stored.tobytes()
+        self.data += bytes(-len(self.data) % 4)
+        self.tree["bufferViews"].append(view)
+        accessor: dict[str, Any] = {
+            "bufferView": len(self.tree["bufferViews"]) - 1,
+            "componentType": kind,
+            "count": len(stored),
+            "type": _TYPES[stored.shape[1]],
+        }
+        if bounds:
+            accessor |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
+        self.tree["accessors"].append(accessor)
+        return len(self.tree["accessors"]) - 1
+
+
+def _steady(turns: Floats) -> Floats:
+    """Rotations with the signs that keep successive quaternions near each other."""
+    flips = np.einsum("fc,fc->f", turns[1:], turns[:-1]) < 0
+    signs = np.r_[1.0, np.where(np.cumsum(flips) % 2, -1.0, 1.0)]
+    return np.asarray(turns * signs[:, None], np.float64)
+
+
+def _bones(
+    skeleton: Skeleton, places: Floats
+) -> tuple[Floats, NDArray[np.int64], NDArray[np.int64]]:
+    """Vertices (vertices, 3), faces (faces, 3) and the joint that each vertex hangs on."""
+    vertices: list[Floats] = []
+    faces: list[tuple[int, int, int]] = []
+    joints: list[int] = []
+    for j in range(skeleton.n_joints):
+        tips = [places[child] for child in skeleton.children[j]]
+        if not tips and j not in skeleton.end_sites:
+            tips = [places[j] + [0.0, SHORT, 0.0]]
+        for tip in tips:
+            along = tip - places[j]
+            length = float(np.linalg.norm(along))
+            if length < RIGID:
+                continue
+            side = np.cross(along, np.eye(3)[np.abs(along).argmin()])
+            side *= THICK * length / np.linalg.norm(side)
+            other = np.cross(along, side) / length
+            ring = [places[j] + 0.2 * along + x * side + y * other for x, y in _RING]
+            start = len(vertices)
+            vertices += [places[j], *ring, tip]
+            joints += [j] * 6
+            for k in range(4):
+                here, there = start + 1 + k, start + 1 + (k + 1) % 4
+                faces += [(start, there, here), (start + 5, here, there)]
+    if not vertices:  # all joints are at one place
+        vertices, faces, joints = (
+            [places[0] + SHORT * axis for axis in np.eye(3)],
+            [(0, 1, 2)],
+            [0] * 3,
+        )
+    return np.array(vertices), np.array(faces), np.array(joints)
+
+
+def _glb(text: bytes, data: bytes) -> bytes:
+    """Both as chunks, whose lengths are multiples of four."""
+    text += b" " * (-len(text) % 4)
+    chunks = [CHUNK.pack(len(text), JSON), text, CHUNK.pack(len(data), BYTES), data]
+    length = HEADER.size + sum(map(len, chunks))
+    return HEADER.pack(MAGIC, 2, length) + b"".join(chunks)

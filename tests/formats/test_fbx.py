@@ -1,0 +1,516 @@
+"""FBX: joints where the file's own transforms put them, whichever way it is written."""
+
+from __future__ import annotations
+
+import struct
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+import kineme
+from _fbx import CONSTANT, CUBIC, Keys, Scene, as_binary, as_text, node, walker
+from kineme.errors import KinemeError, KinemeWarning, ReadError, SeveralPeopleError
+from kineme.formats import read_quietly
+from kineme.formats.options import ReadOptions
+from kineme.recordings import Motion
+from kineme.recordings.kinematics import world_rotations
+
+
+def motion_of(data: bytes, folder: Path, **options: object) -> Motion:
+    path = folder / "a.fbx"
+    path.write_bytes(data)
+    motion = read_quietly(path, ReadOptions(**options))  # type: ignore[arg-type]
+    assert isinstance(motion, Motion)
+    return motion
+
+
+def world(motion: Motion, name: str) -> np.ndarray:
+    """(frames, 3, 3): the joint's axes."""
+    turns = world_rotations(motion.skeleton, motion.rotations)[:, motion.joint(name)]
+    return Rotation.from_quat(np.roll(turns, -1, axis=1)).as_matrix()
+
+
+def place(motion: Motion, name: str) -> np.ndarray:
+    return motion.positions[:, motion.joint(name)]
+
+
+def matrix(translation=(0, 0, 0), angles=(0, 0, 0), order="xyz", scale=(1, 1, 1)) -> np.ndarray:
+    """4 x 4; angles about x, y, z in degrees, the first of ``order`` applied first."""
+    by_axis = dict(zip("xyz", angles))
+    found = np.eye(4)
+    turn = Rotation.from_euler(order, [by_axis[axis] for axis in order], degrees=True)
+    found[:3, :3] = turn.as_matrix() * np.array(scale)
+    found[:3, 3] = translation
+    return found
+
+
+def test_a_body_that_walks(tmp_path: Path) -> None:
+    motion = motion_of(walker().binary(), tmp_path)
+    assert (motion.n_frames, motion.fps) == (121, 60)
+    skeleton = motion.skeleton
+    assert skeleton.names[:3] == ("Hips", "Spine", "Head")
+    ends = {skeleton.names[j] for j in skeleton.end_sites}
+    assert ends == {"Head_end", "LeftToe_end", "RightToe_end"}
+    assert place(motion, "Hips")[[0, 60, 120], 2] == pytest.approx([0, 1, 2])
+    assert place(motion, "Head")[0, 1] == pytest.approx(0.95 + 0.2 + 0.45 * np.cos(np.radians(9)))
+    k = 30  # the thigh has turned by 30 degrees about x, and then 2.5 about y: the order is YZX
+    turned = matrix((10, 90, 50), (30, 2.5, 0), "yzx") @ [0, -85, 0, 1]
+    assert place(motion, "LeftFoot")[k] == pytest.approx(turned[:3] / 100)
+    (take, warned, props) = (motion.provenance.notes[i] for i in (0, 1, 2))
+    assert take == "FBX 7.4"
+    assert warned.severity == "warning"
+    assert "2 takes are in it and 'walk' is read" in warned
+    assert props == "left out as props: Box"
+    assert kineme.end_effectors(motion).describe(skeleton).count("by name") >= 4
+
+
+@pytest.mark.parametrize("version", [7100, 7400, 7500, 7700])
+@pytest.mark.parametrize("packed", [True, False])
+def test_binary_versions_say_the_same(tmp_path: Path, version: int, packed: bool) -> None:
+    expected = motion_of(walker().binary(), tmp_path)
+    motion = motion_of(walker().binary(version, packed=packed), tmp_path)
+    assert motion.provenance.notes[0] == f"FBX {version / 1000:.1f}"
+    assert (motion.positions == expected.positions).all()
+    assert motion.rotations is not None
+    assert (motion.rotations == expected.rotations).all()
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_text_says_the_same(tmp_path: Path, encoding: str) -> None:
+    expected = motion_of(walker().binary(), tmp_path)
+    text = walker().text().decode().replace("\n", "\r\n")
+    motion = motion_of(text.encode(encoding), tmp_path)
+    assert motion.skeleton.names == expected.skeleton.names
+    np.testing.assert_allclose(motion.positions, expected.positions, atol=1e-9)
+
+
+def test_a_file_of_blender(tmp_path: Path) -> None:
+    """Five bones, 13 frames at 30 Hz, by Blender 5.0 with z up; made from this motion."""
+    t = np.arange(13) / 30
+    skeleton = kineme.Skeleton(
+        ("Hips", "Chest", "Head", "Leg", "Foot"),
+        (-1, 0, 1, 0, 3),
+        [[0, 0, 0], [0, 0.5, 0], [0, 0.4, 0], [0.1, -0.1, 0], [0, -0.8, 0.1]],
+    )
+    turns = [("y", 2), ("x", -3), ("z", 1), ("x", 4), ("x", -2)]
+    rotations = [Rotation.from_euler(axis, (times * t)[:, None]).as_quat() for axis, times in turns]
+    rotations = np.roll(np.stack(rotations, axis=1), 1, axis=2)
+    places = np.stack([t, 0.9 + 0 * t, 2 * t], axis=1)
+    expected = Motion.from_rotations(skeleton, rotations, 30, places)
+    motion = kineme.read(Path(__file__).parent / "blender.fbx")
+    assert motion.skeleton.names == skeleton.names
+    assert motion.fps == 30
+    assert np.abs(motion.positions - expected.positions).max() < 1e-5
+    assert "turned: z is up in the file" in motion.provenance.notes
+
+
+def test_takes_by_name_and_number(tmp_path: Path) -> None:
+    for take in ("bow", 1, "1"):
+        (tmp_path / "a.fbx").write_bytes(walker().binary())
+        motion = kineme.read(tmp_path / "a.fbx", take=take)
+        assert motion.n_frames == 31  # from 0.5 to 1 s
+        turned = world(motion, "Spine")[0].T @ world(motion, "Spine")
+        angle = np.degrees(Rotation.from_matrix(turned).magnitude())
+        assert angle[[0, -1]] == pytest.approx([0, 60])
+        assert "take bow of 2" in motion.provenance.notes
+    with pytest.warns(KinemeWarning, match=r"'walk' is read: take= \(--take\) .* of bow"):
+        kineme.read(tmp_path / "a.fbx")
+    with pytest.raises(ReadError, match="no take 'run': choose from walk, bow"):
+        kineme.read(tmp_path / "a.fbx", take="run")
+
+
+def test_takes_of_an_armature_by_their_own_name(tmp_path: Path) -> None:
+    scene = one_bone()
+    for name in ("Armature|run", "Armature|hop"):
+        layer = scene.layer(scene.take(name, 0, 1))
+        scene.animate(layer, scene.models["b"], "R", X=Keys([0, 1], [0, 90]))
+    assert (
+        motion_of(scene.binary(), tmp_path, take="hop")
+        .provenance.notes[1]
+        .startswith("take Armature|hop")
+    )
+
+
+class Bones(Scene):
+    """A scene with a chain of bones a, b, c on ``top``, and a take of one second."""
+
+    def __init__(self, said: dict[str, dict[str, object]], **settings: object) -> None:
+        super().__init__(**{"UnitScaleFactor": 100.0, **settings})  # metres
+        self.models: dict[str, int] = {}
+        parent = 0
+        for name in ("top", "a", "b", "c"):
+            kind = "Null" if name == "top" else "LimbNode"
+            self.models[name] = parent = self.model(name, parent, kind, **said.get(name, {}))
+
+
+def one_bone(**said: object) -> Bones:
+    return Bones({"a": {"LclTranslation": [0.0, 1.0, 0.0]}, "b": said,
+                  "c": {"LclTranslation": [0.0, 0.0, 0.5]}})  # fmt: skip
+
+
+def played(scene: Bones, folder: Path, what: str = "R", node: str = "b", **axes: Keys) -> Motion:
+    layer = scene.layer(scene.take("take", 0, 1))
+    rest = (1, 1, 1) if what == "S" else (0, 0, 0)
+    scene.animate(layer, scene.models[node], what, rest, **axes)
+    return motion_of(scene.binary(), folder)
+
+
+ORDERS = ("xyz", "xzy", "yzx", "yxz", "zxy", "zyx")
+
+
+@pytest.mark.parametrize("number", range(6))
+def test_rotation_orders_with_rotations_before_and_after(tmp_path: Path, number: int) -> None:
+    before, after, angles = (10.0, 20.0, 30.0), (-40.0, 5.0, 60.0), (50, -70, 35)
+    scene = one_bone(
+        LclTranslation=[0.0, 0.4, 0.1], RotationOrder=number, PreRotation=list(before),
+        PostRotation=list(after),
+    )  # fmt: skip
+    keys = {axis: Keys([0, 1], [0, angle]) for axis, angle in zip("XYZ", angles)}
+    motion = played(scene, tmp_path, **keys)
+    turn = (
+        matrix(angles=before)
+        @ matrix(angles=angles, order=ORDERS[number])
+        @ np.linalg.inv(matrix(angles=after))
+    )
+    np.testing.assert_allclose(world(motion, "b")[-1], turn[:3, :3], atol=1e-7)
+    assert place(motion, "c")[-1] == pytest.approx((turn @ [0, 0, 0.5, 1])[:3] + [0, 1.4, 0.1])
+
+
+def test_pivots_and_their_offsets(tmp_path: Path) -> None:
+    said = {
+        "RotationOffset": (0.1, 0.2, 0.3), "RotationPivot": (0.5, 0.0, -0.2),
+        "ScalingOffset": (0.0, 0.3, 0.1), "ScalingPivot": (0.2, 0.2, 0.2),
+    }  # fmt: skip
+    scene = one_bone(**{key: list(value) for key, value in said.items()}, LclScaling=[2.0] * 3)
+    motion = played(scene, tmp_path, Z=Keys([0, 1], [0, 90]))
+
+    def shift(name: str, sign: int = 1) -> np.ndarray:
+        return matrix(sign * np.array(said[name]))
+
+    whole = (
+        shift("RotationOffset") @ shift("RotationPivot") @ matrix(angles=(0, 0, 90))
+        @ shift("RotationPivot", -1) @ shift("ScalingOffset") @ shift("ScalingPivot")
+        @ matrix(scale=(2, 2, 2)) @ shift("ScalingPivot", -1)
+    )  # fmt: skip
+    assert place(motion, "b")[-1] == pytest.approx(whole[:3, 3] + [0, 1, 0])
+    assert place(motion, "c")[-1] == pytest.approx((whole @ [0, 0, 0.5, 1])[:3] + [0, 1, 0])
+
+
+@pytest.mark.parametrize(("kind", "length"), [(0, 3.0), (1, 3.0), (2, 1.5)])
+def test_scales_are_inherited_as_the_file_says(tmp_path: Path, kind: int, length: float) -> None:
+    """c's end is 0.5 away, times its own scale 3 and, unless b's is left out, b's 2."""
+    scene = Bones({
+        "a": {"LclTranslation": [0.0, 1.0, 0.0]},
+        "b": {"LclScaling": [2.0] * 3},
+        "c": {"LclTranslation": [0.0, 0.5, 0.0], "LclScaling": [3.0] * 3, "InheritType": kind},
+    })  # fmt: skip
+    scene.models["tip"] = scene.model("tip", scene.models["c"], LclTranslation=[0.0, 0.5, 0.0])
+    motion = played(scene, tmp_path, X=Keys([0, 1], [0, 45]))
+    bone = np.linalg.norm(place(motion, "tip") - place(motion, "c"), axis=1)
+    assert bone == pytest.approx(length)
+    assert np.linalg.norm(place(motion, "c") - place(motion, "b"), axis=1) == pytest.approx(1.0)
+
+
+def test_scales_that_differ_by_axis_or_change(tmp_path: Path) -> None:
+    said = {"a": {"LclScaling": [1.0, 2.0, 1.0], "LclRotation": [0.0, 0.0, 30.0]},
+            "b": {"LclTranslation": [0.3, 0.5, 0.0], "InheritType": 1},
+            "c": {"LclTranslation": [0.1, 0.5, 0.2], "InheritType": 1}}  # fmt: skip
+    motion = played(Bones(said), tmp_path, "S", X=Keys([0, 1], [1, 3]))
+    whole = matrix(angles=(0, 0, 30), scale=(1, 2, 1)) @ matrix((0.3, 0.5, 0), scale=(3, 1, 1))
+    assert place(motion, "c")[-1] == pytest.approx((whole @ [0.1, 0.5, 0.2, 1])[:3])
+    again = kineme.recordings.kinematics.local_translations(
+        motion.skeleton, motion.positions, motion.rotations
+    )
+    assert np.ptp(again[:, motion.joint("c")], axis=0).max() > 0.1  # it slides
+
+
+AXES = [
+    ({}, np.eye(3)),
+    ({"UpAxis": 2, "FrontAxis": 1, "FrontAxisSign": -1}, [[1, 0, 0], [0, 0, 1], [0, -1, 0]]),
+    (
+        {"UpAxis": 0, "FrontAxis": 2, "CoordAxis": 1, "CoordAxisSign": -1},
+        [[0, -1, 0], [1, 0, 0], [0, 0, 1]],
+    ),
+    ({"UpAxisSign": -1, "FrontAxisSign": -1}, [[1, 0, 0], [0, -1, 0], [0, 0, -1]]),
+]
+
+
+@pytest.mark.parametrize(("settings", "turn"), AXES)
+def test_axes_and_units_are_those_of_the_file(tmp_path: Path, settings, turn) -> None:
+    said = {"a": {"LclTranslation": [1.0, 2.0, 3.0]}}
+    scene = Bones(said, UnitScaleFactor=2.54, **settings)
+    motion = played(scene, tmp_path, X=Keys([0, 1], [0, 90]))
+    assert place(motion, "a")[0] == pytest.approx(0.0254 * (np.array(turn) @ [1, 2, 3]))
+    moved = motion_of(scene.binary(), tmp_path, unit="m", up="y")
+    assert place(moved, "a")[0] == pytest.approx([1, 2, 3])
+
+
+def test_left_handed_axes_are_warned_of(tmp_path: Path) -> None:
+    motion = played(Bones({}, FrontAxisSign=-1), tmp_path, X=Keys([0, 1], [0, 90]))
+    assert any("left-handed" in remark for remark in motion.provenance.warnings)
+
+
+def angles(motion: Motion) -> np.ndarray:
+    """Degrees about x of the bone b."""
+    axes = world(motion, "b")
+    return np.degrees(np.arctan2(axes[:, 2, 1], axes[:, 1, 1]))
+
+
+def test_keys_that_are_constant_linear_and_cubic(tmp_path: Path) -> None:
+    times = np.arange(31) / 30
+    motion = played(one_bone(), tmp_path, X=Keys([0, 0.5, 1], [10, 20, 40], [CONSTANT, 4, 4]))
+    expected = np.where(times < 0.5, 10, 20 + 40 * (times - 0.5))
+    assert angles(motion) == pytest.approx(expected, abs=1e-5)
+    motion = played(one_bone(), tmp_path, X=Keys([0, 0.5, 1], [10, 20, 40], CONSTANT | 0x100))
+    expected = np.select([times == 0, times <= 0.5], [10, 20], 40)
+    assert angles(motion) == pytest.approx(expected, abs=1e-5)
+    slopes = [(0.0, -30.0, 0, 0)] * 2  # after the first key, before the next
+    motion = played(one_bone(), tmp_path, X=Keys([0, 1], [0, 10], CUBIC | 0x400, slopes))
+    expected = times**2 * (3 - 2 * times) * 10 + (times**3 - times**2) * -30
+    assert angles(motion) == pytest.approx(expected, abs=1e-4)
+
+
+def test_weights_of_cubic_keys(tmp_path: Path) -> None:
+    weights = [(0.8, 0.1)] * 2
+    flags = CUBIC | 0x400 | 0x3000000
+    keys = Keys([0, 1], [0, 10], flags, [(20.0, 0.0, 0, 0)] * 2, weights)
+    motion = played(one_bone(), tmp_path, X=keys)
+    s = np.linspace(0, 1, 20_001)
+    bezier = [[0, 0], [0.8, 16], [0.9, 10], [1, 10]]
+    basis = [(1 - s) ** 3, 3 * s * (1 - s) ** 2, 3 * s**2 * (1 - s), s**3]
+    time, value = np.einsum("kn,kc->cn", basis, np.array(bezier, float))
+    expected = np.interp(np.arange(31) / 30, time, value)
+    assert angles(motion) == pytest.approx(expected, abs=1e-3)
+
+
+def test_automatic_tangents_overshoot_nothing_where_they_are_clamped(tmp_path: Path) -> None:
+    keys = Keys([0, 0.3, 0.6, 1], [0, 30, 30, 10], CUBIC | 0x100 | 0x6000)
+    found = angles(played(one_bone(), tmp_path, X=keys))
+    assert found.max() <= 30 + 1e-5
+    assert found[9:19] == pytest.approx(30, abs=1e-5)
+    keys = Keys([0, 0.5, 1], [0, 10, 40], CUBIC | 0x100 | 0x2000)  # slope 40 in the middle
+    found = angles(played(one_bone(), tmp_path, X=keys))
+    assert (found[16] - found[14]) / (2 / 30) == pytest.approx(40, rel=0.02)
+
+
+def test_layers_add_and_replace(tmp_path: Path) -> None:
+    def layered(**said: object) -> np.ndarray:
+        scene = one_bone()
+        take = scene.take("take", 0, 1)
+        for layer, keys in (
+            (scene.layer(take), Keys([0, 1], [0, 40])),
+            (scene.layer(take, "more", **said), Keys([0, 1], [20, 20])),
+        ):
+            scene.animate(layer, scene.models["b"], "R", X=keys)
+        return angles(motion_of(scene.binary(), tmp_path))[[0, -1]]
+
+    assert layered(BlendMode=0) == pytest.approx([20, 60])
+    assert layered(BlendMode=0, Weight=50.0) == pytest.approx([10, 50])
+    assert layered(BlendMode=0, RotationAccumulationMode=1) == pytest.approx([20, 60])
+    assert layered(BlendMode=1) == pytest.approx([20, 20])
+    assert layered(BlendMode=2, Weight=25.0) == pytest.approx([5, 35])
+    assert layered(BlendMode=0, Mute=True) == pytest.approx([0, 40])
+
+
+@pytest.mark.parametrize(
+    ("settings", "fps"),
+    [
+        ({"TimeMode": 11}, 24),
+        ({"TimeMode": 9}, 30 / 1.001),
+        ({"TimeMode": 14, "CustomFrameRate": 90.0}, 90),
+    ],
+)
+def test_frame_rates(tmp_path: Path, settings: dict[str, object], fps: float) -> None:
+    motion = played(Bones({}, **settings), tmp_path, X=Keys([0, 1], [0, 90]))
+    assert motion.fps == pytest.approx(fps)
+    assert motion.n_frames == int(fps + 1e-3) + 1
+    assert angles(motion) == pytest.approx(90 * np.arange(motion.n_frames) / fps, abs=1e-4)
+
+
+def test_a_rate_that_is_asked_for_and_one_that_keys_tell(tmp_path: Path) -> None:
+    times = np.arange(101) / 100
+    scene = Bones({}, TimeMode=0)
+    motion = played(scene, tmp_path, X=Keys(times, 90 * times))
+    assert (motion.fps, motion.n_frames) == (100, 101)
+    assert any("its keys are so far apart" in note for note in motion.provenance.notes)
+    motion = motion_of(scene.binary(), tmp_path, fps=50)
+    assert motion.n_frames == 51
+    assert angles(motion)[-1] == pytest.approx(90)
+    motion = played(Bones({}, TimeMode=0), tmp_path, X=Keys([0, 1], [0, 90]))
+    assert motion.fps == 30
+    assert any("30 Hz assumed" in remark for remark in motion.provenance.warnings)
+    motion = played(Bones({}, TimeMode=6), tmp_path, X=Keys(times, 90 * times))
+    assert any("100 keys a second are sampled" in note for note in motion.provenance.notes)
+
+
+def test_a_take_without_a_span_lasts_as_long_as_its_keys(tmp_path: Path) -> None:
+    scene = one_bone()
+    layer = scene.layer(scene.take("take"))
+    scene.animate(layer, scene.models["b"], "R", X=Keys([0.5, 1.5], [0, 90]))
+    motion = motion_of(scene.binary(), tmp_path)
+    assert motion.n_frames == 31
+    assert angles(motion)[[0, -1]] == pytest.approx([0, 90], abs=1e-5)
+
+
+def two_people() -> Scene:
+    scene = Scene()
+    layer = scene.layer(scene.take("take", 0, 1))
+    for name, x in (("Ann", 0.0), ("Bob", 100.0)):
+        top = scene.model(name, 0, "Null", LclTranslation=[x, 0.0, 0.0])
+        bone = top
+        for part in ("Hips", "Spine", "Head"):
+            bone = scene.model(part, bone, LclTranslation=[0.0, 50.0, 0.0])
+        scene.animate(layer, bone, "R", X=Keys([0, 1], [0, 90]))
+    return scene
+
+
+def test_one_of_several_characters_is_to_be_chosen(tmp_path: Path) -> None:
+    with pytest.raises(
+        SeveralPeopleError, match=r"2 characters .* Ann \(3 joints\), Bob"
+    ) as caught:
+        motion_of(two_people().binary(), tmp_path)
+    assert caught.value.people == ("Ann", "Bob")
+    for person in ("Bob", "1"):
+        motion = motion_of(two_people().binary(), tmp_path, person=person)
+        assert motion.skeleton.names == ("Hips", "Spine", "Head")
+        assert place(motion, "Hips")[0, 0] == pytest.approx(1.0)
+    with pytest.raises(SeveralPeopleError, match="no person 'Cyd': choose from Ann"):
+        motion_of(two_people().binary(), tmp_path, person="Cyd")
+
+
+def test_nulls_between_bones_are_joints_and_things_in_hands_are_not(tmp_path: Path) -> None:
+    scene = Scene()
+    hips = scene.model("Hips", 0)
+    group = scene.model("group", hips, "Null", LclTranslation=[0.0, 10.0, 0.0])
+    hand = scene.model("Hand", group, LclTranslation=[0.0, 10.0, 0.0])
+    sword = scene.model("Sword", hand, "Null")
+    scene.model("Blade", sword, "Mesh")
+    layer = scene.layer(scene.take("take", 0, 1))
+    scene.animate(layer, hand, "R", X=Keys([0, 1], [0, 90]))
+    scene.animate(layer, sword, "R", X=Keys([0, 1], [0, 90]))
+    motion = motion_of(scene.binary(), tmp_path)
+    assert motion.skeleton.names == ("Hips", "group", "Hand")
+    assert "left out as props: Sword" in motion.provenance.notes
+
+
+def test_a_skeleton_of_nulls(tmp_path: Path) -> None:
+    scene = Scene()
+    top = scene.model("Reference", 0, "Null")
+    hips = scene.model("Hips", top, "Null", LclTranslation=[0.0, 90.0, 0.0])
+    scene.model("Head", hips, "Null", LclTranslation=[0.0, 60.0, 0.0])
+    layer = scene.layer(scene.take("take", 0, 1))
+    scene.animate(layer, hips, "R", X=Keys([0, 1], [0, 90]))
+    assert motion_of(scene.binary(), tmp_path).skeleton.names == ("Hips", "Head")
+
+
+def test_names_of_namespaces_stay_and_are_unique(tmp_path: Path) -> None:
+    scene = Scene()
+    hips = scene.model("rig:Hips")
+    scene.model("Leg", hips)
+    scene.model("Leg", hips)
+    layer = scene.layer(scene.take("take", 0, 1))
+    scene.animate(layer, hips, "R", X=Keys([0, 1], [0, 90]))
+    for data in (scene.binary(), scene.text()):
+        assert motion_of(data, tmp_path).skeleton.names == ("rig:Hips", "Leg", "Leg_2")
+
+
+def no_animation() -> bytes:
+    scene = Scene()
+    scene.model("Hips")
+    scene.take("empty", 0, 1)
+    return scene.binary()
+
+
+def no_skeleton() -> bytes:
+    scene = Scene()
+    box = scene.model("Box", 0, "Mesh")
+    scene.animate(scene.layer(scene.take("t", 0, 1)), box, "R", X=Keys([0, 1], [0, 90]))
+    return scene.binary()
+
+
+def old_text() -> bytes:
+    header = node("FBXHeaderExtension", children=[node("FBXVersion", 6100)])
+    return as_text([header], 6100)
+
+
+def bomb() -> bytes:
+    """A curve that says that it has a quarter of a milliard of keys."""
+    data = bytearray(one_curve())
+    struct.pack_into("<I", data, data.index(b"KeyTimel") + len(b"KeyTimel"), 250_000_000)
+    return bytes(data)
+
+
+def one_curve() -> bytes:
+    scene = one_bone()
+    layer = scene.layer(scene.take("take", 0, 1))
+    scene.animate(layer, scene.models["b"], "R", X=Keys([0, 1], [0, 90]))
+    return scene.binary()
+
+
+def endless() -> bytes:
+    scene = one_bone()
+    layer = scene.layer(scene.take("take", 0, 1e6))
+    scene.animate(layer, scene.models["b"], "R", X=Keys([0, 1e6], [0, 90]))
+    return scene.binary()
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (no_animation(), "holds no animation of its skeleton: export it with"),
+        (no_skeleton(), "holds no skeleton, neither bones nor animated nodes"),
+        (old_text(), "is FBX 6.1, a format of before 2011: open it .* and export FBX 2014"),
+        (as_binary([], 6100), "is FBX 6.1, a format of before 2011"),
+        (b"Kaydara FBX Binary  \x00\x1a\x00\x00", "the file ends in its header"),
+        (one_curve()[:-400], "truncated"),
+        (one_curve()[:300], "truncated"),
+        (as_text(Scene().nodes())[:-3], "the '}' of 'Connections' is missing"),
+        (b"; FBX 7.4.0 project file\nObjects: {\n}}\n", "a '}' too many"),
+        (b"; FBX 7.4.0 project file\n3, 4\n", "line 2: a name expected, found b'3'"),
+        (bomb(), "claims an array of 250000000 numbers"),
+        (endless(), "claims 3 joints in 30000001 frames"),
+    ],
+)
+def test_what_cannot_be_read_says_why(tmp_path: Path, data: bytes, reason: str) -> None:
+    with pytest.raises(ReadError, match=reason):
+        motion_of(data, tmp_path)
+
+
+def test_circles_among_models_and_links_to_nothing(tmp_path: Path) -> None:
+    scene = one_bone()
+    a, b = scene.models["a"], scene.models["b"]
+    scene.link("OO", a, b)
+    scene.link("OO", 77, b)
+    scene.link("OO", 0, 0)
+    motion = played(scene, tmp_path, X=Keys([0, 1], [0, 90]))
+    assert motion.skeleton.names == ("a", "b", "c")
+
+
+@given(st.data())
+def test_no_damage_raises_anything_else(tmp_path_factory, data: st.DataObject) -> None:
+    whole = data.draw(st.sampled_from(SOUND))
+    spoilt = bytearray(whole)
+    for _ in range(data.draw(st.integers(1, 4))):
+        at = data.draw(st.integers(0, len(spoilt) - 1))
+        spoilt[at : at + data.draw(st.integers(0, 9))] = data.draw(st.binary(max_size=9))
+    path = tmp_path_factory.getbasetemp() / "spoilt.fbx"
+    path.write_bytes(bytes(spoilt))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            read_quietly(path)
+        except KinemeError as error:
+            assert "\n" not in str(error)
+
+
+SOUND = [walker().binary(), walker().binary(7700, packed=False), walker().text()]
+
+
+def test_keys_out_of_order_and_doubled_are_put_in_order(tmp_path: Path) -> None:
+    motion = played(one_bone(), tmp_path, X=Keys([1, 0, 0], [90, 0, 0]))
+    assert angles(motion)[[0, 15]] == pytest.approx([0, 45], abs=1e-5)

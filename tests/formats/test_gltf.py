@@ -1,0 +1,311 @@
+"""glTF: what is written is read again, and other programs' ways of saying it are understood."""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+import tempfile
+import warnings
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from format_samples import motions
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+import kineme
+from kineme.errors import KinemeError, KinemeWarning, ReadError, SeveralPeopleError, WriteError
+from kineme.formats import read_motion, read_quietly, write
+from kineme.formats.files import load
+from kineme.formats.scenes.gltf_file import GLTFFile
+from kineme.formats.scenes.gltf_writer import write_animations
+from kineme.recordings import Motion, Skeleton
+from kineme.recordings.kinematics import world_rotations
+
+TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
+ANSWERS = {"<f4": 5126, "<i2": 5122, "<i1": 5120, "<u2": 5123}
+
+
+class File:
+    """A glTF as another program writes it: nodes with a skin, and animations."""
+
+    def __init__(self, nodes: Sequence[dict[str, Any]], joints: Sequence[int] | None) -> None:
+        self.data = b""
+        self.tree: dict[str, Any] = {
+            "asset": {"version": "2.0"}, "nodes": list(nodes), "animations": [],
+            "accessors": [], "bufferViews": [],
+        }  # fmt: skip
+        if joints is not None:
+            self.tree["skins"] = [{"joints": list(joints)}]
+
+    def array(self, values: Any, code: str = "<f4", **more: Any) -> int:
+        stored = np.array(values, code)
+        stored = stored.reshape(len(stored), -1)
+        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": stored.nbytes}
+        self.tree["bufferViews"].append(view)
+        self.data += stored.tobytes() + bytes(-stored.nbytes % 4)
+        accessor = {
+            "bufferView": len(self.tree["bufferViews"]) - 1, "componentType": ANSWERS[code],
+            "count": len(stored), "type": TYPES[stored.shape[1]], **more,
+        }  # fmt: skip
+        self.tree["accessors"].append(accessor)
+        return len(self.tree["accessors"]) - 1
+
+    def animate(self, name: str, *tracks: tuple[int, str, Any, Any, str]) -> File:
+        channels, samplers = [], []
+        for node, what, times, values, how in tracks:
+            channels.append({"sampler": len(samplers), "target": {"node": node, "path": what}})
+            output = values if isinstance(values, int) else self.array(values)
+            samplers.append({"input": self.array(times), "output": output, "interpolation": how})
+        self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
+        return self
+
+    def save(self, path: Path) -> Path:
+        text = json.dumps({**self.tree, "buffers": [{"byteLength": len(self.data)}]}).encode()
+        text += b" " * (-len(text) % 4)
+        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text
+        chunks += struct.pack("<II", len(self.data), 0x4E4942) + self.data
+        path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+        return path
+
+
+LEG = [
+    {"name": "Armature", "children": [1], "scale": [0.01] * 3},
+    {"name": "Hips", "children": [2], "translation": [0, 90, 0]},
+    {"name": "Knee", "children": [3], "translation": [0, -40, 0]},
+    {"name": "Toe_end", "translation": [0, -40, 10]},
+]
+TURN = [0, 0, 0.5**0.5, 0.5**0.5]  # by 90 degrees about z; w last
+NONE = [0, 0, 0, 1]
+TENTHS = np.arange(11) / 10
+
+
+def leg() -> File:
+    return File(LEG, (1, 2, 3))
+
+
+def degrees(motion: Motion, name: str = "Knee") -> np.ndarray:
+    turns = world_rotations(motion.skeleton, motion.rotations)[:, motion.joint(name)]
+    return np.degrees(2 * np.arctan2(turns[:, 3], turns[:, 0]))
+
+
+@given(motions())
+def test_what_is_written_is_read_again(motion: Motion) -> None:
+    for suffix in (".glb", ".gltf"):
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore", KinemeWarning)
+            write(motion, Path(folder) / f"a{suffix}")
+            again = read_motion(Path(folder) / f"a{suffix}")
+        joints = [again.joint(name.strip()) for name in motion.skeleton.names]
+        size = np.abs(motion.positions).max() + 1
+        assert np.abs(again.positions[:, joints] - motion.positions).max() < 1e-5 * size
+        ends = {motion.skeleton.names[j] for j in motion.skeleton.end_sites}
+        assert {again.skeleton.names[j] for j in again.skeleton.end_sites} == ends
+        turned = [j for j in range(len(joints)) if j not in motion.skeleton.end_sites]
+        ours = world_rotations(motion.skeleton, motion.rotations)[:, turned]
+        theirs = world_rotations(again.skeleton, again.rotations)[:, [joints[j] for j in turned]]
+        assert np.abs(np.einsum("fjc,fjc->fj", ours, theirs)).min() > 1 - 1e-5
+        assert again.fps == motion.fps
+
+
+def test_the_bundled_recording_within_a_hundredth_of_a_millimetre(tmp_path: Path) -> None:
+    motion = read_motion(kineme.bundled_recording())
+    write(motion, tmp_path / "a.glb")
+    again = read_motion(tmp_path / "a.glb")
+    assert again.skeleton.names == motion.skeleton.names
+    assert again.skeleton.end_sites == motion.skeleton.end_sites
+    assert np.abs(again.positions - motion.positions).max() < 1e-5
+    assert again.provenance.format == "glTF"
+
+
+def test_several_motions_in_a_file(tmp_path: Path) -> None:
+    motion = read_motion(kineme.bundled_recording())
+    clips = {"walk": motion[:100], "jump": motion[100:130]}
+    write_animations(clips, tmp_path / "clips.glb")
+    for name, clip in clips.items():
+        again = kineme.read(tmp_path / "clips.glb", take=name)
+        assert again.n_frames == clip.n_frames
+        assert np.abs(again.positions - clip.positions).max() < 1e-5
+    with pytest.warns(KinemeWarning, match="2 takes are in it and 'walk' is read"):
+        kineme.read(tmp_path / "clips.glb")
+    other = replace(motion, skeleton=replace(motion.skeleton, offsets=motion.skeleton.offsets * 2))
+    with pytest.raises(WriteError, match="of different skeletons"):
+        write_animations({"a": motion, "b": other}, tmp_path / "b.glb")
+    bare = Motion(motion.skeleton, motion.positions, 60)
+    with pytest.raises(WriteError, match="a glTF needs rotations"):
+        write(bare, tmp_path / "b.glb")
+    assert not (tmp_path / "b.glb").exists()
+
+
+def test_other_programs_see_a_mesh_on_a_skeleton(tmp_path: Path) -> None:
+    write(read_motion(kineme.bundled_recording()), tmp_path / "a.glb")
+    file = GLTFFile(load(tmp_path / "a.glb"))
+    (skin,) = file.tree.skins
+    assert len(skin.joints) == 26
+    data = (tmp_path / "a.glb").read_bytes()
+    text = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    (primitive,) = text["meshes"][0]["primitives"]
+    places, bound = (file.array(primitive["attributes"][n]) for n in ("POSITION", "JOINTS_0"))
+    inverse = file.array(text["skins"][0]["inverseBindMatrices"]).reshape(-1, 4, 4)
+    for place, joint in zip(places, bound[:, 0].astype(int)):
+        at = np.append(place, 1) @ inverse[joint]  # in the joint's frame: within its bone
+        assert np.linalg.norm(at[:3]) < 0.6
+
+
+def test_keys_in_a_line_held_and_cubic(tmp_path: Path) -> None:
+    for how, values, expected in (
+        ("LINEAR", [NONE, TURN], 90 * TENTHS),
+        ("LINEAR", [NONE, [-x for x in TURN]], 90 * TENTHS),  # the same turn, the shorter arc
+        ("STEP", [NONE, TURN], np.r_[np.zeros(10), 90]),
+    ):
+        file = leg().animate("a", (2, "rotation", [0, 1], values, how))
+        motion = read_motion(file.save(tmp_path / "a.glb"), fps=10)
+        assert degrees(motion) == pytest.approx(expected, abs=1e-4)
+    values = [[0, 0, 0], [0, 90, 0], [0, 0, 0], [0, 30, 0], [0, 190, 0], [0, 0, 0]]
+    file = leg().animate("a", (1, "translation", [0, 2], values, "CUBICSPLINE"))
+    height = read_motion(file.save(tmp_path / "a.glb"), fps=5).positions[:, 0, 1]
+    s = TENTHS
+    expected = 90 + (3 * s**2 - 2 * s**3) * 100 + (s**3 - s**2) * 2 * 30
+    assert height == pytest.approx(0.01 * expected)
+
+
+def test_scales_ends_and_the_rate_of_keys(tmp_path: Path) -> None:
+    turns = Rotation.from_euler("z", 90 * TENTHS[:, None], degrees=True).as_quat()
+    file = leg().animate("a", (2, "rotation", TENTHS, turns, "LINEAR"))
+    motion = read_motion(file.save(tmp_path / "a.glb"))
+    assert (motion.fps, motion.n_frames) == (10, 11)
+    assert motion.skeleton.names == ("Hips", "Knee", "Toe_end")
+    assert motion.skeleton.end_sites == {2}
+    assert motion.positions[0] == pytest.approx(np.array([[0, 0.9, 0], [0, 0.5, 0], [0, 0.1, 0.1]]))
+    assert motion.positions[-1, 2] == pytest.approx([0.4, 0.5, 0.1], abs=1e-6)
+    assert "frame rate 10 Hz: that of its keys" in motion.provenance.notes
+    ntsc = np.arange(900) * 1.001 / 30
+    file = leg().animate("a", (2, "rotation", ntsc, [TURN] * 900, "LINEAR"))
+    motion = read_motion(file.save(tmp_path / "a.glb"))
+    assert (motion.fps, motion.n_frames) == (29.97, 900)
+    file = leg().animate("a", (2, "rotation", [0, 0.4, 1], [TURN] * 3, "LINEAR"))
+    with pytest.warns(KinemeWarning, match="not evenly spaced: 30 Hz assumed; give fps="):
+        assert kineme.read(file.save(tmp_path / "a.glb")).n_frames == 31
+
+
+def test_whole_numbers_matrices_and_buffers_beside(tmp_path: Path) -> None:
+    nodes = [dict(node) for node in LEG]
+    matrix = np.eye(4)
+    matrix[:3, :3] = Rotation.from_euler("x", 30, degrees=True).as_matrix() * 2
+    matrix[:3, 3] = [0, -40, 0]
+    nodes[2] = {"name": "Knee", "children": [3], "matrix": matrix.T.ravel().tolist()}
+    file = File(nodes, (1, 2, 3))
+    packed = file.array(np.round(32767 * np.array([NONE, TURN])), "<i2", normalized=True)
+    file.animate("a", (1, "rotation", [0, 1], packed, "LINEAR"))
+    motion = read_motion(file.save(tmp_path / "a.glb"), fps=10)
+    assert degrees(motion, "Hips")[-1] == pytest.approx(90, abs=0.01)
+    toe = [0, 90, 0] + matrix[:3, 3] + matrix[:3, :3] @ [0, -40, 10]
+    assert motion.positions[0, 2] == pytest.approx(0.01 * toe)
+    tree = {**file.tree, "buffers": [{"uri": "a%20b.bin"}]}
+    (tmp_path / "a b.bin").write_bytes(file.data)
+    (tmp_path / "a.gltf").write_text(json.dumps(tree))
+    again = read_motion(tmp_path / "a.gltf", fps=10)
+    assert (again.positions == motion.positions).all()
+    tree["buffers"] = [{"uri": "data:;base64," + base64.b64encode(file.data).decode()}]
+    (tmp_path / "a.gltf").write_text(json.dumps(tree))
+    assert (read_motion(tmp_path / "a.gltf", fps=10).positions == motion.positions).all()
+
+
+def test_a_skeleton_without_a_skin_and_several_characters(tmp_path: Path) -> None:
+    file = File(LEG, None).animate("a", (1, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    assert read_motion(file.save(tmp_path / "a.glb"), fps=10).skeleton.names[0] == "Hips"
+    nodes = [*LEG, {"name": "Other", "children": [5]}, {"name": "Hips", "children": [6]}, {}]
+    file = File(nodes, (1, 2, 3, 5, 6)).animate(
+        "a", *((node, "rotation", [0, 1], [NONE, TURN], "LINEAR") for node in (1, 5))
+    )
+    with pytest.raises(SeveralPeopleError, match=r"of Armature \(3 joints\), Other \(2 joints\)"):
+        read_motion(file.save(tmp_path / "a.glb"), fps=10)
+    motion = read_motion(file.save(tmp_path / "a.glb"), fps=10, person="Other")
+    assert motion.skeleton.names == ("Hips", "node6")
+
+
+def beyond() -> File:
+    file = leg().animate("a", (2, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file.tree["accessors"][0]["count"] = 10**9
+    return file
+
+
+def changed(**more: Any) -> File:
+    file = leg().animate("a", (2, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file.tree |= more
+    return file
+
+
+def endless() -> File:
+    return leg().animate("a", (2, "rotation", [0, 1e9], [NONE, TURN], "LINEAR"))
+
+
+@pytest.mark.parametrize(
+    ("file", "reason"),
+    [
+        (leg(), "holds no animation of its skeleton"),
+        (beyond(), "accessor 0 is longer than its buffer: truncated"),
+        (changed(asset={"version": "1.0"}), "is glTF of version 1.0: export glTF 2.0"),
+        (changed(accessors=[]), "accessor 1 is not in the file|accessor 0 is not in the file"),
+        (changed(nodes=[{"children": [0]}]), "holds no skeleton"),
+        (endless(), "claims 3 joints in"),
+    ],
+)
+def test_what_cannot_be_read_says_why(tmp_path: Path, file: File, reason: str) -> None:
+    with pytest.raises(ReadError, match=reason):
+        read_quietly(file.save(tmp_path / "a.glb"))
+
+
+def test_buffers_elsewhere_are_not_opened(tmp_path: Path) -> None:
+    for place in ("../a.bin", "/etc/a.bin", "https://a.b/c.bin"):
+        tree = changed(buffers=[{"uri": place}]).tree
+        (tmp_path / "a.gltf").write_text(json.dumps(tree))
+        with pytest.raises(ReadError, match=f"has a buffer in '{place}': put that file beside it"):
+            read_quietly(tmp_path / "a.gltf")
+    (tmp_path / "a.gltf").write_text(json.dumps(changed(buffers=[{"uri": "a.bin"}]).tree))
+    with pytest.raises(ReadError, match=r"a\.bin: cannot be opened"):
+        read_quietly(tmp_path / "a.gltf")
+
+
+def test_truncated_files(tmp_path: Path) -> None:
+    whole = changed().save(tmp_path / "a.glb").read_bytes()
+    for data, reason in (
+        (whole[:8], "ends in its header"),
+        (whole[:-9], f"is of {len(whole) - 9} bytes instead of {len(whole)}: it is truncated"),
+        (b"glTF\1\0\0\0" + whole[8:], "is a GLB of version 1"),
+        (b"glTF\2\0\0\0\x0c\0\0\0", "has no JSON in it"),
+    ):
+        (tmp_path / "b.glb").write_bytes(data)
+        with pytest.raises(ReadError, match=reason):
+            read_quietly(tmp_path / "b.glb")
+
+
+@given(st.data())
+def test_no_damage_raises_anything_else(tmp_path_factory, data: st.DataObject) -> None:
+    folder = tmp_path_factory.getbasetemp()
+    whole = changed().save(folder / "spoilt.glb").read_bytes()
+    spoilt = bytearray(whole)
+    for _ in range(data.draw(st.integers(1, 4))):
+        at = data.draw(st.integers(12, len(spoilt) - 1))
+        new = data.draw(st.binary(max_size=9))
+        spoilt[at : at + len(new)] = new
+    (folder / "spoilt.glb").write_bytes(bytes(spoilt))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            read_quietly(folder / "spoilt.glb")
+        except KinemeError as error:
+            assert "\n" not in str(error)
+
+
+def test_a_body_of_one_joint(tmp_path: Path) -> None:
+    skeleton = Skeleton(("a",), (-1,), np.zeros((1, 3)))
+    motion = Motion.from_rotations(skeleton, [[[1, 0, 0, 0]]], 30, [[1, 2, 3]])
+    write(motion, tmp_path / "a.glb")
+    assert read_quietly(tmp_path / "a.glb").positions.tolist() == [[[1, 2, 3]]]
