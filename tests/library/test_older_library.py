@@ -6,12 +6,14 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from kineme.errors import KinemeWarning
 from kineme.labels import read_segments
 from kineme.library import Library, build
 from kineme.library.storage.tables import DESCRIBED
@@ -52,3 +54,12 @@ def test_it_is_built_on(folder: Path, tmp_path: Path) -> None:
     after = Library(folder).table("segments").to_pydict()
     assert set(after["recording"]) == {"again.csv", "take.csv"}
     assert set(after["kind"]) == set(rows["kind"])
+
+
+def test_constants_that_are_no_more_are_left_out_with_a_word(folder: Path) -> None:
+    head = json.loads((folder / "library.json").read_text())
+    head["settings"]["constants"] = {"min_action": 2.0, "link_radius": 0.4}
+    (folder / "library.json").write_text(json.dumps(head))
+    with pytest.warns(KinemeWarning, match="older version: link_radius; new recordings"):
+        library = Library(folder)
+    assert library.settings.constants == {"min_action": 2.0}
