@@ -61,5 +61,5 @@ def test_constants_that_are_no_more_are_left_out_with_a_word(folder: Path) -> No
     head["settings"]["constants"] = {"min_action": 2.0, "link_radius": 0.4}
     (folder / "library.json").write_text(json.dumps(head))
     with pytest.warns(KinemeWarning, match="older version: link_radius; new recordings"):
-        library = Library(folder)
-    assert library.settings.constants == {"min_action": 2.0}
+        settings = Library(folder).settings
+    assert settings.constants == {"min_action": 2.0}

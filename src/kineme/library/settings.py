@@ -108,11 +108,11 @@ class Settings:
             detail = content.get("detail", DEFAULT_DETAIL)  # libraries of before have none
             preset = content["preset"]
             if gone := sorted(constants.keys() - _names_of(preset)):
-                text = (
-                    f"the library was built with constants of an older version: {', '.join(gone)}"
-                )
                 warnings.warn(
-                    f"{text}; new recordings do without them", KinemeWarning, stacklevel=2
+                    f"the library was built with constants of an older version: {', '.join(gone)}; "
+                    "new recordings do without them",
+                    KinemeWarning,
+                    stacklevel=2,
                 )
                 constants = {name: constants[name] for name in constants.keys() - {*gone}}
             return cls(preset, constants, reading, content["effectors"], detail)
