@@ -97,6 +97,7 @@ def test_other_parameters_are_a_preview_until_they_are_applied(page, take):
     before = screen.state["segments"]
     page.get_by_label("Preset", exact=True).select_option("voegele2014")
     screen.wait("k.other === 'Preview'")
+    page.locator(".preset-panel[aria-busy=false]").wait_for()  # sliders are those of the preview
     assert screen.state["segments"] == before
     slider = page.get_by_role("slider", name="Window").or_(page.get_by_role("slider").first)
     box = slider.first.bounding_box()
