@@ -1,4 +1,4 @@
-"""For all tests: where the real recordings are, and how laws are tried."""
+"""For all tests: where recordings are, real ones and made ones, and how laws are tried."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from labelled_corpus import make_corpus
 
 # How long an example takes is the machine's affair. All else is as hypothesis has it here;
 # ``pytest --hypothesis-profile=thorough`` tries each law on ten times as many examples.
@@ -48,3 +50,9 @@ def data_dir() -> Path:
     if folder is None:
         pytest.skip("no recordings: set KINEME_DATA to the folder that holds cmu86/ and the others")
     return folder
+
+
+@pytest.fixture(scope="module")
+def corpus(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of recordings with labels, which tests only read."""
+    return make_corpus(tmp_path_factory.mktemp("corpus"))

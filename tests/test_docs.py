@@ -37,6 +37,7 @@ QUOTED = FILL["quoted"](FILL["QUOTED"].read_text(encoding="utf-8"))
 COLUMNS = runpy.run_path(str(ROOT / "docs" / "fill_columns.py"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_code_blocks_run(page: Path, tmp_path: Path) -> None:
     if page.stem in ("extending", "evaluation"):  # what they register stays in the process
@@ -48,6 +49,7 @@ def test_code_blocks_run(page: Path, tmp_path: Path) -> None:
         assert (ROOT / "docs" / "images" / "made" / name).is_file(), "run python docs/run_pages.py"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda notebook: notebook.stem)
 def test_notebook_runs(notebook: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each cell, and what the notebook would show of its last line."""

@@ -25,7 +25,7 @@ from _browser import FLAGS, chromium
 from _options import command_line, few
 from kineme.datasets import bundled_recording
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "browser"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "helpers"))
 import screen
 from robot import Robot
 from studio_server import StudioServer

@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Callable, Iterator
-from itertools import count
 from pathlib import Path
 
 import pytest
-from screen import Screen
-from studio_server import StudioServer
 
-import kineme
+from bundled import copy_of_bundled
+from screen import DESKTOP, Screen
+from studio_server import StudioServer
 
 CHROMIUM = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
 # Drawing in software, so that every machine draws the same.
@@ -22,8 +21,6 @@ ARGUMENTS = [
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
 ]
-DESKTOP = {"width": 1280, "height": 720}
-NUMBERS = count(1)
 
 
 @pytest.fixture(scope="module")  # while it is open, nothing else can use an event loop
@@ -51,6 +48,14 @@ def take(server: StudioServer) -> Path:
 
 
 @pytest.fixture
+def mortal(chromium, take: Path, tmp_path: Path) -> Iterator[StudioServer]:
+    """A server that may be killed, on a folder with one take."""
+    take.rename(tmp_path / "take.bvh")
+    with StudioServer(tmp_path) as running:
+        yield running
+
+
+@pytest.fixture
 def new_tab(chromium) -> Iterator[Callable]:
     """Opens an address in a tab; the test fails if a page of it fails."""
     context = chromium.new_context(viewport=DESKTOP, accept_downloads=True)
@@ -74,7 +79,3 @@ def page(new_tab, server: StudioServer, take: Path):
     tab = new_tab(server.address_of(take))
     Screen(tab).opened()
     return tab
-
-
-def copy_of_bundled(folder: Path) -> Path:
-    return Path(shutil.copy(kineme.bundled_recording(), folder / f"take_{next(NUMBERS)}.bvh"))

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import shutil
 
+import pytest
 from keyboard import CHECKS
-from screen import Screen
+
+from screen import Screen, box_of
 
 CONTROLS = ".viewer-buttons button, .transport button, .transport select, .scrub, .tab-row button, \
 .parameter input[type=range], .segment-panel select, .viewer canvas, .lanes canvas, .matrix canvas"
@@ -21,12 +23,14 @@ def calmed(screen: Screen) -> None:
         discard.click()
 
 
+@pytest.mark.slow
 def test_each_documented_key_does_what_the_help_says_whatever_was_clicked(new_tab, server, take):
     """Another control is clicked before each key, until all of both had their turn."""
     shutil.copy(take, take.with_stem(f"{take.stem}_b"))  # the next one
     page = new_tab(server.address_of(take))
     screen = Screen(page).opened()
     page.keyboard.press("?")
+    page.locator(".keys th").first.wait_for()
     assert page.locator(".keys th").all_inner_texts() == list(CHECKS)
     page.keyboard.press("Escape")
     before = screen.state["segments"]
@@ -86,7 +90,7 @@ def test_an_edit_of_what_is_off_the_screen_shows_it_first(page):
     for _ in range(8):
         page.keyboard.press("+")
     screen.wait("k.range.stop_s - k.range.start_s < 10")
-    box = page.locator(".lanes canvas").bounding_box()
+    box = box_of(page.locator(".lanes canvas"))
     page.mouse.move(box["x"] + 300, box["y"] + 60)
     page.keyboard.down("Shift")
     page.mouse.wheel(0, 3000)  # the view goes on, the playhead stays
@@ -120,6 +124,6 @@ def test_a_border_dragged_past_its_neighbour_stops_where_both_can_be_seen(page):
     screen.drag_border(after, before["start_s"] - 2)
     screen.wait(f"!k.segments.some((row) => row.start_frame === {after['start_frame']})")
     shortest = screen.lane("primitive")[2]
-    width = page.locator(".lanes canvas").bounding_box()["width"] - 78
+    width = box_of(page.locator(".lanes canvas"))["width"] - 78
     pixels = (shortest["stop_s"] - shortest["start_s"]) / screen.state["duration"] * width
     assert pixels > 5

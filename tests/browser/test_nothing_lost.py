@@ -7,14 +7,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from robot import Robot
-from studio_server import StudioServer
+import pytest
 
-from conftest import DESKTOP, copy_of_bundled
+from bundled import copy_of_bundled
+from robot import Robot
+from screen import DESKTOP
+from studio_server import StudioServer
 
 STEPS = 25
 
 
+@pytest.mark.slow
 def test_a_robot_loses_nothing(chromium, tmp_path: Path) -> None:
     takes = [copy_of_bundled(tmp_path) for _ in range(2)]
     context = chromium.new_context(viewport=DESKTOP)

@@ -12,6 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 
+@pytest.mark.slow
 def test_finds_pages_opened_from_a_disk_and_asks_nobody(chromium, tmp_path: Path) -> None:
     pytest.importorskip("mkdocs", reason="the docs are built with the extra [docs]")
     subprocess.run(

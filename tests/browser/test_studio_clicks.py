@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import pytest
+
+from bundled import write_repeated
 from screen import Screen
-from test_studio_speed import repeated
-
-import kineme
 
 
+@pytest.mark.slow
 def test_every_segment_of_a_long_take_can_be_clicked(new_tab, server):
-    take = server.folder / "long_take.bvh"
-    take.write_text(repeated(kineme.bundled_recording().read_text(), 180 * 60))
+    take = write_repeated(server.folder / "long_take.bvh", 180 * 60)
     screen = Screen(new_tab(server.address_of(take))).opened()
     rows = screen.lane("primitive")
     start, stop = (screen.point(at, "primitive")[0] for at in (0, screen.state["duration"]))

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import shutil
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from screen import Screen
 
 from kineme.studio.folder import file_id
+from screen import Screen, box_of, until
 
 ON_TOP = """button => {
     const { left, top, width, height } = button.getBoundingClientRect();
@@ -18,6 +19,11 @@ ON_TOP = """button => {
 
 ASKED = """id => performance.getEntriesByType("resource").filter(
     ({ name }) => name.includes(`${id}/curves/`)).length"""
+
+
+def in_sight(place: Any) -> None:
+    """Until nothing lies over it."""
+    until(place.page, lambda: place.evaluate(ON_TOP), f"{place} in sight")
 
 
 @pytest.mark.parametrize("size", [(1600, 1000), (1366, 768)])
@@ -33,14 +39,12 @@ def test_what_makes_a_preview_the_table_is_in_sight(page, size):
     page.get_by_role("slider", name="Detail").press("Home")
     for preset in ("kineme", "voegele2014"):
         page.get_by_label("Preset", exact=True).select_option(preset)
-        screen.wait("k.other === 'Preview'")
+        screen.previewed()
         for name in ("Apply", "Discard"):
-            assert page.get_by_role("button", name=name).evaluate(ON_TOP), name
-    lost = page.get_by_text("would be lost")
-    lost.wait_for()
-    assert lost.evaluate(ON_TOP)
+            in_sight(page.get_by_role("button", name=name))
+    in_sight(page.get_by_text("would be lost"))
     page.locator(".parameter input[type=range]").last.focus()  # below what is in sight at first
-    assert page.locator(".parameter input[type=range]").last.evaluate(ON_TOP)
+    in_sight(page.locator(".parameter input[type=range]").last)
     page.get_by_role("button", name="Apply").click()
     screen.wait("k.saved !== '' && k.other === null")
 
@@ -53,19 +57,19 @@ def test_arrow_keys_are_the_players_after_a_click_on_a_tab(page):
         frame = screen.state["frame"]
         page.keyboard.press("ArrowRight")
         screen.wait(f"k.frame === {frame + 1}")
-        assert page.get_by_role("tab", name=tab).get_attribute("aria-selected") == "true"
+        page.get_by_role("tab", name=tab, selected=True).wait_for()
     page.get_by_role("tab", name="Review").click()
     page.keyboard.press("Alt+ArrowRight")
     screen.saved()
     assert screen.starts() != before
-    assert page.get_by_role("tab", name="Review").get_attribute("aria-selected") == "true"
+    page.get_by_role("tab", name="Review", selected=True).wait_for()
 
 
 def test_who_reaches_a_tab_with_the_tab_key_goes_on_with_arrows(page):
     screen = Screen(page)
     page.get_by_role("tab", name="Segment").focus()
     page.keyboard.press("ArrowRight")
-    assert page.get_by_role("tab", name="Table").get_attribute("aria-selected") == "true"
+    page.get_by_role("tab", name="Table", selected=True).wait_for()
     assert screen.state["frame"] == 0
 
 
@@ -73,10 +77,10 @@ def test_an_edge_that_was_dragged_leaves_the_arrow_keys_to_the_player(page):
     screen = Screen(page)
     edge = page.get_by_role("separator", name="Size of side panel")
     edge.click()
-    width = page.locator(".place-side").bounding_box()["width"]
+    width = box_of(page.locator(".place-side"))["width"]
     page.keyboard.press("ArrowRight")
     screen.wait("k.frame === 1")
-    assert page.locator(".place-side").bounding_box()["width"] == width
+    assert box_of(page.locator(".place-side"))["width"] == width
 
 
 def test_news_go_with_what_they_are_of(new_tab, server, take):
@@ -94,8 +98,7 @@ def test_news_go_with_what_they_are_of(new_tab, server, take):
         page.get_by_text("2 segments named “step”").wait_for()
         page.keyboard.press(news_end)
         screen.wait(f"k.name !== '{take.name}' || k.segments.every((row) => row.label !== 'step')")
-        page.wait_for_timeout(300)
-        assert news.count() == 0
+        until(page, lambda: news.count() == 0, "no news", seconds=3)  # sooner than they end alone
     screen.wait(f"k.name === '{second.name}'")
 
 

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-from screen import Screen
-
 import kineme
 from kineme.datasets import bundled_truth
 from kineme.transfer import KnowledgeBase
-
-
-def saved_table(take: Path) -> kineme.Segmentation:
-    return kineme.read_segments(take.with_suffix(".segments.json"))
+from screen import Screen, box_of, until
+from studio_server import saved_table
 
 
 def test_a_border_is_dragged_and_brought_back(page, take):
@@ -96,11 +90,10 @@ def test_other_parameters_are_a_preview_until_they_are_applied(page, take):
     screen.saved()
     before = screen.state["segments"]
     page.get_by_label("Preset", exact=True).select_option("voegele2014")
-    screen.wait("k.other === 'Preview'")
-    page.locator(".preset-panel[aria-busy=false]").wait_for()  # sliders are those of the preview
+    screen.previewed()
     assert screen.state["segments"] == before
     slider = page.get_by_role("slider", name="Window").or_(page.get_by_role("slider").first)
-    box = slider.first.bounding_box()
+    box = box_of(slider.first)
     page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + box["height"] / 2)
     page.mouse.down()
     for share in (0.55, 0.6, 0.65, 0.7):
@@ -122,7 +115,7 @@ def test_other_parameters_are_a_preview_until_they_are_applied(page, take):
     screen.wait("k.segments.some((row) => row.label === 'mine')")
     screen.wait("k.unsent.length === 0")
     assert screen.state["segments"] == before
-    assert page.get_by_label("Preset", exact=True).input_value() == "kineme"
+    until(page, lambda: page.get_by_label("Preset", exact=True).input_value() == "kineme")
 
 
 def test_a_new_segmentation_takes_over_what_people_did_and_the_old_table_can_be_had_again(
@@ -172,7 +165,7 @@ def test_kind_and_cluster_of_a_segment_can_be_set(page, take):
 def test_labels_come_from_a_knowledge_base(page, server, take):
     screen = Screen(page)
     page.keyboard.press("t")
-    assert page.get_by_text("There is no knowledge base").is_visible()
+    page.get_by_text("There is no knowledge base").wait_for()
     page.keyboard.press("Escape")
     labels = kineme.read_segments(bundled_truth())
     base = server.folder / "moves.npz"
@@ -191,16 +184,14 @@ def test_a_result_is_compared_with_an_annotation(page, server, take):
     kineme.write_segments(kineme.read_segments(bundled_truth()), truth)
     page.reload()
     screen.opened()
-    lanes = screen.pixels()["lanes"]
+    before = screen.pixels()
     page.keyboard.press("c")
     page.get_by_role("button", name="truth.csv", exact=True).click()
     scores = page.locator(".scores")
-    scores.wait_for()
-    assert scores.locator("tr").count() > 2
-    page.wait_for_timeout(200)
-    assert screen.pixels()["lanes"] != lanes
+    until(page, lambda: scores.locator("tr").count() > 2, "a table of scores")
+    screen.changed(before, "lanes")
     page.get_by_role("button", name="Stop comparing").click()
-    assert scores.count() == 0
+    scores.wait_for(state="detached")
     truth.unlink()
 
 

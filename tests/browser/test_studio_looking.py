@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import shutil
-import time
 from pathlib import Path
 
 import pytest
-from screen import Screen
 
 import kineme
+from screen import Screen, box_of, until
 
 BRIGHTNESS = """video => {
     const pen = new OffscreenCanvas(8, 8).getContext("2d");
@@ -28,10 +27,8 @@ def test_a_click_on_a_primitive_moves_everything_there(page):
     assert state["selected"] == chosen
     assert state["playhead"] == pytest.approx(chosen["start_s"])
     assert state["cluster"] == chosen["cluster"]
-    page.wait_for_timeout(300)
-    after = screen.pixels()
-    assert {name for name in before if before[name] != after[name]} == {"figure", "lanes", "matrix"}
-    assert f"{chosen['start_s']:.2f}" in page.locator(".segment-panel").inner_text()
+    screen.changed(before, "figure", "lanes", "matrix")
+    page.locator(".segment-panel").filter(has_text=f"{chosen['start_s']:.2f}").wait_for()
 
 
 def test_playing_moves_playhead_and_figure_until_it_is_stopped(page):
@@ -39,8 +36,7 @@ def test_playing_moves_playhead_and_figure_until_it_is_stopped(page):
     page.keyboard.press("Space")
     screen.wait("k.playhead > 0.4")
     first = screen.pixels()
-    page.wait_for_timeout(400)
-    assert screen.pixels()["figure"] != first["figure"]
+    screen.changed(first, "figure")
     page.keyboard.press("Space")
     screen.wait("!k.playing")
     stopped = screen.state["playhead"]
@@ -63,11 +59,10 @@ def test_all_members_of_a_cluster_play_in_step(page):
     screen = Screen(page)
     screen.click(screen.lane("primitive")[9])
     screen.wait("k.selected")
-    alone = screen.pixels()["figure"]
+    alone = screen.pixels()
     page.get_by_role("button", name="In step").click()
     screen.wait("k.inStep")
-    page.wait_for_timeout(300)
-    assert screen.pixels()["figure"] != alone
+    screen.changed(alone, "figure")
 
 
 def test_the_mean_of_two_walks_is_of_one_phase(page):
@@ -76,9 +71,9 @@ def test_the_mean_of_two_walks_is_of_one_phase(page):
     walks = [row for row in screen.lane("primitive") if row["cluster"] == 0]
     later = sum(row["activity"] != walks[0]["activity"] for row in walks)
     page.get_by_role("tab", name="Clusters").click()
-    note = page.locator(".curves .note").inner_text()
-    assert f"{len(walks)} members, mean ± deviation" in note
-    assert f"{later} cut at another phase of the cycle, turned to that of the others" in note
+    note = page.locator(".curves .note").filter(has_text=f"{len(walks)} members, mean ± deviation")
+    turned = f"{later} cut at another phase of the cycle, turned to that of the others"
+    note.filter(has_text=turned).wait_for()
 
 
 def test_two_recordings_stand_side_by_side(new_tab, server, take):
@@ -108,9 +103,10 @@ def test_labels_and_names_are_text_and_nothing_else(new_tab, server, take):
     screen = Screen(page)
     screen.opened()
     screen.click(screen.lane("primitive")[3])
-    page.wait_for_timeout(300)
+    screen.wait("k.selected")
+    screen.drawn()
     assert screen.state["selected"]["label"] == evil
-    assert page.locator(".recording .name", has_text=named.name).count() == 1
+    page.locator(".recording .name", has_text=named.name).wait_for()  # one, not several
     assert page.locator("img, b:text('bold')").count() == 0
     assert page.title().startswith(named.name)
 
@@ -120,9 +116,8 @@ def test_a_file_that_is_no_recording_is_refused_in_words(new_tab, server):
     broken.write_text("HIERARCHY\nnothing of the kind\n")
     page = new_tab(server.address_of(broken))
     notice = page.locator("[data-notice=problem]")
-    notice.wait_for()
-    assert "broken.bvh" in notice.inner_text()
-    assert page.get_by_text("Choose a recording on the left").is_visible()
+    notice.filter(has_text="broken.bvh").wait_for()
+    page.get_by_text("Choose a recording on the left").wait_for()
     broken.unlink()
 
 
@@ -148,7 +143,7 @@ def test_a_dropped_file_is_taken_into_the_folder_and_opened(new_tab, server, tak
 def test_two_fingers_zoom_to_what_is_between_them(page, place):
     screen = Screen(page)
     before = screen.state
-    box = page.locator(place).bounding_box()
+    box = box_of(page.locator(place))
     middle, y = box["x"] + 0.6 * box["width"], box["y"] + 0.6 * box["height"]
     touches = page.context.new_cdp_session(page)
 
@@ -186,11 +181,8 @@ def test_the_video_follows_the_playhead(page, take):
 
     def shown(seconds: float) -> float:
         """Seconds of the picture that is seen once the video is sent there."""
-        deadline = time.monotonic() + 30
         ready = f"v => !v.seeking && v.readyState >= 2 && Math.abs(v.currentTime - {seconds}) < 0.1"
-        while not video.evaluate(ready):
-            assert time.monotonic() < deadline, "the video does not go where the playhead is"
-            page.wait_for_timeout(20)
+        until(page, lambda: video.evaluate(ready), "the video is where the playhead is")
         luma = 16 + video.evaluate(BRIGHTNESS) * 219 / 255
         return (luma - 20) / 20
 
@@ -200,16 +192,15 @@ def test_the_video_follows_the_playhead(page, take):
     assert shown(3.0) == pytest.approx(3.0, abs=0.25)
     page.get_by_label("starts at").fill("2.5")
     page.keyboard.press("Enter")
-    page.wait_for_timeout(100)
     assert shown(5.5) == pytest.approx(5.5, abs=0.25)
     page.reload()
     screen.opened()
     assert shown(2.5) == pytest.approx(2.5, abs=0.25)
     page.keyboard.press("Space")
     screen.wait("k.playhead > 1")
-    assert video.evaluate("v => v.paused") is False
+    until(page, lambda: video.evaluate("v => !v.paused"), "the video plays")
     page.keyboard.press("Space")
     screen.wait("!k.playing")
     stopped = screen.state["playhead"] + 2.5
     assert shown(stopped) == pytest.approx(stopped, abs=0.25)
-    assert video.evaluate("v => v.paused") is True
+    until(page, lambda: video.evaluate("v => v.paused"), "the video rests")

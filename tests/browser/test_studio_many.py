@@ -6,14 +6,10 @@ import re
 import shutil
 from pathlib import Path
 
-from screen import Screen
-
 import kineme
 from kineme.segments.editing.marks import marked
-
-
-def saved_table(take: Path) -> kineme.Segmentation:
-    return kineme.read_segments(take.with_suffix(".segments.json"))
+from screen import Screen, until
+from studio_server import saved_table
 
 
 def test_many_rows_are_chosen_with_keys_and_named_in_one_step(page, take):
@@ -28,10 +24,11 @@ def test_many_rows_are_chosen_with_keys_and_named_in_one_step(page, take):
     for _ in range(3):
         page.keyboard.press("Shift+ArrowDown")
     page.get_by_text("4 chosen").wait_for()
-    assert grid.locator("[aria-selected=true]").count() == 4
+    until(page, lambda: grid.locator("[aria-selected=true]").count() == 4, "4 chosen rows")
     page.get_by_label("Name for all chosen").fill("step")
     page.get_by_role("button", name="Name 4").click()
     page.get_by_text("4 segments named “step”").wait_for()
+    screen.saved()
     assert screen.labels().count("step") == 4
     assert saved_table(take).primitives.label.tolist() == screen.labels()
     page.keyboard.press("Control+z")
@@ -45,14 +42,15 @@ def test_the_queue_shows_the_least_sure_first_and_a_new_segmentation_leaves_what
     page.locator("#tab-review").click()
     page.keyboard.press("j")
     screen.wait("k.selected")
-
-    shown = page.locator(".doubts .number:last-child").all_inner_texts()
+    numbers = page.locator(".doubts .number:last-child")
+    until(page, lambda: numbers.count() > 5, "a queue")
+    shown = numbers.all_inner_texts()
     known = [int(text.removesuffix(" %")) for text in shown if text != "–"]
     assert len(known) > 5
     assert known == sorted(known)
-    assert page.locator(".doubts li").first.locator("[aria-current=true]").count() == 1
+    page.locator(".doubts li").first.locator("[aria-current=true]").wait_for()
     first = screen.state["selected"]
-    assert page.locator(".why").inner_text().strip()
+    until(page, lambda: page.locator(".why").inner_text().strip(), "why it is in the queue")
     page.keyboard.press("k")
     screen.saved()
     screen.wait(f"k.selected && k.selected.start_frame !== {first['start_frame']}")
@@ -71,13 +69,17 @@ def test_a_segment_has_one_confidence_in_queue_panel_and_table(page):
     page.keyboard.press("j")
     Screen(page).wait("k.selected")
     shown = page.locator(".doubts [aria-current=true] .number:last-child").inner_text()
-    assert re.findall(r"\d+ %", page.locator(".why").inner_text()) == [shown]
+
+    def said(place: str, words: str) -> list[str]:
+        return re.findall(words, page.locator(place).inner_text())
+
+    until(page, lambda: said(".why", r"\d+ %") == [shown], f"why: {shown}")
     page.locator("#tab-segment").click()
-    panel = page.locator(".segment-panel").inner_text()
-    assert re.findall(r"\d+ %|score", panel) == [shown]
+    until(page, lambda: said(".segment-panel", r"\d+ %|score") == [shown], f"panel: {shown}")
     page.locator("#tab-table").click()
     chosen = page.locator(".table-rows [aria-selected=true]")
-    assert chosen.locator("[role=gridcell]").last.inner_text() == shown
+    cell = chosen.locator("[role=gridcell]").last
+    until(page, lambda: cell.inner_text() == shown, f"table: {shown}")
     page.get_by_label("Confidence below").fill(str(int(shown[:-2]) / 100 - 0.01))
     page.get_by_text("0 segments").wait_for()
 
@@ -96,7 +98,7 @@ def test_the_next_recording_opens_at_its_start_and_its_status_is_shown(new_tab, 
     for key in ("PageUp", "PageDown") * 3:  # faster than they open
         page.keyboard.press(key)
         page.wait_for_timeout(60)
-    page.wait_for_timeout(1500)
+    page.wait_for_timeout(1500)  # what is not there would be asked for late
     screen.opened()
     assert failed == []
     page.keyboard.press("n")
@@ -123,6 +125,7 @@ def test_labels_of_others_are_shown_as_labels(new_tab, server, take):
     screen.opened()
     page.locator("#tab-clusters").click()
     rows = page.locator("table.clusters tbody tr")
+    until(page, lambda: rows.count() == 2, "2 labels")
     assert [text.split()[0] for text in rows.all_inner_texts()] == ["walk", "rest"]
     colors = [
         row.locator(".swatch").evaluate("(swatch) => getComputedStyle(swatch).backgroundColor")

@@ -5,18 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from screen import Screen, two_tabs
-from studio_server import StudioServer
 
 import kineme
-
-
-@pytest.fixture
-def mortal(chromium, take: Path, tmp_path: Path):
-    """A server that may be killed, on a folder with one take."""
-    take.rename(tmp_path / "take.bvh")
-    with StudioServer(tmp_path) as running:
-        yield running
+from screen import Screen, two_tabs
 
 
 def saved_primitives(path: Path) -> list[tuple[int, str, bool]]:
@@ -43,10 +34,9 @@ def test_work_on_one_segment_during_an_outage_is_made_as_it_was_done(new_tab, mo
     page.keyboard.type("hop")
     page.keyboard.press("Enter")
     page.keyboard.press("Shift+K")
-    assert screen.state["selected"]["label"] == "hop"
+    screen.wait("k.selected.label === 'hop'")
     notice = page.locator("[data-notice=trouble]")
-    notice.wait_for()
-    assert "4 earlier" in notice.inner_text()  # and the last three in words
+    notice.filter(has_text="4 earlier").wait_for()  # and the last three in words
     mortal.start()
     new_tab(mortal.address)  # which tells the other one the new token
     screen.wait("k.unsent.length === 0 && k.saved !== ''")
@@ -78,6 +68,7 @@ def test_on_a_slow_line_edits_are_shown_at_once_and_none_is_lost(page, take, lat
     assert saved_primitives(take.with_suffix(".segments.json"))[1][:2] == (border + 3, "hop")
 
 
+@pytest.mark.slow
 def test_what_is_refused_is_said_until_somebody_decides(page, take):
     screen = Screen(page)
 
@@ -92,8 +83,7 @@ def test_what_is_refused_is_said_until_somebody_decides(page, take):
     page.keyboard.type("odd")
     page.keyboard.press("Enter")
     notice = page.locator("[data-notice=refused]")
-    notice.wait_for()
-    assert "“odd” (the label is too odd)" in notice.inner_text()
+    notice.filter(has_text="“odd” (the label is too odd)").wait_for()
     page.keyboard.press("Shift+ArrowRight")
     page.keyboard.press("Shift+K")
     screen.saved()
@@ -101,7 +91,7 @@ def test_what_is_refused_is_said_until_somebody_decides(page, take):
     assert notice.is_visible()
     page.reload()
     screen.opened()
-    assert notice.is_visible()
+    notice.wait_for()
     page.unroute("**/edits")
     notice.get_by_role("button", name="Try again").click()
     notice.wait_for(state="detached")

@@ -8,9 +8,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from screen import Screen
 
-import kineme
+from bundled import write_repeated
+from screen import Screen
 
 FIRST_PICTURE = 6.0  # seconds, of an aim of 1.5
 RATE = 8  # pictures per second, of an aim of 30
@@ -19,17 +19,7 @@ RATE = 8  # pictures per second, of an aim of 30
 @pytest.fixture
 def two_minutes(server) -> Path:
     """The bundled recording over and over, for two minutes."""
-    path = server.folder / "two_minutes.bvh"
-    path.write_text(repeated(kineme.bundled_recording().read_text(), 120 * 60))
-    return path
-
-
-def repeated(bvh: str, n_frames: int) -> str:
-    """A recording with so many frames, from the start again where it ends."""
-    head, motion = bvh.split("MOTION\n")
-    _, frame_time, *frames = motion.strip().split("\n")
-    lines = [frames[i % len(frames)] for i in range(n_frames)]
-    return "\n".join([head + "MOTION", f"Frames: {n_frames}", frame_time, *lines, ""])
+    return write_repeated(server.folder / "two_minutes.bvh", 120 * 60)
 
 
 def test_two_minutes_are_there_soon_and_play_smoothly(new_tab, server, two_minutes):

@@ -2,40 +2,36 @@
 
 from __future__ import annotations
 
-from screen import Screen
+from screen import PLACES, Screen, box_of, picture_of, until
 
 
 def test_detail_is_a_preview_until_it_is_applied(page):
     screen = Screen(page)
     before = screen.starts("activity")
     page.keyboard.press(",")
-    screen.wait("k.other === 'Preview'")
+    screen.previewed()
     page.keyboard.press(",")
     assert screen.starts("activity") == before
     page.get_by_role("slider", name="Detail").press("Home")
-    page.wait_for_timeout(400)
+    screen.previewed()
     page.get_by_role("button", name="Apply").click()
     screen.wait("k.saved !== '' && k.other === null")
     assert set(screen.starts("activity")) < set(before)
 
 
 def test_curves_lie_under_the_timeline_and_follow_its_zoom(page):
-    screen = Screen(page)
     page.keyboard.press("g")
     curves = page.locator(".channels canvas")
-    page.wait_for_timeout(500)
-    whole = curves.screenshot()
+    whole = picture_of(curves)
     page.keyboard.press("z")
-    page.wait_for_timeout(300)
-    assert curves.screenshot() != whole
+    until(page, lambda: curves.screenshot() != whole, "curves of the segment alone")
     edge = page.get_by_role("separator", name="Size of curves")
-    tall = curves.bounding_box()["height"]
+    tall = box_of(curves)["height"]
     edge.press("ArrowUp")
-    screen.wait("true")
-    assert curves.bounding_box()["height"] == tall + 16
+    until(page, lambda: box_of(curves)["height"] == tall + 16, "curves 16 pixels taller")
 
 
-def test_a_label_of_the_folder_is_given_with_its_key_and_a_comment_stays(page):
+def test_a_label_of_the_folder_is_given_with_its_key_and_a_comment_stays(page, take):
     screen = Screen(page)
     field = page.get_by_label("A label for all recordings of the folder")
     field.fill("lunge")
@@ -48,13 +44,14 @@ def test_a_label_of_the_folder_is_given_with_its_key_and_a_comment_stays(page):
     comment = page.get_by_placeholder("what others should know of it")
     comment.fill("the left foot slips")
     comment.press("Control+Enter")
+    table = take.with_suffix(".segments.json")
+    until(page, lambda: "the left foot slips" in table.read_text(), "the comment is on the disk")
     screen.saved()
-    page.wait_for_timeout(200)
     page.reload()
     Screen(page).opened()
     page.keyboard.press("Shift+ArrowRight")
     screen.wait("k.selected")
-    assert comment.input_value() == "the left foot slips"
+    until(page, lambda: comment.input_value() == "the left foot slips", "the comment is shown")
 
 
 def test_chosen_rows_become_a_cluster_or_clips(page):
@@ -78,10 +75,9 @@ def test_a_repetition_is_laid_over_another_one(page):
     screen.wait("k.selected")
     page.keyboard.press("v")
     page.keyboard.press("Shift+ArrowRight")
-    page.wait_for_timeout(300)
     page.get_by_text("ghost:").wait_for()
-    laid = screen.pixels()["figure"]
+    figure = page.locator(PLACES["figure"])
+    laid = picture_of(figure)
     page.get_by_role("button", name="Ghost").click()
     page.get_by_role("button", name="Ghost").click()
-    page.wait_for_timeout(600)
-    assert screen.pixels()["figure"] != laid
+    until(page, lambda: figure.screenshot() != laid, "another ghost")

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from screen import Screen
 
 import kineme
+from screen import Screen, box_of
 
 AXE = Path(kineme.__file__).parent / "web/pages/node_modules/axe-core/axe.min.js"
 RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
@@ -79,12 +79,14 @@ def report(take, tmp_path) -> Path:
     return tmp_path / "report.html"
 
 
+@pytest.mark.slow
 def test_nobody_is_kept_out_of_any_view(page, server, sensors, report):
     if not AXE.exists():
         pytest.skip("no axe-core: npm ci in src/kineme/web/pages")
     screen, found = Screen(page), []
 
     def look(view: str, part: str = "body", *, colors_only: bool = False) -> None:
+        screen.drawn()
         said = violations(page, part, colors_only=colors_only)
         found.extend(f"{view}, {each}" for each in said)
 
@@ -110,10 +112,12 @@ def test_nobody_is_kept_out_of_any_view(page, server, sensors, report):
     assert found == []
 
 
+@pytest.mark.slow
 def test_nothing_is_cut_off_covered_or_empty_at_any_size(page, server, sensors, report):
     screen, found = Screen(page), []
 
     def look(view: str) -> None:
+        screen.drawn()
         found.extend(f"{view}: {each}" for each in dict.fromkeys(page.evaluate(FAULTS)))
 
     for width, height in SIZES.items():
@@ -122,9 +126,9 @@ def test_nothing_is_cut_off_covered_or_empty_at_any_size(page, server, sensors, 
             page.emulate_media(color_scheme=scheme, reduced_motion=motion)
             screen.opened()
             look(f"{width}, {scheme}, {motion}")
-        assert page.locator(".viewer canvas").bounding_box()["height"] > 200
-        assert page.get_by_label("Frame", exact=True).is_visible()
-        assert page.get_by_label("Playhead", exact=True).is_visible()
+        assert box_of(page.locator(".viewer canvas"))["height"] > 200
+        page.get_by_label("Frame", exact=True).wait_for()
+        page.get_by_label("Playhead", exact=True).wait_for()
         for view, _ in views(page, screen) if width in WALKED else ():
             look(f"{width}, {view}")
     for address in (server.address_of(sensors), report.as_uri()):
@@ -132,6 +136,5 @@ def test_nothing_is_cut_off_covered_or_empty_at_any_size(page, server, sensors, 
         screen.wait("k?.n_segments")
         for width, height in SIZES.items():
             page.set_viewport_size({"width": width, "height": height})
-            screen.page.wait_for_timeout(50)
             look(f"{width}, {address[-20:]}")
     assert found == []

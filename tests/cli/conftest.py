@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -13,6 +14,7 @@ import pytest
 from typer.testing import CliRunner
 
 from kineme.cli.app import app
+from kineme.datasets import bundled_recording
 
 Kineme = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -42,6 +44,12 @@ def kineme_in() -> Kineme:
 def kineme_process(kineme_in: Kineme, tmp_path: Path) -> Kineme:
     """Run ``kineme ARGUMENTS`` in an empty folder, as a process: it takes two seconds to start."""
     return partial(kineme_in, tmp_path)
+
+
+@pytest.fixture
+def recording(tmp_path: Path) -> Path:
+    """The bundled recording, in the folder that commands run in."""
+    return Path(shutil.copy(bundled_recording(), tmp_path / "exercises.bvh"))
 
 
 @pytest.fixture

@@ -14,12 +14,6 @@ from pathlib import Path
 import pytest
 
 from kineme.evaluation.score import scores
-from labelled_corpus import make_corpus
-
-
-@pytest.fixture(scope="module")
-def corpus(tmp_path_factory) -> Path:
-    return make_corpus(tmp_path_factory.mktemp("corpus"))
 
 
 def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> None:
@@ -57,6 +51,7 @@ def test_json_goes_to_standard_output_alone(kineme, corpus) -> None:
     assert set(content["methods"]["uniform"]["scores"]) >= set(scores())
 
 
+@pytest.mark.slow
 def test_constants_of_the_methods_can_be_set(kineme, corpus) -> None:
     def told(*options: str) -> object:
         ran = kineme("evaluate", corpus, "--labels", corpus / "labels.csv", "--json", *options)

@@ -10,13 +10,7 @@ import pytest
 from matplotlib.image import imread
 
 import kineme as package
-from kineme.datasets import bundled_recording
 from kineme.recordings.operations import cut
-
-
-@pytest.fixture
-def recording(tmp_path: Path) -> Path:
-    return Path(shutil.copy(bundled_recording(), tmp_path / "exercises.bvh"))
 
 
 def test_the_table_counts_repetitions(kineme, recording: Path) -> None:

@@ -14,11 +14,6 @@ from kineme.datasets.bundled import bundled_truth
 from kineme.transfer import KnowledgeBase
 
 
-@pytest.fixture
-def recording(tmp_path: Path) -> Path:
-    return Path(shutil.copy(bundled_recording(), tmp_path / "exercises.bvh"))
-
-
 @pytest.fixture(scope="module")
 def base(kineme_in, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """What the true segments of the recording teach."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -26,7 +25,6 @@ from kineme.evaluation.score import (
 from kineme.evaluation.segments import edit_distance
 from kineme.labels.collections import labels_of
 from kineme.segments.segmentation import Segmentation
-from labelled_corpus import make_corpus
 
 per_frame = st.lists(st.integers(0, 3), min_size=1, max_size=40)
 
@@ -165,11 +163,6 @@ def segments(rows: list[tuple]) -> Segmentation:
     columns = {"level": ["activity"] * len(rows), "kind": kinds, "start_frame": starts,
                "stop_frame": stops, "label": labels, "cluster": clusters}  # fmt: skip
     return Segmentation.from_columns(columns, n_frames=stops[-1], fps=10)
-
-
-@pytest.fixture(scope="module")
-def corpus(tmp_path_factory) -> Path:
-    return make_corpus(tmp_path_factory.mktemp("corpus"))
 
 
 def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> None:

@@ -13,6 +13,7 @@ FUZZ = [sys.executable, "-m", "benchmarks", "fuzz"]
 ROOT = Path(__file__).parents[2]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="workers are forks")
 @pytest.mark.parametrize("how", [[], ["--structure"]])
 def test_a_thousand_damaged_files(how: list[str]) -> None:

@@ -41,11 +41,6 @@ NASTY = [
 RATES = [25.0, 29.97, 30000 / 1001, 59.94, 60.0, 100.0, 119.88, 120.0, 240.0]
 
 
-@pytest.fixture(scope="session")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("corpus")
-
-
 def place(folder: Path, name: str, stem: str = "take") -> Path:
     """Where a file of the format may lie."""
     known = FORMATS[name]

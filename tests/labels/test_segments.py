@@ -25,11 +25,6 @@ from segmentations import segmentations
 SUFFIXES = (".csv", ".json", ".parquet")
 
 
-@pytest.fixture(scope="session")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("tables")
-
-
 @pytest.fixture
 def small() -> Segmentation:
     columns = {

@@ -7,7 +7,6 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from time import monotonic
 from typing import Any
 
 import pytest
@@ -15,6 +14,7 @@ import pytest
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.report.page import write_report
+from screen import box_of, until
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 
@@ -36,21 +36,18 @@ class Page:
         tab.on("pageerror", lambda error: self.complaints.append(str(error)))
         tab.on("request", lambda request: self.requests.append(request.url))
         tab.goto(file.as_uri())
-        self.wait("s?.hasMotion", seconds=60)
+        self.wait("s?.hasMotion")
 
     def state(self) -> Any:
         return self.tab.evaluate("window.kineme")
 
-    def wait(self, condition: str, *, seconds: float = 30) -> None:
+    def wait(self, condition: str) -> None:
         """Until a condition on the state, called ``s``, holds.
 
         Asked from here: what would ask inside the page is barred by the page's own policy.
         """
-        end = monotonic() + seconds
         question = f"(() => {{ const s = window.kineme; return Boolean({condition}); }})()"
-        while not self.tab.evaluate(question):
-            assert monotonic() < end, f"not within {seconds} s: {condition}"
-            self.tab.wait_for_timeout(50)
+        until(self.tab, lambda: self.tab.evaluate(question), condition)
 
     def pictures(self) -> dict[str, str]:
         """A digest of what is seen in each place, once nothing moves any more."""
@@ -158,7 +155,7 @@ def test_a_click_in_the_matrix_goes_there(
 ) -> None:
     page = open_report()
     before = page.pictures()
-    box = page.tab.locator(".matrix-square canvas").bounding_box()
+    box = box_of(page.tab.locator(".matrix-square canvas"))
     page.tab.mouse.click(box["x"] + 9 + 0.75 * (box["width"] - 9), box["y"] + 0.3 * box["height"])
     page.wait("s.selection !== null")
     state = page.state()
@@ -215,21 +212,22 @@ def test_everything_is_in_view(
 ) -> None:
     page = open_report(*size, scheme)
     overflow = "[document.documentElement.scrollWidth, document.documentElement.scrollHeight]"
-    assert page.tab.evaluate(overflow) == list(size)
+    until(page.tab, lambda: page.tab.evaluate(overflow) == list(size), "all of it in the window")
     for place in [*PLACES.values(), ".clusters", ".curves canvas", ".transport"]:
-        box = page.tab.locator(place).first.bounding_box()
+        box = box_of(page.tab.locator(place).first)
         assert box["width"] > 60
         assert box["height"] > 25
         assert box["x"] + box["width"] <= size[0] + 1
         assert box["y"] + box["height"] <= size[1] + 1
-    assert page.tab.evaluate("document.documentElement.dataset.theme") == scheme
+    theme = "document.documentElement.dataset.theme"
+    assert page.tab.evaluate(theme) == scheme
     page.tab.get_by_role("button", name="Show the page").click()
-    assert page.tab.evaluate("document.documentElement.dataset.theme") != scheme
+    until(page.tab, lambda: page.tab.evaluate(theme) != scheme, "the other theme")
 
 
 def click_in_lanes(page: Page, seconds: float) -> None:
     """A click on the lane of primitives."""
-    box = page.tab.locator(".lanes canvas").bounding_box()
+    box = box_of(page.tab.locator(".lanes canvas"))
     gutter = 78
     x = gutter + seconds / page.state()["duration"] * (box["width"] - gutter)
     page.tab.mouse.click(box["x"] + x, box["y"] + 0.55 * box["height"])

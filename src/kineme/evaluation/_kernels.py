@@ -1,4 +1,4 @@
-"""Compiled dynamic time warping; its literal twin is in ``tests/naive.py``."""
+"""Compiled dynamic time warping; its literal twin is in ``tests/helpers/naive.py``."""
 
 from __future__ import annotations
 

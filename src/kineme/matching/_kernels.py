@@ -1,4 +1,4 @@
-"""Compiled loops of the search. Naive twins are in ``tests/naive.py``."""
+"""Compiled loops of the search. Naive twins are in ``tests/helpers/naive.py``."""
 
 from __future__ import annotations
 

@@ -45,8 +45,8 @@ print(time.process_time() - start, peak() - before)
 def measured(minutes: float) -> np.ndarray:
     """Seconds and kilobytes, in a process of its own."""
     command = [sys.executable, "-c", MEASURE, str(minutes)]
-    tests = str(Path(__file__).parents[2])
-    path = os.pathsep.join([tests, *filter(None, [os.environ.get("PYTHONPATH")])])
+    helpers = str(Path(__file__).parents[2] / "helpers")
+    path = os.pathsep.join([helpers, *filter(None, [os.environ.get("PYTHONPATH")])])
     env = {**os.environ, "PYTHONPATH": path}
     done = subprocess.run(command, env=env, capture_output=True, text=True, check=True)
     return np.array([float(each) for each in done.stdout.split()])

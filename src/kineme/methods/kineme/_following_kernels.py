@@ -1,7 +1,7 @@
 """Compiled loops that follow an end of an activity along the mean of its repetitions.
 
 Poses are those of an activity, ``path`` their length of path up to each frame
-and to the end. Naive twins are in ``tests/naive.py``.
+and to the end. Naive twins are in ``tests/helpers/naive.py``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Compiled loops that tell whether a segment repeats. Naive twins are in ``tests/naive.py``."""
+"""Compiled loops that tell whether a segment repeats; twins are in ``tests/helpers/naive.py``."""
 
 from __future__ import annotations
 

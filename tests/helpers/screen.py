@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import Any
 
+DESKTOP = {"width": 1280, "height": 720}
 GUTTER, RULER, GAP = 78, 22, 4  # pixels of the timeline, as in its lanes.ts
 SHARES = {"activity": 1.0, "primitive": 1.2, "label": 0.7}
 PATIENCE = 90.0  # seconds: on a slow machine compiling takes half of them
+NEXT_FRAME = "new Promise((done) => requestAnimationFrame(done))"
 PLACES = {"figure": ".place-viewer", "lanes": ".place-timeline", "matrix": ".place-matrix"}
 
 
@@ -26,19 +29,24 @@ class Screen:
 
         Asked from outside: the page's policy bars what Playwright would do inside.
         """
-        deadline = time.monotonic() + PATIENCE
-        question = f"(() => {{ const k = window.kineme; return {condition}; }})()"
-        while not self.page.evaluate(question):
-            if time.monotonic() > deadline:
-                raise TimeoutError(f"not within {PATIENCE} s: {condition}")
-            self.page.wait_for_timeout(20)
+        question = f"(() => {{ const k = window.kineme; return Boolean({condition}); }})()"
+        until(self.page, lambda: self.page.evaluate(question), condition)
 
     def opened(self) -> Screen:
         """The same, once a recording is there, segmented and drawn."""
         self.wait("k?.hasMotion && !k.finding")
-        for _ in range(2):  # lanes and figure are drawn in one picture, measured in the next
-            self.page.evaluate("new Promise((done) => requestAnimationFrame(done))")
+        self.drawn()
         return self
+
+    def drawn(self) -> None:
+        """Until what the state says is seen, too."""
+        for _ in range(2):  # lanes and figure are drawn in one picture, measured in the next
+            self.page.evaluate(NEXT_FRAME)
+
+    def previewed(self) -> None:
+        """Until the preview of the last choice is there, and the panel is not drawn anew."""
+        self.wait("k.other === 'Preview'")
+        self.page.locator(".preset-panel:not([aria-busy=true])").wait_for()
 
     def lane(self, level: str) -> list[dict[str, Any]]:
         return [row for row in self.state["segments"] if row["level"] == level]
@@ -53,9 +61,19 @@ class Screen:
         """What figure, lanes and matrix look like."""
         return {name: self.page.locator(place).screenshot() for name, place in PLACES.items()}
 
+    def changed(self, before: dict[str, bytes], *names: str) -> None:
+        """Until these places look different."""
+        for name in names:
+            place = self.page.locator(PLACES[name])
+            until(
+                self.page,
+                lambda place=place, was=before[name]: place.screenshot() != was,
+                f"another picture of {name}",
+            )
+
     def point(self, seconds: float, level: str) -> tuple[float, float]:
         """Where a moment is on a lane, while all of the recording is shown."""
-        box = self.page.locator(".lanes canvas").bounding_box()
+        box = box_of(self.page.locator(".lanes canvas"))
         duration = self.lane(level)[-1]["stop_s"]
         room = (box["height"] - RULER - GAP * len(SHARES)) / sum(SHARES.values())
         top = RULER
@@ -92,6 +110,47 @@ class Screen:
         unlimited = {"downloadThroughput": -1, "uploadThroughput": -1, "offline": False}
         conditions = {"latency": milliseconds, **unlimited}
         self._line.send("Network.emulateNetworkConditions", conditions)
+
+
+def until(
+    page: Any, holds: Callable[[], Any], what: str = "what was to be", seconds: float | None = None
+) -> None:
+    """Until a question has yes for an answer; TimeoutError, which says what was waited for."""
+    seconds = PATIENCE if seconds is None else seconds
+    deadline = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > deadline:
+            raise TimeoutError(f"not within {seconds} s: {what}")
+        page.wait_for_timeout(20)
+
+
+def box_of(place: Any) -> dict[str, float]:
+    """Where something is, in pixels, once it is seen and does not move.
+
+    A panel that is drawn anew has no place meanwhile, or another one a frame later.
+    """
+    boxes: list[Any] = [None]
+
+    def rests() -> bool:
+        place.page.evaluate(NEXT_FRAME)
+        boxes.append(place.bounding_box())
+        return boxes[-1] is not None and boxes[-1] == boxes[-2]
+
+    until(place.page, rests, f"{place} at rest")
+    return boxes[-1]
+
+
+def picture_of(place: Any) -> bytes:
+    """What something looks like once it does not change any more."""
+    pictures = [place.screenshot()]
+
+    def rests() -> bool:
+        place.page.evaluate(NEXT_FRAME)
+        pictures.append(place.screenshot())
+        return pictures[-1] == pictures[-2]
+
+    until(place.page, rests, f"{place} at rest")
+    return pictures[-1]
 
 
 def two_tabs(new_tab: Any, address: str) -> tuple[Screen, Screen]:

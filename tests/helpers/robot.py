@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import httpx2 as httpx
-from screen import Screen
-from studio_server import StudioServer
 
 import kineme
 from kineme.studio.folder import file_id
+from screen import Screen
+from studio_server import StudioServer
 
 Rows = list[dict[str, Any]]
 EDITS = ("split", "delete", "merge", "nudge", "name", "cluster name", "check", "kind", "segment")

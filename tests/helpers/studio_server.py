@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import Self
 
+import kineme
 from kineme.studio.folder import file_id
 
 ADDRESS = re.compile(r"http://127\.0\.0\.1:(\d+)/\?token=\S+")
@@ -54,3 +55,8 @@ class StudioServer:
     def address_of(self, *recordings: Path) -> str:
         """The address that opens recordings of the folder."""
         return self.address + "".join(f"&open={file_id(path)}" for path in recordings)
+
+
+def saved_table(recording: Path) -> kineme.Segmentation:
+    """What the server has written beside a recording."""
+    return kineme.read_segments(recording.with_suffix(".segments.json"))

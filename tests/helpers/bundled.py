@@ -1,0 +1,25 @@
+"""The bundled recording in a folder of its own: as it is, or over and over."""
+
+from __future__ import annotations
+
+import shutil
+from itertools import count
+from pathlib import Path
+
+import kineme
+
+NUMBERS = count(1)
+
+
+def copy_of_bundled(folder: Path) -> Path:
+    """A copy under a new name."""
+    return Path(shutil.copy(kineme.bundled_recording(), folder / f"take_{next(NUMBERS)}.bvh"))
+
+
+def write_repeated(path: Path, n_frames: int) -> Path:
+    """A recording with so many frames, from the start again where the bundled one ends."""
+    head, motion = kineme.bundled_recording().read_text().split("MOTION\n")
+    _, frame_time, *frames = motion.strip().split("\n")
+    lines = [frames[i % len(frames)] for i in range(n_frames)]
+    path.write_text("\n".join([head + "MOTION", f"Frames: {n_frames}", frame_time, *lines, ""]))
+    return path
