@@ -80,7 +80,7 @@ def cycles(
         bool,
         typer.Option(
             "--ends",
-            help="Count the first and last repetition of an activity, too.",
+            help="Count first and last repetitions, too.",
             rich_help_panel=MEASURED,
         ),
     ] = False,
@@ -109,6 +109,7 @@ def cycles(
 
     Borders are moved to equal phase. Several recordings are measured together.
     """
+    from kineme.cycles import write_cycles
     from kineme.cycles.measure import cycles as measured
 
     request = Request.of(preset, reading=reading)
@@ -133,7 +134,7 @@ def cycles(
             )
             found = _excluded(found, exclude or [])
             if output is not None:
-                found.write(output, ends=ends)
+                write_cycles(found, output, ends=ends)
             if plot is not None:
                 _draw(found, plot, ends=ends)
             if compare is not None:
@@ -212,11 +213,12 @@ def _draw(cycles: Cycles, path: Path, *, ends: bool) -> None:
     from matplotlib.figure import Figure
 
     from kineme._files import atomic_write
+    from kineme.cycles import plot_curves
 
     n = len(cycles.channels)
     figure = Figure(figsize=(6, 1 + 2.5 * n), layout="constrained")
     for channel, ax in zip(cycles.channels, figure.subplots(n, squeeze=False)[:, 0], strict=True):
-        cycles.plot(channel, ends=ends, ax=ax)
+        plot_curves(cycles, channel, ends=ends, ax=ax)
     with atomic_write(path) as draft:
         figure.savefig(draft)
 

@@ -18,6 +18,7 @@ from kineme.cycles.events import Events, foot_events, gait
 from kineme.cycles.export import write_cycles, write_table
 from kineme.cycles.landmarks import landmarks
 from kineme.cycles.measure import cycles
+from kineme.cycles.picture import plot_curves
 from kineme.cycles.sessions import compare_curves, compare_sessions
 from kineme.cycles.table import Cycles
 
@@ -35,6 +36,7 @@ __all__ = [
     "foot_events",
     "gait",
     "landmarks",
+    "plot_curves",
     "stands_from_force",
     "stands_from_positions",
     "swings_from_gyroscope",

@@ -170,6 +170,8 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     if not points:
         raise ParameterError("a foot needs one point at least: its heel, its toe or its ankle")
     paths = [_columns(each, "points", 3) for each in points]
+    if len({len(path) for path in paths}) > 1:
+        raise ParameterError("the points of a foot must be of the same frames")
     stands = np.zeros(len(paths[0]), bool)
     for path in paths:
         low = path[:, 1] < np.percentile(path[:, 1], LOWEST) + LOW

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def draw_curves(
+def plot_curves(
     cycles: Cycles, channel: str, *, ends: bool = False, ax: Axes | None = None
 ) -> Axes:
     """Mean and standard deviation of a channel over the cycle, a line for each group.
@@ -37,6 +37,16 @@ def draw_curves(
     ------
     ParameterError
         There is no such channel.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import plot_curves
+    >>> from kineme.datasets import bundled_truth
+    >>> from matplotlib.figure import Figure
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
+    >>> axes = plot_curves(cycles, "knee_l", ax=Figure().add_subplot())
     """
     if channel not in cycles.channels:
         raise ParameterError(f"no channel {channel!r}; there are {', '.join(cycles.channels)}")

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
-from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,7 +19,6 @@ from kineme.errors import MissingDependencyError, ParameterError
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from matplotlib.axes import Axes
 
 Floats = NDArray[np.float64]
 Columns = dict[str, NDArray[Any]]
@@ -388,38 +386,6 @@ class Cycles:
                 },
             },
         )
-
-    def write(self, path: str | PathLike[str], *, ends: bool = False) -> None:
-        """Write the table, the summary and the curves; see `kineme.cycles.write_cycles`.
-
-        Parameters
-        ----------
-        path : path-like
-        ends : bool
-            Whether the first and the last cycle of an activity count in means as well.
-        """
-        from kineme.cycles.export import write_cycles
-
-        write_cycles(self, path, ends=ends)
-
-    def plot(self, channel: str, *, ends: bool = False, ax: Axes | None = None) -> Axes:
-        """The mean curve of a channel with its deviation, a line for each group.
-
-        Parameters
-        ----------
-        channel : str
-        ends : bool
-            Whether the first and the last cycle of an activity count as well.
-        ax : Axes, optional
-            Where to draw; Axes of a new figure of pyplot by default.
-
-        Returns
-        -------
-        Axes
-        """
-        from kineme.cycles.picture import draw_curves
-
-        return draw_curves(self, channel, ends=ends, ax=ax)
 
 
 def _described(values: Floats, measure: str) -> tuple[float, ...]:
