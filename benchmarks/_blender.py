@@ -72,6 +72,8 @@ def exported(job: dict[str, Any]) -> None:
     options = job.get("options", {})
     if job["path"].endswith(".fbx"):
         bpy.ops.export_scene.fbx(filepath=job["path"], **options)
+    elif job["path"].endswith(".usdc"):
+        bpy.ops.wm.usd_export(filepath=job["path"], **options)
     else:
         bpy.ops.export_scene.gltf(filepath=job["path"], **options)
 

@@ -10,6 +10,7 @@ import json
 import os
 import shutil
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +20,7 @@ import _fbx
 import kineme
 from kineme import formats, labels
 from kineme.datasets import bundled_recording, bundled_truth
+from kineme.errors import MissingDependencyError
 from kineme.evaluation.annotations import is_annotations, read_trials
 from kineme.formats.listing import recordings_in
 from kineme.labels import json_table
@@ -111,7 +113,8 @@ def _recordings(root: Path, motion: Motion, _: Segmentation) -> None:
     folder = _made(root / "recordings")
     for known in formats.supported_formats():
         for suffix in known.suffixes if known.write else ():
-            formats.write(motion[:40], folder / f"motion{suffix}")
+            with suppress(MissingDependencyError):
+                formats.write(motion[:40], folder / f"motion{suffix}")
     rng = np.random.default_rng(0)
     signals = kineme.Signals(rng.normal(size=(80, 3)), 50, ["a", "b", "c"])
     for suffix in (".csv", ".parquet"):

@@ -1,4 +1,4 @@
-"""FBX and GLB in Blender and out of it: joints where Blender has them, whatever it writes.
+"""FBX, GLB and USD out of Blender and in it: joints where Blender has them.
 
     python -m benchmarks scenes --bpy PYTHON [--record]
 
@@ -6,9 +6,9 @@ PYTHON is one that has Blender as a package (``pip install bpy``, 5.0 for Python
 an older numpy, so that it gets an environment of its own), or is named by ``KINEME_BPY``. Blender
 imports the bundled recording and those of KINEME_DATA, exports them with both up axes, with axes
 of bones turned, with three orders of rotations, with ends of limbs or without, with two takes and
-with two characters beside a prop, and as GLB. kineme reads what it wrote. GLB files that kineme
-writes Blender reads; where node has Khronos' validator (``npm install gltf-validator`` in the
-folder ``--validator``), that finds no error in them.
+with two characters beside a prop, and as GLB and USD (where ``usd-core`` is installed). kineme
+reads what it wrote. GLB and USD files that kineme writes Blender reads; where node has Khronos'
+validator (``npm install gltf-validator`` in the folder ``--validator``), that finds no error.
 
 Promises: joints within 0.01 mm and 0.01 degrees of Blender's own, in every take; no errors.
 """
@@ -21,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 import warnings
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -54,6 +55,8 @@ WAYS: dict[str, dict[str, Any]] = {
     "yxz": {"rotations": "YXZ"},
     "glb": {"options": {"export_frame_range": True}},
 }
+if find_spec("pxr"):
+    WAYS["usdc"] = {"options": {"export_animation": True}}
 
 
 def main() -> int:
@@ -72,9 +75,11 @@ def main() -> int:
         jobs += import_jobs(place, sources)
         blender(given.bpy, place, jobs)
         failed = False
-        for suffix in (".fbx", ".glb"):
+        for suffix in (".fbx", ".glb", ".usdc"):
             worst = np.zeros(2)
             of_format = [job for job in jobs if job["path"].endswith(suffix)]
+            if not of_format:
+                continue
             for job in of_format:
                 worst = np.maximum(worst, compared(job))
             away, turned = map(float, worst)
@@ -84,7 +89,8 @@ def main() -> int:
             record(f"scenes{suffix}.mm", round(away, 5), unit="mm")
             record(f"scenes{suffix}.degrees", round(turned, 5), unit="degrees")
             failed |= away > MOST_MM or turned > MOST_DEGREES
-        ours = [job["path"] for job in jobs if job["task"] == "read"]
+        read = [job["path"] for job in jobs if job["task"] == "read"]
+        ours = [path for path in read if path.endswith(".glb")]
         if given.validator:
             errors = validated(given.validator, ours)
             print(f"Khronos' validator, {len(ours)} files: errors {verdict(errors, 0)}: {errors}")
@@ -99,7 +105,7 @@ def export_jobs(place: Path, sources: list[Path]) -> list[dict[str, Any]]:
     for source in sources:
         for name, how in WAYS.items():
             stem = place / f"{source.stem} {name}"
-            suffix = ".glb" if name == "glb" else ".fbx"
+            suffix = f".{name}" if name in ("glb", "usdc") else ".fbx"
             usual = USUAL if suffix == ".fbx" else {}
             jobs.append(
                 {
@@ -116,22 +122,23 @@ def export_jobs(place: Path, sources: list[Path]) -> list[dict[str, Any]]:
 
 
 def import_jobs(place: Path, sources: list[Path]) -> list[dict[str, Any]]:
-    """GLB files that kineme writes of all recordings, for Blender to read."""
+    """Files that kineme writes of all recordings, for Blender to read."""
     jobs = []
     for source in sources:
         motion = read_motion(source)[:FRAMES]
-        path = place / f"{source.stem} by kineme.glb"
-        kineme.write(motion, path)
-        jobs.append(
-            {
-                "task": "read",
-                "path": str(path),
-                "poses": str(path.with_suffix(".npz")),
-                "frames": motion.n_frames,
-                "fps": motion.fps,
-                "first": 0,
-            }
-        )
+        for suffix in (".glb", ".usdc") if "usdc" in WAYS else (".glb",):
+            path = place / f"{source.stem} by kineme{suffix}"
+            kineme.write(motion, path)
+            jobs.append(
+                {
+                    "task": "read",
+                    "path": str(path),
+                    "poses": f"{path}.npz",
+                    "frames": motion.n_frames,
+                    "fps": motion.fps,
+                    "first": 0,
+                }
+            )
     return jobs
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import kineme
-from _fbx import CONSTANT, CUBIC, Keys, Scene, as_binary, as_text, node, walker
+from _fbx import CONSTANT, CUBIC, Keys, Name, Scene, as_binary, as_text, node, walker
 from kineme.errors import KinemeError, KinemeWarning, ReadError, SeveralPeopleError
 from kineme.formats import read_quietly
 from kineme.formats.options import ReadOptions
@@ -403,6 +403,19 @@ def test_a_skeleton_of_nulls(tmp_path: Path) -> None:
     top = scene.model("Reference", 0, "Null")
     hips = scene.model("Hips", top, "Null", LclTranslation=[0.0, 90.0, 0.0])
     scene.model("Head", hips, "Null", LclTranslation=[0.0, 60.0, 0.0])
+    layer = scene.layer(scene.take("take", 0, 1))
+    scene.animate(layer, hips, "R", X=Keys([0, 1], [0, 90]))
+    assert motion_of(scene.binary(), tmp_path).skeleton.names == ("Hips", "Head")
+
+
+def test_meshes_that_carry_a_skin_are_bones(tmp_path: Path) -> None:
+    """As 3ds Max has them, whose bones are boxes."""
+    scene = Scene()
+    hips = scene.model("Hips", 0, "Mesh", LclTranslation=[0.0, 90.0, 0.0])
+    head = scene.model("Head", hips, "Mesh", LclTranslation=[0.0, 60.0, 0.0])
+    scene.model("Hat", head, "Mesh")
+    for bone in (hips, head):
+        scene.link("OO", bone, scene._object("Deformer", Name("", "SubDeformer"), "Cluster", {}))
     layer = scene.layer(scene.take("take", 0, 1))
     scene.animate(layer, hips, "R", X=Keys([0, 1], [0, 90]))
     assert motion_of(scene.binary(), tmp_path).skeleton.names == ("Hips", "Head")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -110,14 +111,16 @@ def test_formats_are_listed() -> None:
 
 
 def test_one_recording_has_the_same_segments_in_every_format(tmp_path: Path) -> None:
-    """Borders within 0.05 s, clusters and counts the same: AMC, BVH, FBX, GLB."""
+    """Borders within 0.05 s, clusters and counts the same: AMC, BVH, FBX, GLB, USD."""
     motion = read_motion(bundled_recording())
     (tmp_path / "a.fbx").write_bytes(_fbx.of_motion(motion).binary())
-    for suffix in (".amc", ".bvh", ".glb"):
+    written = [".amc", ".bvh", ".glb", *([".usdc"] if find_spec("pxr") else [])]
+    for suffix in written:
         write(motion, tmp_path / f"a{suffix}")
     expected = segment(read_motion(tmp_path / "a.bvh", unit="cm"))
-    for suffix in (".amc", ".fbx", ".glb"):
-        found = segment(read_motion(tmp_path / f"a{suffix}"))
+    for suffix in (".fbx", *written):
+        unit = "cm" if suffix == ".bvh" else None
+        found = segment(read_motion(tmp_path / f"a{suffix}", unit=unit))
         for ours, theirs in (
             (expected.activities, found.activities),
             (expected.primitives, found.primitives),

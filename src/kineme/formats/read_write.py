@@ -62,8 +62,8 @@ def read(
     confidence : float, optional
         From which a keypoint counts as seen, in place of its format's limit.
     take : str or int, optional
-        Which of several animations in an FBX or glTF, by name or number; the first by default,
-        with a warning.
+        Which of several animations in a scene (FBX, glTF, USD), by name or number; the first by
+        default, with a warning.
 
     Returns
     -------

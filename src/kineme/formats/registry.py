@@ -95,7 +95,9 @@ _UNPACK = "unpack it first"
 INSTEAD = {
     **dict.fromkeys((".mvnx", ".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
     **dict.fromkeys((".xlsx", ".xls", ".ods"), "save it as CSV"),
-    **dict.fromkeys((".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz"), _UNPACK),
+    **dict.fromkeys(
+        (".usdz", ".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz"), _UNPACK
+    ),
 }
 """What to do with files that people try, by suffix."""
 
@@ -120,6 +122,7 @@ FORMATS: Registry[Format] = Registry(
         "skeletons.amc:SKELETON",
         "scenes.fbx:FORMAT",
         "scenes.gltf:FORMAT",
+        "scenes.usd:FORMAT",
     ),
     newest_first=True,
 )

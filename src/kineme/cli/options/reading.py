@@ -38,7 +38,7 @@ Take = Annotated[
     str | None,
     typer.Option(
         metavar="NAME",
-        help="Which of several animations in an FBX or glTF, by name or number.",
+        help="Which of several animations in an FBX, glTF or USD, by name or number.",
         rich_help_panel=UNSAID,
     ),
 ]

@@ -1,1 +1,1 @@
-"""Formats of whole scenes, with characters, props and several animations: FBX, glTF."""
+"""Formats of whole scenes, with characters, props and several animations: FBX, glTF, USD."""

@@ -22,7 +22,7 @@ from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames,
 from kineme.formats.scenes.characters import character_of, choose_take
 from kineme.formats.scenes.fbx_curves import SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx
-from kineme.formats.scenes.fbx_scene import BONES, FBXScene, Pose, Take
+from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
 from kineme.formats.scenes.fbx_text import TEXT
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT
 from kineme.formats.units import up_rotation
@@ -57,9 +57,12 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of a character in an FBX file."""
     version, root = parse_fbx(content)
     scene = FBXScene(content, root)
-    bones = {model.number for model in scene.models if model.kind in BONES}
     moved = [scene.moved(take) for take in scene.takes]
-    lively = [i for i, models in enumerate(moved) if models & bones or (models and not bones)]
+    lively = [
+        number
+        for number, models in enumerate(moved)
+        if models & scene.bones or (models and not scene.bones)
+    ]
     number, notes = choose_take(
         content, unique(take.name for take in scene.takes), lively, options.take
     )

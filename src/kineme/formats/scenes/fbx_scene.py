@@ -111,6 +111,7 @@ class FBXScene:
         for group in root.all("Connections"):
             for link in group.children:
                 self._connect(link)
+        self.bones = self._bones()
         self.models = self._models()
         self.takes = self._takes(root)
 
@@ -123,6 +124,16 @@ class FBXScene:
         elif link.text(0) == "OP":
             self._driven.setdefault(part, []).append((whole, link.text(3)))
             self._driving.setdefault(whole, []).append((part, link.text(3)))
+
+    def _bones(self) -> set[int]:
+        """The numbers of the models that are bones: by their kind, or as a skin hangs on them."""
+        bones: set[int] = set()
+        for number, node in self.objects.items():
+            if node.name == "Model" and node.text(2) in BONES:
+                bones.add(number)
+            elif node.name == "Deformer" and node.text(2) == "Cluster":
+                bones |= {part for part in self._parts.get(number, ()) if self._is(part, "Model")}
+        return bones
 
     def _models(self) -> list[Model]:
         """All models, parents before their children; those in a circle are left out."""
@@ -172,7 +183,7 @@ class FBXScene:
             SceneNode(
                 model.name,
                 model.parent,
-                model.kind in BONES,
+                model.number in self.bones,
                 model.kind in GEOMETRY,
                 model.number in moved,
                 is_end(model.name),

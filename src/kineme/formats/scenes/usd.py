@@ -1,0 +1,235 @@
+"""USD: skeletons and their animations (UsdSkel) in ``.usda``, ``.usdc`` and ``.usd``.
+
+What is read is one skeleton and one of the animations that fit it: the one bound to it first, then
+others that move joints of its. Unit and up axis are the stage's, and so is the rate: the time codes
+in a second, over those between two samples. Between samples USD itself interpolates, which is what
+``fps=`` asks it for. Joints that the animation does not move are as at rest. Needs ``usd-core``.
+
+Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.errors import MissingDependencyError
+from kineme.formats.files import FileContent, unique
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
+from kineme.formats.scenes.assembly import (
+    Transform,
+    assemble,
+    claim_frames,
+    orthogonal,
+    quaternions,
+)
+from kineme.formats.scenes.characters import SceneNode, character_of, choose_take, is_end
+from kineme.formats.scenes.usd_writer import END_SITES, write_usd
+from kineme.formats.units import up_rotation
+from kineme.recordings import Motion, Note
+
+Floats = NDArray[np.float64]
+
+HEADS = (b"#usda ", b"PXR-USDC")
+_EVEN = 0.02  # share of their median by which steps between samples may differ from it
+_ROUNDED = 0.1  # of a frame, by which the last sample may miss it
+_MOST_FRAMES = 1e12
+
+
+def read_usd(content: FileContent, options: ReadOptions) -> Motion:
+    """The motion of a skeleton in a USD file."""
+    try:
+        from pxr import Tf
+    except ImportError as error:
+        raise MissingDependencyError("usd-core", "usd") from error
+    try:
+        return _read(content, options)
+    except Tf.ErrorException as error:
+        raise content.error("is no whole USD file: truncated or damaged") from error
+
+
+def _read(content: FileContent, options: ReadOptions) -> Motion:
+    from pxr import Usd, UsdGeom, UsdSkel
+
+    stage = Usd.Stage.Open(str(content.path))
+    skeletons = [_Skeleton(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Skeleton)]
+    nodes, homes = _nodes(skeletons)
+    character = character_of(content, nodes, options.person)
+    skeleton, first = homes[character.joints[0]]
+    animations = [
+        UsdSkel.Animation(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Animation)
+    ]
+    fitting = skeleton.fitting(animations)
+    names = unique(each.GetPrim().GetName() for each in fitting)
+    number, notes = choose_take(content, names, range(len(fitting)), options.take)
+    fps, codes, rated = _frames(content, stage, fitting[number], len(nodes), options)
+    pose = skeleton.pose(fitting[number], codes)
+    up = options.up or ("z" if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z else "y")
+    carrier = _carrier(UsdGeom.Xformable(skeleton.prim), codes)
+    return assemble(
+        content,
+        nodes,
+        character.joints,
+        lambda node: carrier if node < first else pose[node - first],
+        len(codes),
+        fps,
+        unit=options.unit or UsdGeom.GetStageMetersPerUnit(stage),
+        turn=up_rotation(up),
+        provenance=content.provenance("USD", [*notes, *character.notes, *rated]),
+    )
+
+
+class _Skeleton:
+    """A skeleton of a stage."""
+
+    def __init__(self, prim: Any) -> None:
+        from pxr import UsdSkel
+
+        self.prim = prim
+        held = UsdSkel.Skeleton(prim)
+        self.joints = list(map(str, held.GetJointsAttr().Get() or ()))
+        said = list(map(str, held.GetJointNamesAttr().Get() or ()))
+        usual = [joint.rpartition("/")[2] for joint in self.joints]
+        self.names = said if len(said) == len(usual) else usual
+        self.parents = list(UsdSkel.Topology(self.joints).GetParentIndices())
+        self.ends = prim.GetCustomDataByKey(END_SITES)
+        self.bound = UsdSkel.BindingAPI(prim).GetInheritedAnimationSource()
+        rest = held.GetRestTransformsAttr().Get()
+        whole = rest is not None and len(rest) == len(self.joints)
+        self.rest = np.array(rest, np.float64) if whole else np.tile(np.eye(4), (len(usual), 1, 1))
+
+    def is_end(self, j: int) -> bool:
+        if self.ends is not None:
+            return self.names[j] in list(self.ends)
+        return is_end(self.names[j])
+
+    def fitting(self, animations: Sequence[Any]) -> list[Any]:
+        """The animations that move joints of it, the one bound to it first."""
+        own = set(self.joints)
+        found = [each for each in animations if own & set(map(str, _joints(each)))]
+        return sorted(found, key=lambda each: each.GetPrim() != self.bound)
+
+    def pose(self, animation: Any, codes: Floats) -> list[Transform]:
+        """The transform of each joint at these time codes."""
+        moved = list(map(str, _joints(animation)))
+        places = {joint: number for number, joint in enumerate(moved)}
+        shifts = _values(animation.GetTranslationsAttr(), codes, len(moved), 3)
+        turns = _values(animation.GetRotationsAttr(), codes, len(moved), 4)
+        scales = _values(animation.GetScalesAttr(), codes, len(moved), 3)
+        found = []
+        for j, joint in enumerate(self.joints):
+            rest = _transform(self.rest[j][None])
+            shift, turn, scale = (part[0] for part in rest[:3])
+            if (at := places.get(joint)) is not None:
+                shift = shift if shifts is None else shifts[:, at]
+                turn = turn if turns is None else _unit(turns[:, at])
+                scale = scale if scales is None else scales[:, at]
+            found.append(Transform(shift, turn, scale))
+        return found
+
+
+def _nodes(
+    skeletons: Sequence[_Skeleton],
+) -> tuple[list[SceneNode], dict[int, tuple[_Skeleton, int]]]:
+    """All skeletons as nodes, each below what carries it; for each node whose it is.
+
+    That is its skeleton, and the node of its first joint.
+    """
+    nodes: list[SceneNode] = []
+    homes: dict[int, tuple[_Skeleton, int]] = {}
+    for skeleton in skeletons:
+        carrier = len(nodes)
+        name = skeleton.prim.GetParent().GetName() or skeleton.prim.GetName()
+        nodes.append(SceneNode(name, -1, bone=False, geometry=False, animated=False))
+        for j, (joint, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
+            homes[len(nodes)] = skeleton, carrier + 1
+            place = carrier if parent < 0 else carrier + 1 + parent
+            bound = bool(skeleton.bound)
+            nodes.append(SceneNode(joint, place, True, False, bound, skeleton.is_end(j)))
+    return nodes, homes
+
+
+def _frames(
+    content: FileContent, stage: Any, animation: Any, joints: int, options: ReadOptions
+) -> tuple[float, Floats, list[str]]:
+    """Frames per second, the time code of each frame, and what to say of them."""
+    attributes = (
+        animation.GetTranslationsAttr(), animation.GetRotationsAttr(), animation.GetScalesAttr(),
+    )  # fmt: skip
+    samples = max((each.GetTimeSamples() for each in attributes), key=len)
+    a_second = stage.GetTimeCodesPerSecond()
+    times = np.array(samples or [0.0], np.float64)
+    steps = np.diff(times)
+    usual = float(np.median(steps)) if len(steps) else 1.0
+    notes: list[str] = []
+    if options.fps is not None:
+        fps = options.fps
+        notes.append(f"sampled {fps:g} times a second, as asked for")
+    elif len(steps) and np.abs(steps / usual - 1).max() > _EVEN:
+        fps = a_second
+        remark = f"its samples are not evenly spaced: one for each time code, {fps:g} Hz"
+        notes.append(Note(remark, "warning"))
+    else:
+        fps = a_second / usual
+    if not (np.isfinite(times).all() and 0 < fps < np.inf and a_second > 0):
+        raise content.error("tells no time that could be: give fps= (--fps)")
+    step = a_second / fps
+    count = min((times[-1] - times[0]) / step + 1 + _ROUNDED, _MOST_FRAMES)
+    claim_frames(content, joints, int(count))
+    return fps, times[0] + step * np.arange(int(count)), notes
+
+
+def _joints(animation: Any) -> Sequence[Any]:
+    return animation.GetJointsAttr().Get() or ()
+
+
+def _values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | None:
+    """(frames, joints, width) at these time codes; None where there are none, or not so many."""
+    first = attribute.Get(codes[0])
+    if first is None or len(first) != joints:
+        return None
+    values = np.empty((len(codes), joints, width))
+    for frame, code in enumerate(codes.tolist()):
+        found = attribute.Get(code)
+        if found is None or len(found) != joints:
+            return None
+        values[frame] = np.asarray(found)
+    return np.roll(values, 1, axis=-1) if width == 4 else values
+
+
+def _unit(turns: Floats) -> Floats:
+    """Quaternions at length one; where they have none, no rotation."""
+    norm = np.linalg.norm(turns, axis=-1, keepdims=True)
+    return np.where(norm > 0, turns / np.where(norm > 0, norm, 1.0), rot.IDENTITY)
+
+
+def _carrier(xformable: Any, codes: Floats) -> Transform:
+    """What carries a skeleton, in the world."""
+    matrices = np.array([xformable.ComputeLocalToWorldTransform(code) for code in codes.tolist()])
+    same = np.abs(matrices - matrices[0]).max() == 0
+    found = _transform(matrices[:1] if same else matrices)
+    shift, turn, scale = (part[0] if same else part for part in found[:3])
+    return Transform(shift, turn, scale)
+
+
+def _transform(matrices: Floats) -> Transform:
+    """Of matrices (frames, 4, 4) that multiply rows, as USD's do."""
+    axes = matrices[:, :3, :3].transpose(0, 2, 1)
+    scale = np.linalg.norm(axes, axis=1)
+    scale = np.where(np.linalg.det(axes)[:, None] < 0, -scale, scale)
+    turns = quaternions(orthogonal(axes / np.where(scale == 0, 1, scale)[:, None, :]))
+    return Transform(matrices[:, 3, :3], turns, scale)
+
+
+FORMAT = Format(
+    "USD",
+    (".usda", ".usdc", ".usd"),
+    lambda head: head.startswith(HEADS),
+    read_usd,
+    write_usd,
+)

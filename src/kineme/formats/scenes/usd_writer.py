@@ -1,0 +1,88 @@
+"""Writing USD: a skeleton and its animation (UsdSkel), ``.usda``, ``.usdc`` or ``.usd``.
+
+Lengths are metres, y is up; a time code is a frame, and so many of them are in a second as the
+motion has frames. Joints are at their offsets at rest. Their names as they are stand in
+``jointNames``; in paths they have letters, digits and ``_`` only. End sites are named in the custom
+data of the skeleton. Needs ``usd-core``.
+
+Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._files import atomic_write
+from kineme.errors import MissingDependencyError, WriteError
+from kineme.formats.files import spelled, unique
+from kineme.recordings import Motion
+from kineme.recordings.kinematics import local_translations
+
+Floats = NDArray[np.float64]
+
+END_SITES = "kineme:endSites"
+
+
+def write_usd(motion: Motion, path: Path) -> None:
+    """Leave ``motion`` in a USD file."""
+    if motion.rotations is None:
+        raise WriteError(
+            path,
+            "a USD needs rotations, and this motion has positions only: write .trc, .csv or .npz",
+        )
+    try:
+        from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
+    except ImportError as error:
+        raise MissingDependencyError("usd-core", "usd") from error
+    skeleton = motion.skeleton
+    names = spelled(path, skeleton.names, str.strip)
+    words = unique(Tf.MakeValidIdentifier(name) for name in names)
+    joints: list[str] = []
+    for word, parent in zip(words, skeleton.parents, strict=True):
+        joints.append(word if parent < 0 else f"{joints[parent]}/{word}")
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
+    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+    stage.SetTimeCodesPerSecond(motion.fps)
+    stage.SetFramesPerSecond(motion.fps)
+    stage.SetStartTimeCode(0)
+    stage.SetEndTimeCode(motion.n_frames - 1)
+    top = Sdf.Path(f"/{Tf.MakeValidIdentifier(path.stem)}")
+    root = UsdSkel.Root.Define(stage, top)
+    stage.SetDefaultPrim(root.GetPrim())
+    held = UsdSkel.Skeleton.Define(stage, top.AppendChild("Skeleton"))
+    places = np.array(skeleton.offsets)
+    for j, parent in enumerate(skeleton.parents):
+        if parent >= 0:
+            places[j] += places[parent]
+    held.CreateJointsAttr(joints)
+    held.CreateJointNamesAttr(names)
+    held.CreateRestTransformsAttr([_shift(Gf, offset) for offset in skeleton.offsets])
+    held.CreateBindTransformsAttr([_shift(Gf, place) for place in places])
+    ends = [names[j] for j in sorted(skeleton.end_sites)]
+    held.GetPrim().SetCustomDataByKey(END_SITES, Vt.StringArray(ends))
+    animation = UsdSkel.Animation.Define(stage, held.GetPath().AppendChild("Animation"))
+    animation.CreateJointsAttr(joints)
+    animation.CreateScalesAttr(Vt.Vec3hArray(len(joints), Gf.Vec3h(1, 1, 1)))
+    shifts = local_translations(skeleton, motion.positions, motion.rotations).astype("f4")
+    turns = np.roll(motion.rotations, -1, axis=-1).astype("f4")  # as USD stores them, w last
+    moved, turned = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
+    for frame in range(motion.n_frames):
+        moved.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)
+        turned.Set(Vt.QuatfArray.FromNumpy(np.ascontiguousarray(turns[frame])), frame)
+    binding = UsdSkel.BindingAPI.Apply(held.GetPrim())
+    binding.CreateAnimationSourceRel().SetTargets([animation.GetPath()])
+    with atomic_write(path) as draft:
+        try:
+            stage.Export(str(draft), addSourceFileComment=False)
+        except Tf.ErrorException as error:
+            raise WriteError(path, "cannot be written as USD") from error
+
+
+def _shift(gf: Any, offset: Floats) -> Any:
+    """The matrix of a translation."""
+    return gf.Matrix4d().SetTranslate(gf.Vec3d(*offset.tolist()))

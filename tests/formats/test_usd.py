@@ -1,0 +1,147 @@
+"""USD: what is written is read again, as are other stages."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.errors import ReadError, SeveralPeopleError, WriteError
+from kineme.formats import read_motion, read_quietly, write
+from kineme.recordings import Motion, Skeleton
+from kineme.recordings.kinematics import world_rotations
+
+pytest.importorskip("pxr")
+
+from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
+
+TURN = Gf.Quatf(0.5**0.5, 0, 0, 0.5**0.5)  # by 90 degrees about z; w first
+NONE = Gf.Quatf(1, 0, 0, 0)
+
+
+@pytest.mark.parametrize("suffix", [".usda", ".usdc", ".usd"])
+def test_what_is_written_is_read_again(tmp_path: Path, suffix: str) -> None:
+    motion = read_motion(kineme.bundled_recording())[:90]
+    write(motion, tmp_path / f"a{suffix}")
+    again = read_motion(tmp_path / f"a{suffix}")
+    assert again.skeleton.names == motion.skeleton.names
+    assert again.skeleton.end_sites == motion.skeleton.end_sites
+    assert np.abs(again.positions - motion.positions).max() < 1e-5
+    assert again.fps == motion.fps
+    ours = world_rotations(motion.skeleton, motion.rotations)
+    theirs = world_rotations(again.skeleton, again.rotations)
+    assert np.abs(np.einsum("fjc,fjc->fj", ours, theirs)).min() > 1 - 1e-6
+    assert again.provenance.format == "USD"
+
+
+def test_names_that_paths_cannot_have_and_other_rates(tmp_path: Path) -> None:
+    skeleton = Skeleton(("rig:Hips", "Left Leg", "Left_Leg", "é"), (-1, 0, 0, 0), np.eye(4, 3))
+    rotations = np.tile([1.0, 0, 0, 0], (5, 4, 1))
+    for fps in (29.97, 120.0):
+        motion = Motion.from_rotations(skeleton, rotations, fps, np.arange(15).reshape(5, 3))
+        write(motion, tmp_path / "a.usda")
+        again = read_motion(tmp_path / "a.usda")
+        assert again.skeleton.names == skeleton.names
+        assert again.skeleton.parents == skeleton.parents
+        assert again.fps == pytest.approx(fps)
+        assert np.abs(again.positions - motion.positions).max() < 1e-5
+    with pytest.raises(WriteError, match="a USD needs rotations"):
+        write(Motion(skeleton, motion.positions, 30), tmp_path / "b.usda")
+
+
+def skeleton_on(stage: Usd.Stage, place: str) -> UsdSkel.Skeleton:
+    """Hips and a leg of 40, under a root that is 100 aside."""
+    root = UsdSkel.Root.Define(stage, place)
+    UsdGeom.XformCommonAPI(root).SetTranslate((100.0, 0.0, 0.0))
+    skeleton = UsdSkel.Skeleton.Define(stage, f"{place}/Skeleton")
+    skeleton.CreateJointsAttr(["Hips", "Hips/Leg", "Hips/Leg/Toe_end"])
+    down = [(0, 0, 90), (0, 0, -40), (0, 0, -40)]
+    skeleton.CreateRestTransformsAttr([Gf.Matrix4d().SetTranslate(Gf.Vec3d(*at)) for at in down])
+    return skeleton
+
+
+def animate(stage: Usd.Stage, skeleton: UsdSkel.Skeleton, name: str, codes: list[float]) -> None:
+    """The leg turns by 90 degrees; all the time."""
+    path = skeleton.GetPath().AppendChild(name)
+    animation = UsdSkel.Animation.Define(stage, path)
+    animation.CreateJointsAttr(["Hips/Leg"])
+    for code in codes:
+        share = (code - codes[0]) / (codes[-1] - codes[0])
+        turn = Gf.Slerp(share, NONE, TURN)
+        animation.CreateRotationsAttr().Set(Vt.QuatfArray([turn]), code)
+    binding = UsdSkel.BindingAPI.Apply(skeleton.GetPrim())
+    if not binding.GetAnimationSourceRel().GetTargets():
+        binding.CreateAnimationSourceRel().SetTargets([path])
+
+
+def new_stage(path: Path) -> Usd.Stage:
+    stage = Usd.Stage.CreateNew(str(path))
+    stage.SetTimeCodesPerSecond(24)
+    UsdGeom.SetStageMetersPerUnit(stage, 0.01)
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+    return stage
+
+
+def test_units_axes_carriers_and_joints_that_rest(tmp_path: Path) -> None:
+    stage = new_stage(tmp_path / "a.usda")
+    skeleton = skeleton_on(stage, "/Ann")
+    animate(stage, skeleton, "wave", [10.0, 12.0, 14.0, 16.0])
+    stage.Save()
+    motion = read_motion(tmp_path / "a.usda")
+    assert (motion.n_frames, motion.fps) == (4, 12)
+    assert motion.skeleton.names == ("Hips", "Leg", "Toe_end")
+    assert motion.skeleton.end_sites == {2}
+    assert motion.positions[0] == pytest.approx(
+        np.array([[1, 0.9, 0], [1, 0.5, 0], [1, 0.1, 0]]), abs=1e-6
+    )
+    finer = read_motion(tmp_path / "a.usda", fps=24)
+    assert finer.n_frames == 7
+    assert finer.positions[::2] == pytest.approx(motion.positions, abs=1e-6)
+
+
+def test_several_animations_and_characters(tmp_path: Path) -> None:
+    stage = new_stage(tmp_path / "a.usda")
+    ann = skeleton_on(stage, "/Ann")
+    animate(stage, ann, "wave", [0.0, 1.0, 2.0])
+    animate(stage, ann, "bow", [0.0, 1.0, 2.0, 3.0, 4.0])
+    stage.Save()
+    with pytest.warns(kineme.KinemeWarning, match="2 takes are in it and 'wave' is read"):
+        assert kineme.read(tmp_path / "a.usda").n_frames == 3
+    assert kineme.read(tmp_path / "a.usda", take="bow").n_frames == 5
+    animate(stage, skeleton_on(stage, "/Bob"), "run", [0.0, 1.0])
+    stage.Save()
+    with pytest.raises(SeveralPeopleError, match=r"Ann \(3 joints\), Bob"):
+        read_quietly(tmp_path / "a.usda")
+
+
+def test_stages_without_a_skeleton_and_damaged_ones(tmp_path: Path) -> None:
+    new_stage(tmp_path / "a.usda").Save()
+    with pytest.raises(ReadError, match="holds no skeleton"):
+        read_quietly(tmp_path / "a.usda")
+    stage = new_stage(tmp_path / "b.usda")
+    skeleton_on(stage, "/Ann")
+    stage.Save()
+    with pytest.raises(ReadError, match="holds no animation of its skeleton"):
+        read_quietly(tmp_path / "b.usda")
+    motion = read_motion(kineme.bundled_recording())[:9]
+    write(motion, tmp_path / "c.usdc")
+    (tmp_path / "c.usdc").write_bytes((tmp_path / "c.usdc").read_bytes()[:3000])
+    with pytest.raises(ReadError, match="is no whole USD file: truncated or damaged"):
+        read_quietly(tmp_path / "c.usdc")
+
+
+def test_without_the_package_it_is_named(tmp_path: Path) -> None:
+    write(read_motion(kineme.bundled_recording())[:2], tmp_path / "a.usda")
+    program = (
+        "import sys; sys.modules['pxr'] = None; import kineme\n"
+        "try: kineme.read(sys.argv[1])\n"
+        "except kineme.KinemeError as error: print(error)"
+    )
+    command = [sys.executable, "-c", program, str(tmp_path / "a.usda")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=os.environ)
+    assert "pip install 'kineme[usd]'" in done.stdout
