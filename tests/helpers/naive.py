@@ -666,15 +666,14 @@ def division_cost(similarity, borders, penalty):
     )
 
 
-def divisions(n, shortest, longest):
-    """All borders of n samples in segments of such lengths; undivided if there are none."""
-    found = [
+def divisions(n, longest):
+    """All borders of n samples in segments of such lengths."""
+    return [
         [0, *inner, n]
         for count in range(n)
         for inner in combinations(range(1, n), count)
-        if all(shortest <= b - a <= longest for a, b in pairwise([0, *inner, n]))
+        if all(b - a <= longest for a, b in pairwise([0, *inner, n]))
     ]
-    return found or [[0, n]]
 
 
 def dips(row, least):

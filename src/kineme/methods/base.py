@@ -47,8 +47,7 @@ RATE = Limits(0.1, 1000.0)
 class Found(Protocol):
     """What a method found, in samples of its working rate.
 
-    Its own stages are further attributes of the class that a method gives;
-    what is here each of them has.
+    Every method has what is here. Its own stages are further attributes of its class.
     """
 
     @property
@@ -112,7 +111,7 @@ class Preset(ABC):
     method: ClassVar[str]
     """The name of the method."""
     view: ClassVar[View] = "poses"
-    """What it sees of a body: where five points are, or how joints are turned."""
+    """Features of a body: positions of five points, or rotations of joints."""
 
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "metres", "standard deviations", "any")
     """What its lengths can be in."""
@@ -168,7 +167,7 @@ class Preset(ABC):
         """
 
     def for_signals(self) -> Self:
-        """The preset with its lengths in what channels are measured in; once is enough."""
+        """The preset with its lengths in the unit of channels."""
         return self
 
     def signal_unit(self, features: NDArray[np.float64]) -> float:  # noqa: ARG002
@@ -176,7 +175,7 @@ class Preset(ABC):
         return 1.0
 
     def at_most(self, fps: float) -> Self:  # noqa: ARG002 (most methods ask for no less)
-        """The preset for a recording of that rate, where it cannot be looked at faster."""
+        """The preset for a recording of that rate, which is the highest working rate."""
         return self
 
     def frames(self, seconds: float) -> int:

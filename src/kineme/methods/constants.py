@@ -1,9 +1,9 @@
 """Constants: the fields of a preset, each with its meaning, unit and limits.
 
-A field made by `constant` carries all that command line, studio and docs say of
+A field made by `constant` carries all that command line, studio and docs show of
 it, so that a constant added to a preset appears in each of them. `check`
-holds a preset against its own fields: types, limits, choices. `unknown` tells what
-a name was meant to be.
+compares a preset with its own fields: types, limits, choices. `unknown` names
+the constant nearest to a wrong name.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ class Constant:
     fine : bool
         Whether it is one that hardly anybody needs to change.
     default : Any
-        Of all presets of its class; ``dataclasses.MISSING`` where each says its own.
+        Of all presets of its class; ``dataclasses.MISSING`` where each has its own.
     """
 
     name: str
@@ -162,7 +162,7 @@ def constant(
     fine : bool
         Whether hardly anybody needs to change it.
     default : Any
-        Of all presets of the class; none if each has to say.
+        Of all presets of the class; none if each has its own.
     """
     details = {
         "help": text,
@@ -200,7 +200,7 @@ def check(preset: Any) -> None:
 
 
 def unknown(name: str, names: Collection[str]) -> str:
-    """What is said of a name that is none of these: the nearest, or all there are.
+    """The hint for a name that is none of these: the nearest, or all there are.
 
     Examples
     --------

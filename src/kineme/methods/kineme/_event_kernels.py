@@ -123,7 +123,7 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
 def follow(samples, costs, ends, scale, worst):
     """The best path between two pairs: its partner of each sample, and its score up to there.
 
-    Both seen from the first side and from the second.
+    Both from the first side and from the second.
     """
     i0, j0 = ends[0], ends[1]
     rows, columns = ends[2] - i0 + 1, ends[3] - j0 + 1

@@ -18,18 +18,18 @@ SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 FAR = np.float32(np.inf)
 
 
-@njit("float32[:, ::1](float32[:, ::1], int64[::1], int64, int64)", **SUMS)
-def distances_to(features, references, start, stop):
-    """Distance of each reference frame to each frame of ``[start, stop)``."""
-    distances = np.empty((len(references), stop - start), np.float32)
+@njit("float32[:, ::1](float32[:, ::1], int64[::1])", **SUMS)
+def distances_to(features, references):
+    """Distance of each reference frame to each frame."""
+    distances = np.empty((len(references), len(features)), np.float32)
     for r in range(len(references)):
         row = features[references[r]]
-        for f in range(start, stop):
+        for f in range(len(features)):
             square = np.float32(0)
             for d in range(features.shape[1]):
                 difference = row[d] - features[f, d]
                 square += difference * difference
-            distances[r, f - start] = np.sqrt(square)
+            distances[r, f] = np.sqrt(square)
     return distances
 
 

@@ -31,14 +31,13 @@ def similarity_band(features, unit, start, stop, similarity):
             similarity[i, lag] = one - np.sqrt(square) * units
 
 
-@njit("int64[::1](float32[:, ::1], float64, int64)", **OPTIONS)
-def change_points(similarity, penalty, min_length):
+@njit("int64[::1](float32[:, ::1], float64)", **OPTIONS)
+def change_points(similarity, penalty):
     """Borders of the segments whose samples are most similar, ends included.
 
     Minimises, by dynamic programming, the sum over segments of
     ``length - (sum of similarities of all pairs) / length + penalty``. No
-    segment is longer than the band is wide; where that leaves no division,
-    there is one segment.
+    segment is longer than the band is wide.
     """
     samples, width = similarity.shape
     best = np.full(samples + 1, np.inf)
@@ -61,11 +60,10 @@ def change_points(similarity, penalty, min_length):
         for start in range(last, first - 1, -1):
             inside += row_sums[start]
             length = end - start
-            if length >= min_length or length == samples:
-                cost = best[start] + length - inside * inverse[length] + penalty
-                if cost < best[end]:
-                    best[end] = cost
-                    before[end] = start
+            cost = best[start] + length - inside * inverse[length] + penalty
+            if cost < best[end]:
+                best[end] = cost
+                before[end] = start
     # Borders of the cheapest division, from the last one back.
     borders = [samples]
     while borders[-1] > 0:

@@ -136,7 +136,7 @@ class KinemeConstants(Preset):
         "frames do", limits=SHARE, fine=True, default=0.6,
     )  # fmt: skip
     transition_cost: float = constant(
-        "what a transition must gain over a border: log-likelihood times seconds, of each channel",
+        "least gain of a transition over a border: log-likelihood times seconds, mean of channels",
         unit="s", limits=SOME_FACTOR, fine=True, default=0.6,
     )  # fmt: skip
     # Repetitions.
@@ -193,7 +193,7 @@ class KinemeConstants(Preset):
         default=0.8,
     )  # fmt: skip
     min_recurrence: float = constant(
-        "similarity times movement time that is no chance, so the shortest event; twice that for "
+        "least similarity times movement time of an event, so its shortest length; twice that for "
         "sets of two", unit="s",
         limits=SOME_TIME, slider=(0.2, 2.0, 0.05), default=0.6,
     )  # fmt: skip

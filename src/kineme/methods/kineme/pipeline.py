@@ -1,6 +1,6 @@
 """The method, stage by stage, from features to segments, repetitions and events.
 
-Nothing here knows what a skeleton or a sensor is: any array of frames x dims will do.
+Skeletons and sensors are unknown here: features are any array of frames x dims.
 
 1. *views*: posture and energy of movement, a few times a second, in one or more scales.
 2. *segments*: a tree of each view, and the level of it with the shortest description. A segment is

@@ -72,7 +72,7 @@ class Movement:
     path : (frames + 1,) array
         Length of the path up to each frame, and to the end.
     variance : float
-        Mean square of the poses, weighted alike.
+        Mean square of the poses, each weighted by its speed.
     """
 
     poses: Floats
@@ -198,7 +198,7 @@ def visits_tried(rows: Rows, movement: Movement, preset: KinemeConstants) -> Ite
 
 def _dips(rows: Rows, references: Frames, preset: KinemeConstants) -> tuple[Rows, Frames]:
     """Depths, 0 to 1, of each reference's dips, deepest first, and where they are."""
-    distances = kernels.distances_to(rows, references, 0, len(rows))
+    distances = kernels.distances_to(rows, references)
     rank = int(DEEP * (len(rows) - 1))
     large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
     noise = np.float32(preset.noise_share)

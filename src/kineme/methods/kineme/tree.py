@@ -205,7 +205,7 @@ def fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Sam
         kernels.similarity_band(features, unit, rows.start, rows.stop, similarity)
 
     map_threads(fill, even_slices(len(features)))
-    borders: Samples = kernels.change_points(similarity, 2 * cost, 1)
+    borders: Samples = kernels.change_points(similarity, 2 * cost)
     return borders
 
 

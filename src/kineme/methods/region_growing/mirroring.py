@@ -1,11 +1,11 @@
 """Mirrored cuts: where a repetition with left and right exchanged starts.
 
-Neighbours of the mirrored frames among the original ones draw paths of their
-own: who walks steps with the right foot as before with the left. Such paths cut
-double steps into left and right ones. Activities and clusters are found without
+Mirrored frames have neighbours among the original ones, and these have paths: a step
+with the right foot is like the mirrored step with the left. Such paths cut double steps
+into left and right ones. Activities and clusters are found without
 them.
 
-How the mirrored paths of an activity lie tells its symmetry:
+The symmetry of an activity follows from where its mirrored paths lie:
 
 - ``symmetric``: on the others, left and right do the same at once (squats);
 - ``alternating``: between them, left and right take turns (walking);
