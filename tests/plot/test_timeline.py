@@ -13,6 +13,7 @@ import kineme
 from kineme._colors import cluster_color
 from kineme.errors import ParameterError
 from kineme.plot.timeline import matched_clusters
+from kineme.segments.editing import name_segment
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 
@@ -66,7 +67,7 @@ def test_without_axes_a_figure_is_made() -> None:
 
 def test_a_label_is_no_formula() -> None:
     found = result([40], [0])
-    priced = kineme.segments.editing.name_segment(found, "activity", 0, "$5 and $")
+    priced = name_segment(found, "activity", 0, "$5 and $")
     figure = Figure()
     axes = priced.plot(ax=figure.add_subplot())
     assert axes.texts[0].get_text() == r"\$5 and \$"
