@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, OUTPUT
-from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import PresetName
 from kineme.cli.options.reading import Quiet, with_reading_options
 from kineme.cli.options.request import Request
@@ -32,74 +32,60 @@ def cycles(
     files: Files,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Write cycles, summary and curves: .xlsx, .csv, .parquet, .mat or .nc.",
             "--output",
             "-o",
-            help="Write cycles, summary and curves: .xlsx, .csv, .parquet, .mat or .nc.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(help="Draw mean curves: .png, .pdf or .svg.", rich_help_panel=OUTPUT),
+        option(OUTPUT, "Draw mean curves: .png, .pdf or .svg."),
     ] = None,
     compare: Annotated[
         Path | None,
-        typer.Option(
-            help="Write the second of two recordings beside the first: .csv or .parquet.",
-            rich_help_panel=OUTPUT,
-        ),
+        option(OUTPUT, "Write the second of two recordings beside the first: .csv or .parquet."),
     ] = None,
     channels: Annotated[
         str | None,
-        typer.Option(
+        option(
+            MEASURED,
+            "What to measure, as in knee_*,trunk_lean; see kineme info --channels.",
             metavar="NAME,NAME,…",
-            help="What to measure, as in knee_*,trunk_lean; see kineme info --channels.",
-            rich_help_panel=MEASURED,
         ),
     ] = None,
     anchor: Annotated[
         str | None,
-        typer.Option(
+        option(
+            MEASURED,
+            'Where a cycle begins: "knee_r max", "knee_r > 40", left_foot_strike, '
+            "or an event of the file; by default at equal phase.",
             metavar="EVENT",
-            help='Where a cycle begins, instead of at equal phase: "knee_r max", "knee_r > 40", '
-            "left_foot_strike, or an event of the file.",
-            rich_help_panel=MEASURED,
         ),
     ] = None,
     exclude: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="ROW|RULE",
-            help="Leave a row out of means, by its number; or all that are far from the mean (far) "
+        option(
+            MEASURED,
+            "Leave a row out of means, by its number; or all that are far from the mean (far) "
             "or whose start is not sure (unsure).",
-            rich_help_panel=MEASURED,
+            metavar="ROW|RULE",
         ),
     ] = None,
     ends: Annotated[
         bool,
-        typer.Option(
-            "--ends",
-            help="Count first and last repetitions, too.",
-            rich_help_panel=MEASURED,
-        ),
+        option(MEASURED, "Count first and last repetitions, too.", "--ends"),
     ] = False,
     common: Annotated[
         bool,
-        typer.Option(
+        option(
+            MEASURED,
+            "Clusters of all recordings have the same numbers, as in a library.",
             "--common",
-            help="Clusters of all recordings have the same numbers, as in a library.",
-            rich_help_panel=MEASURED,
         ),
     ] = False,
-    segments: Annotated[
-        Path | None,
-        typer.Option(
-            help="Segment table or labels, instead of segmenting anew; of several recordings a "
-            "folder, or a path with {name} in it.",
-            rich_help_panel=INPUT,
-        ),
-    ] = None,
+    segments: SegmentTable = None,
     preset: PresetName = DEFAULT,
     recursive: Recursive = False,
     quiet: Quiet = False,
@@ -168,13 +154,13 @@ def _check_targets(output: Path | None, plot: Path | None, compare: Path | None)
     from kineme.cli.options.targets import PICTURES
     from kineme.cycles.export import SUFFIXES
 
-    for option, path, suffixes in (
+    for name, path, suffixes in (
         ("--output", output, SUFFIXES),
         ("--plot", plot, PICTURES),
         ("--compare", compare, (".csv", ".parquet")),
     ):
         if path is not None and path.suffix.lower() not in suffixes:
-            raise typer.BadParameter(f"{path} must end in {', '.join(suffixes)}", param_hint=option)
+            raise typer.BadParameter(f"{path} must end in {', '.join(suffixes)}", param_hint=name)
 
 
 def _excluded(cycles: Cycles, rules: list[str]) -> Cycles:

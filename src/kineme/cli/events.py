@@ -6,10 +6,8 @@ from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from kineme._counts import counted
-from kineme.cli.help import OUTPUT, TABLES
+from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Quiet, with_reading_options
 from kineme.cli.options.request import Request
@@ -26,40 +24,34 @@ def events(
     files: Files,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Write a table of the events: .csv or .parquet; of several recordings a folder, "
+            "or a path with {name} in it.",
             "--output",
             "-o",
-            help="Write a table of the events: .csv or .parquet; of several recordings a folder, "
-            "or a path with {name} in it.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     gait: Annotated[
         Path | None,
-        typer.Option(
-            help="Write times of strides, stands, swings and steps: .csv or .parquet.",
-            rich_help_panel=OUTPUT,
-        ),
+        option(OUTPUT, "Write times of strides, stands, swings and steps: .csv or .parquet."),
     ] = None,
     labels: Annotated[
         Path | None,
-        typer.Option(
-            help=f"Write the spans from each event to the next as labels: {TABLES}.",
-            rich_help_panel=OUTPUT,
-        ),
+        option(OUTPUT, f"Write the spans from each event to the next as labels: {TABLES}."),
     ] = None,
     left: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAME",
-            help="Channels of the left foot, as in lf_gyr_*: three axes of its gyroscope, or the "
+        option(
+            FEET,
+            "Channels of the left foot, as in lf_gyr_*: three axes of its gyroscope, or the "
             "upright force under it. By their names by default.",
-            rich_help_panel=FEET,
+            metavar="NAME",
         ),
     ] = None,
     right: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="Those of the right foot.", rich_help_panel=FEET),
+        option(FEET, "Those of the right foot.", metavar="NAME"),
     ] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,

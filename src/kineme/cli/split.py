@@ -34,14 +34,14 @@ def split(
     level: Annotated[Level, option(OUTPUT, "Write activities, or each primitive.")] = "activity",
     cluster: Annotated[int | None, option(OUTPUT, "Write those of this cluster only.")] = None,
     loop: Annotated[
-        bool, option(OUTPUT, "Blend the ends, so that each clip plays as a cycle.", "--loop")
+        bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
     ] = False,
     to_format: Annotated[
         str | None,
         option(
             OUTPUT,
-            "Format of the clips: bvh, amc, glb (one file with an animation for each clip) or any "
-            "other that motions are written in. By default bvh, or csv without rotations.",
+            "Format of the clips, such as glb (all in one file); by default bvh, or csv without "
+            "rotations.",
             "--format",
             metavar="SUFFIX",
         ),
@@ -57,8 +57,7 @@ def split(
 ) -> None:
     """Write each segment of a recording as a file of its own, and a list of them.
 
-    Clips are BVH, or CSV of joint positions where there are no rotations; with --format others.
-    Of signals they are rows of their file. The list is manifest.csv.
+    Clips of signals are rows of their file. The list is manifest.csv.
     """
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)

@@ -36,18 +36,14 @@ Confidence = Annotated[
 ]
 Take = Annotated[
     str | None,
-    typer.Option(
-        metavar="NAME",
-        help="Which of several animations in an FBX, glTF or USD, by name or number.",
-        rich_help_panel=UNSAID,
-    ),
+    option(UNSAID, "Which of several animations, by name or number.", metavar="NAME"),
 ]
 Effectors = Annotated[
     str | None,
     option(
         UNSAID,
-        "Joints to take for left ankle, right ankle, head, left wrist and right wrist, in "
-        "this order; or some of them, as in left_wrist=NAME,head=NAME.",
+        "Joints to take for left ankle, right ankle, head, left wrist, right wrist; or some, as in "
+        "left_wrist=NAME,head=NAME.",
         metavar="NAME,NAME,…",
     ),
 ]
@@ -55,8 +51,8 @@ Columns = Annotated[
     str | None,
     option(
         INPUT,
-        "Take these columns of a table, or channels of a C3D, instead of joints; * and ? "
-        "stand for any characters, as in acc_*.",
+        "Take these columns or channels instead of joints; * and ? stand for any characters, as "
+        "in acc_*.",
         metavar="NAME,NAME,…",
     ),
 ]
