@@ -423,12 +423,14 @@ def linked(
     ends = np.concatenate([[0], *(part.borders[1:] for part in parts)])
     fine = np.concatenate([[0], *(part.fine[1:] for part in parts)])
     per_sample = labels[np.searchsorted(ends, at, side="right") - 1]
-    groups = [np.flatnonzero(per_sample == cluster) for cluster in range(int(firsts[-1]))]
-    chosen = [group[spread(0, len(group), OF_CLUSTER)] for group in groups]
-    means = mean_distances(features, chosen) / unit
-    sizes = np.bincount(per_sample, minlength=len(means))
-    part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
-    labels = by_first_appearance(link(means, sizes, part_of, price)[labels])
+    sizes = np.bincount(per_sample, minlength=int(firsts[-1]))
+    if sizes.all():  # a part shorter than a sample has nothing to compare: parts stay apart
+        groups = [np.flatnonzero(per_sample == cluster) for cluster in range(len(sizes))]
+        chosen = [group[spread(0, len(group), OF_CLUSTER)] for group in groups]
+        means = mean_distances(features, chosen) / unit
+        part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
+        labels = link(means, sizes, part_of, price)[labels]
+    labels = by_first_appearance(labels)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     preference = np.concatenate([part.preference for part in parts])
     return Level(fine, np.append(ends[first], ends[-1]), labels[first], preference[first])
