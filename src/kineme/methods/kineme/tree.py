@@ -110,38 +110,10 @@ def level_of(features: Rows, preset: KinemeConstants, repeating: Repeating | Non
     cost = preset.samples(preset.fine_cost)
     fine = fine_borders(features, unit, width=preset.near, cost=cost)
     sums = between_segments(features, fine, unit)
-    prices = Prices(
-        segment=preset.samples(preset.segment_cost),
-        cluster=preset.samples(preset.cluster_cost),
-        spread_share=preset.spread_share,
-        most_clusters=preset.max_clusters,
-        shortest=round(preset.samples(preset.min_action)),
-    )
-    level = best_level(fine, sums, prices, saved)
+    level = best_level(fine, sums, preset, saved)
     at = np.searchsorted(fine, level.borders[:-1])
     preference = preferences(summed(sums, at), np.diff(level.borders), level.labels)
     return Level(fine, level.borders, level.labels, preference)
-
-
-class Prices(NamedTuple):
-    """What a description costs, in samples at the median distance, and limits of clusters.
-
-    Attributes
-    ----------
-    segment, cluster : float
-        Of each.
-    spread_share : float
-        Share of the distances within two clusters that is subtracted from the one between them.
-    most_clusters : int
-    shortest : int
-        Samples of the longest segment of a cluster, at least.
-    """
-
-    segment: float
-    cluster: float
-    spread_share: float
-    most_clusters: int
-    shortest: int
 
 
 class Grouped(NamedTuple):
@@ -265,7 +237,7 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
 
 
 def best_level(
-    borders: Samples, sums: Floats, prices: Prices, saved: Callable[[int, int], float]
+    borders: Samples, sums: Floats, preset: KinemeConstants, saved: Callable[[int, int], float]
 ) -> Grouped:
     """The level and clusters of the shortest description.
 
@@ -275,7 +247,7 @@ def best_level(
         Of the finest level.
     sums : (segments, segments) array
         Of `between_segments`.
-    prices : Prices
+    preset : KinemeConstants
     saved : callable
         Samples that a segment, from one to another, saves by repeating itself. They are subtracted
         from the cost of a level, and do not change its grouping.
@@ -284,7 +256,8 @@ def best_level(
     tried = {*range(min(len(tree), EACH_LEVEL))}
     tried |= {int(at) for at in np.geomspace(1, len(tree), LEVELS).astype(np.int64) - 1}
     chosen = [tree[at] for at in sorted(tried)]
-    found = [grouped(borders[each], summed(sums, each[:-1]), prices) for each in chosen]
+    found = [grouped(borders[each], summed(sums, each[:-1]), preset) for each in chosen]
+    segment_cost = preset.samples(preset.segment_cost)
     savings: dict[tuple[int, int], float] = {}
     best, cheapest = found[0], np.inf
     for level in sorted(found, key=lambda level: level.cost - level.alone.sum()):
@@ -292,7 +265,7 @@ def best_level(
             break
         cost = level.cost
         for span, alone in zip(pairwise(level.borders.tolist()), level.alone, strict=True):
-            if alone > prices.segment:  # to save less would not pay for a border
+            if alone > segment_cost:  # to save less would not pay for a border
                 if span not in savings:
                     savings[span] = saved(*span)
                 cost -= min(savings[span], alone)
@@ -301,7 +274,7 @@ def best_level(
     return best
 
 
-def grouped(borders: Samples, sums: Floats, prices: Prices) -> Grouped:
+def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
     """Segments in clusters, without clusters that are too short, and what that costs.
 
     Parameters
@@ -309,21 +282,24 @@ def grouped(borders: Samples, sums: Floats, prices: Prices) -> Grouped:
     borders : (segments + 1,) array
     sums : (segments, segments) array
         Summed distances of their samples.
-    prices : Prices
+    preset : KinemeConstants
     """
     lengths = np.diff(borders).astype(np.float64)
     labels = np.empty(len(lengths), np.int64)
-    most, segment, cluster = prices.most_clusters, prices.segment, prices.cluster
+    segment_cost = preset.samples(preset.segment_cost)
+    cluster_cost = preset.samples(preset.cluster_cost)
+    most, share = preset.max_clusters, preset.spread_share
     kernels.cheapest_grouping(
-        sums.copy(), lengths.copy(), most, segment, cluster, prices.spread_share, labels
+        sums.copy(), lengths.copy(), most, segment_cost, cluster_cost, share, labels
     )
-    labels = without_short(labels, lengths, sums, prices.shortest)
+    shortest = round(preset.samples(preset.min_action))
+    labels = without_short(labels, lengths, sums, shortest)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     lengths, sums = np.add.reduceat(lengths, first), summed(sums, first)
     labels = by_first_appearance(labels[first])
     members = np.eye(int(labels.max()) + 1)[labels]
     within = np.einsum("sc,st,tc->c", members, sums, members) / (2 * lengths @ members)
-    cost = within.sum() + prices.segment * len(labels) + prices.cluster * len(within)
+    cost = within.sum() + segment_cost * len(labels) + cluster_cost * len(within)
     return Grouped(
         np.append(borders[first], borders[-1]), labels, cost, np.diag(sums) / (2 * lengths)
     )
@@ -423,12 +399,14 @@ def linked(
     ends = np.concatenate([[0], *(part.borders[1:] for part in parts)])
     fine = np.concatenate([[0], *(part.fine[1:] for part in parts)])
     per_sample = labels[np.searchsorted(ends, at, side="right") - 1]
-    groups = [np.flatnonzero(per_sample == cluster) for cluster in range(int(firsts[-1]))]
-    chosen = [group[spread(0, len(group), OF_CLUSTER)] for group in groups]
-    means = mean_distances(features, chosen) / unit
-    sizes = np.bincount(per_sample, minlength=len(means))
-    part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
-    labels = by_first_appearance(link(means, sizes, part_of, price)[labels])
+    sizes = np.bincount(per_sample, minlength=int(firsts[-1]))
+    if sizes.all():  # a part shorter than a sample has nothing to compare: parts stay apart
+        groups = [np.flatnonzero(per_sample == cluster) for cluster in range(len(sizes))]
+        chosen = [group[spread(0, len(group), OF_CLUSTER)] for group in groups]
+        means = mean_distances(features, chosen) / unit
+        part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
+        labels = link(means, sizes, part_of, price)[labels]
+    labels = by_first_appearance(labels)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     preference = np.concatenate([part.preference for part in parts])
     return Level(fine, np.append(ends[first], ends[-1]), labels[first], preference[first])
