@@ -52,8 +52,7 @@ def split(
         typer.Option(
             "--format",
             metavar="SUFFIX",
-            help="Format of the clips: bvh, amc, glb (one file with an animation for each clip) or "
-            "any other that motions are written in. By default bvh, or csv without rotations.",
+            help="Format: bvh, amc, glb (all in one file), …",
             rich_help_panel=OUTPUT,
         ),
     ] = None,
@@ -75,8 +74,8 @@ def split(
 ) -> None:
     """Write each segment of a recording as a file of its own, and a list of them.
 
-    Clips are BVH, or CSV of joint positions where there are no rotations; with --format others.
-    Of signals they are rows of their file. The list is manifest.csv.
+    Clips are BVH, or CSV of joint positions where there are no rotations; of signals, rows of
+    their file. The list is manifest.csv.
     """
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)

@@ -43,7 +43,7 @@ Person = Annotated[
     str | None,
     typer.Option(
         metavar="NAME",
-        help="Which of several people in the file, by name or number.",
+        help="Which person of several, by name or number.",
         rich_help_panel=UNSAID,
     ),
 ]
@@ -58,7 +58,7 @@ Take = Annotated[
     str | None,
     typer.Option(
         metavar="NAME",
-        help="Which of several animations in an FBX, glTF or USD, by name or number.",
+        help="Which animation of several, by name or number.",
         rich_help_panel=UNSAID,
     ),
 ]
