@@ -7,8 +7,9 @@ an older numpy, so that it gets an environment of its own), or is named by ``KIN
 imports the bundled recording and those of KINEME_DATA, exports them with both up axes, with axes
 of bones turned, with three orders of rotations, with ends of limbs or without, with two takes and
 with two characters beside a prop, and as GLB and USD (where ``usd-core`` is installed). kineme
-reads what it wrote. GLB and USD files that kineme writes Blender reads; where node has Khronos'
-validator (``npm install gltf-validator`` in the folder ``--validator``), that finds no error.
+reads what it wrote. GLB and USD files that kineme writes Blender reads. With ``--node FOLDER``, in
+which ``npm install gltf-validator three`` was run, Khronos' validator finds no error in the GLB
+files, and three.js has the joints where kineme has them.
 
 Promises: joints within 0.01 mm and 0.01 degrees of Blender's own, in every take; no errors.
 """
@@ -62,7 +63,7 @@ if find_spec("pxr"):
 def main() -> int:
     parser = command_line(__doc__)
     parser.add_argument("--bpy", default=os.environ.get("KINEME_BPY"), metavar="PYTHON")
-    parser.add_argument("--validator", type=Path, metavar="FOLDER")
+    parser.add_argument("--node", type=Path, metavar="FOLDER")
     add_option(parser)
     given = parser.parse_args()
     if not given.bpy:
@@ -91,11 +92,14 @@ def main() -> int:
             failed |= away > MOST_MM or turned > MOST_DEGREES
         read = [job["path"] for job in jobs if job["task"] == "read"]
         ours = [path for path in read if path.endswith(".glb")]
-        if given.validator:
-            errors = validated(given.validator, ours)
-            print(f"Khronos' validator, {len(ours)} files: errors {verdict(errors, 0)}: {errors}")
+        if given.node:
+            errors = validated(given.node, ours)
+            away = max(in_three(given.node, place, path) for path in ours)
+            print(f"Khronos' validator, {len(ours)} files: errors {verdict(errors, 0)}: {errors}; "
+                  f"three.js: mm {verdict(away, MOST_MM)}: {away:.5f}")  # fmt: skip
             record("scenes.glb.errors", errors)
-            failed |= errors > 0
+            record("scenes.glb.three_mm", round(away, 5), unit="mm")
+            failed |= errors > 0 or away > MOST_MM
     return int(failed)
 
 
@@ -153,6 +157,42 @@ def validated(folder: Path, paths: list[str]) -> int:
     """
     command = ["node", "-e", program, str(folder.resolve()), *paths]
     return int(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+THREE = """
+(async () => {
+  const [folder, path, output] = process.argv.slice(1);
+  globalThis.self = globalThis;
+  const three = await import(folder + "/node_modules/three/build/three.module.js");
+  const place = folder + "/node_modules/three/examples/jsm/loaders/GLTFLoader.js";
+  const { GLTFLoader } = await import(place);
+  const fs = require("fs");
+  const bytes = new Uint8Array(fs.readFileSync(path)).buffer;
+  const file = await new GLTFLoader().parseAsync(bytes, "");
+  const mixer = new three.AnimationMixer(file.scene);
+  const action = mixer.clipAction(file.animations[0]);
+  action.setLoop(three.LoopOnce);
+  action.clampWhenFinished = true;
+  action.play();
+  let bones = [];
+  file.scene.traverse((each) => { if (each.isSkinnedMesh) bones = each.skeleton.bones; });
+  const found = Array.from(file.animations[0].tracks[0].times, (time) => {
+    mixer.setTime(time);
+    file.scene.updateMatrixWorld(true);
+    return bones.map((bone) => bone.getWorldPosition(new three.Vector3()).toArray());
+  });
+  fs.writeFileSync(output, JSON.stringify(found));
+})();
+"""
+
+
+def in_three(folder: Path, place: Path, path: str) -> float:
+    """Millimetres by which three.js has the joints of a GLB elsewhere than kineme, at most."""
+    output = place / "three.json"
+    command = ["node", "-e", THREE, str(folder.resolve()), path, str(output)]
+    subprocess.run(command, check=True, capture_output=True)
+    found = np.array(json.loads(output.read_text()))
+    return 1000 * float(np.abs(found - read_motion(path).positions).max())
 
 
 def characters(place: Path, sources: list[Path]) -> dict[str, Any]:

@@ -2,31 +2,18 @@
 
 from __future__ import annotations
 
-import struct
-import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from fbx_scenes import Bones, motion_of, one_bone, played
 from scipy.spatial.transform import Rotation
 
 import kineme
-from _fbx import CONSTANT, CUBIC, Keys, Name, Scene, as_binary, as_text, node, walker
-from kineme.errors import KinemeError, KinemeWarning, ReadError, SeveralPeopleError
-from kineme.formats import read_quietly
-from kineme.formats.options import ReadOptions
+from _fbx import CONSTANT, CUBIC, Keys, Name, Scene, walker
+from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import world_rotations
-
-
-def motion_of(data: bytes, folder: Path, **options: object) -> Motion:
-    path = folder / "a.fbx"
-    path.write_bytes(data)
-    motion = read_quietly(path, ReadOptions(**options))  # type: ignore[arg-type]
-    assert isinstance(motion, Motion)
-    return motion
 
 
 def world(motion: Motion, name: str) -> np.ndarray:
@@ -134,30 +121,6 @@ def test_takes_of_an_armature_by_their_own_name(tmp_path: Path) -> None:
         .provenance.notes[1]
         .startswith("take Armature|hop")
     )
-
-
-class Bones(Scene):
-    """A scene with a chain of bones a, b, c on ``top``, and a take of one second."""
-
-    def __init__(self, said: dict[str, dict[str, object]], **settings: object) -> None:
-        super().__init__(**{"UnitScaleFactor": 100.0, **settings})  # metres
-        self.models: dict[str, int] = {}
-        parent = 0
-        for name in ("top", "a", "b", "c"):
-            kind = "Null" if name == "top" else "LimbNode"
-            self.models[name] = parent = self.model(name, parent, kind, **said.get(name, {}))
-
-
-def one_bone(**said: object) -> Bones:
-    return Bones({"a": {"LclTranslation": [0.0, 1.0, 0.0]}, "b": said,
-                  "c": {"LclTranslation": [0.0, 0.0, 0.5]}})  # fmt: skip
-
-
-def played(scene: Bones, folder: Path, what: str = "R", node: str = "b", **axes: Keys) -> Motion:
-    layer = scene.layer(scene.take("take", 0, 1))
-    rest = (1, 1, 1) if what == "S" else (0, 0, 0)
-    scene.animate(layer, scene.models[node], what, rest, **axes)
-    return motion_of(scene.binary(), folder)
 
 
 ORDERS = ("xyz", "xzy", "yzx", "yxz", "zxy", "zyx")
@@ -430,98 +393,6 @@ def test_names_of_namespaces_stay_and_are_unique(tmp_path: Path) -> None:
     scene.animate(layer, hips, "R", X=Keys([0, 1], [0, 90]))
     for data in (scene.binary(), scene.text()):
         assert motion_of(data, tmp_path).skeleton.names == ("rig:Hips", "Leg", "Leg_2")
-
-
-def no_animation() -> bytes:
-    scene = Scene()
-    scene.model("Hips")
-    scene.take("empty", 0, 1)
-    return scene.binary()
-
-
-def no_skeleton() -> bytes:
-    scene = Scene()
-    box = scene.model("Box", 0, "Mesh")
-    scene.animate(scene.layer(scene.take("t", 0, 1)), box, "R", X=Keys([0, 1], [0, 90]))
-    return scene.binary()
-
-
-def old_text() -> bytes:
-    header = node("FBXHeaderExtension", children=[node("FBXVersion", 6100)])
-    return as_text([header], 6100)
-
-
-def bomb() -> bytes:
-    """A curve that says that it has a quarter of a milliard of keys."""
-    data = bytearray(one_curve())
-    struct.pack_into("<I", data, data.index(b"KeyTimel") + len(b"KeyTimel"), 250_000_000)
-    return bytes(data)
-
-
-def one_curve() -> bytes:
-    scene = one_bone()
-    layer = scene.layer(scene.take("take", 0, 1))
-    scene.animate(layer, scene.models["b"], "R", X=Keys([0, 1], [0, 90]))
-    return scene.binary()
-
-
-def endless() -> bytes:
-    scene = one_bone()
-    layer = scene.layer(scene.take("take", 0, 1e6))
-    scene.animate(layer, scene.models["b"], "R", X=Keys([0, 1e6], [0, 90]))
-    return scene.binary()
-
-
-@pytest.mark.parametrize(
-    ("data", "reason"),
-    [
-        (no_animation(), "holds no animation of its skeleton: export it with"),
-        (no_skeleton(), "holds no skeleton, neither bones nor animated nodes"),
-        (old_text(), "is FBX 6.1, a format of before 2011: open it .* and export FBX 2014"),
-        (as_binary([], 6100), "is FBX 6.1, a format of before 2011"),
-        (b"Kaydara FBX Binary  \x00\x1a\x00\x00", "the file ends in its header"),
-        (one_curve()[:-400], "truncated"),
-        (one_curve()[:300], "truncated"),
-        (as_text(Scene().nodes())[:-3], "the '}' of 'Connections' is missing"),
-        (b"; FBX 7.4.0 project file\nObjects: {\n}}\n", "a '}' too many"),
-        (b"; FBX 7.4.0 project file\n3, 4\n", "line 2: a name expected, found b'3'"),
-        (bomb(), "claims an array of 250000000 numbers"),
-        (endless(), "claims 3 joints in 30000001 frames"),
-    ],
-)
-def test_what_cannot_be_read_says_why(tmp_path: Path, data: bytes, reason: str) -> None:
-    with pytest.raises(ReadError, match=reason):
-        motion_of(data, tmp_path)
-
-
-def test_circles_among_models_and_links_to_nothing(tmp_path: Path) -> None:
-    scene = one_bone()
-    a, b = scene.models["a"], scene.models["b"]
-    scene.link("OO", a, b)
-    scene.link("OO", 77, b)
-    scene.link("OO", 0, 0)
-    motion = played(scene, tmp_path, X=Keys([0, 1], [0, 90]))
-    assert motion.skeleton.names == ("a", "b", "c")
-
-
-@given(st.data())
-def test_no_damage_raises_anything_else(tmp_path_factory, data: st.DataObject) -> None:
-    whole = data.draw(st.sampled_from(SOUND))
-    spoilt = bytearray(whole)
-    for _ in range(data.draw(st.integers(1, 4))):
-        at = data.draw(st.integers(0, len(spoilt) - 1))
-        spoilt[at : at + data.draw(st.integers(0, 9))] = data.draw(st.binary(max_size=9))
-    path = tmp_path_factory.getbasetemp() / "spoilt.fbx"
-    path.write_bytes(bytes(spoilt))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            read_quietly(path)
-        except KinemeError as error:
-            assert "\n" not in str(error)
-
-
-SOUND = [walker().binary(), walker().binary(7700, packed=False), walker().text()]
 
 
 def test_keys_out_of_order_and_doubled_are_put_in_order(tmp_path: Path) -> None:

@@ -80,7 +80,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         Pose(scene, take, Sampler(at)).transform,
         len(at),
         fps,
-        unit=options.unit or CENTIMETRE * scene.setting("UnitScaleFactor", 1.0),
+        unit=options.unit or _unit(scene),
         turn=turn,
         provenance=content.provenance("FBX", [*notes, *rated, *turned]),
     )
@@ -133,6 +133,12 @@ def _frames(scene: FBXScene, take: Take, joints: list[int], fps: float) -> Float
     n_frames = int(min(count + _ROUNDED, _MOST_FRAMES))
     claim_frames(scene.content, len(joints), n_frames)
     return np.asarray(start + np.arange(n_frames) * (TICKS / fps), np.float64)
+
+
+def _unit(scene: FBXScene) -> float:
+    """The metres in one unit of the file, which counts in centimetres."""
+    factor = scene.setting("UnitScaleFactor", 1.0)
+    return CENTIMETRE * (factor if factor > 0 else 1.0)
 
 
 def _turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]]:

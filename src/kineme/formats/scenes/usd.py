@@ -35,6 +35,9 @@ from kineme.recordings import Motion, Note
 
 Floats = NDArray[np.float64]
 
+CENTIMETRE = 0.01
+"""Metres: the unit of stages that tell none."""
+
 HEADS = (b"#usda ", b"PXR-USDC")
 _EVEN = 0.02  # share of their median by which steps between samples may differ from it
 _ROUNDED = 0.1  # of a frame, by which the last sample may miss it
@@ -78,7 +81,7 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
         lambda node: carrier if node < first else pose[node - first],
         len(codes),
         fps,
-        unit=options.unit or UsdGeom.GetStageMetersPerUnit(stage),
+        unit=options.unit or max(UsdGeom.GetStageMetersPerUnit(stage), 0.0) or CENTIMETRE,
         turn=up_rotation(up),
         provenance=content.provenance("USD", [*notes, *character.notes, *rated]),
     )
