@@ -52,8 +52,6 @@ class Format:
         From a motion to a path.
     write_signals : callable, optional
         From signals to a path.
-    write_animations : callable, optional
-        From motions of one skeleton, by their names, to a path; for formats that hold several.
     read_folder : callable, optional
         From a folder of files that are one recording to this recording, None where there
         are none of this format in it.
@@ -65,6 +63,8 @@ class Format:
     sketch : callable, optional
         From `FileContent`, `ReadOptions` and a number of frames to a `Sketch` of so many at most,
         much sooner than ``read``; None where that cannot be.
+    write_animations : callable, optional
+        From motions of one skeleton, by their names, to a path; for formats that hold several.
 
     Examples
     --------
@@ -80,11 +80,11 @@ class Format:
     read: Callable[[FileContent, ReadOptions], Motion | Signals] | None = None
     write: Callable[[Motion, Path], None] | None = None
     write_signals: Callable[[Signals, Path], None] | None = None
-    write_animations: Callable[[Mapping[str, Motion], Path], None] | None = None
     read_folder: Callable[[Path, ReadOptions], Motion | Signals | None] | None = None
     channels: bool = False
     analog: bool = False
     sketch: Callable[[FileContent, ReadOptions, int], Sketch | None] | None = None
+    write_animations: Callable[[Mapping[str, Motion], Path], None] | None = None
 
     def __post_init__(self) -> None:
         check_suffixes(self.suffixes, self.name)
