@@ -94,7 +94,9 @@ def test_columns_of_the_docs_are_those_of_the_table() -> None:
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_names_in_the_docs_exist(page: Path) -> None:
-    groups = {f"kineme.{name}" for name in ("formats", "presets", "label_formats", "scores")}
+    groups = {
+        f"kineme.{name}" for name in ("formats", "presets", "label_formats", "scores", "benchmarks")
+    }
     for name in re.findall(r"`(kineme(?:\.\w+)+)`", page.read_text(encoding="utf-8")):
         if name not in groups and not name.startswith("kineme.interop."):  # some need more packages
             assert resolve_name(name) is not None

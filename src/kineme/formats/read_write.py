@@ -86,8 +86,8 @@ def read(
     <Motion of 2898 frames (48.3 s) at 60 Hz: 26 joints, 5 of them end sites>
     """
     who = None if person is None else str(person)
-    which = None if take is None else str(take)
-    options = ReadOptions(skeleton, fps, unit, up, who, confidence, columns, emg, which)
+    take_name = None if take is None else str(take)
+    options = ReadOptions(skeleton, fps, unit, up, who, confidence, columns, emg, take_name)
     recording = read_quietly(path, options)
     if remarks := recording.provenance.warnings:
         warn(f"{path}: {'; '.join(remarks)}")

@@ -107,14 +107,14 @@ class Settings:
             reading = {name: _tupled(value) for name, value in content["reading"].items()}
             detail = content.get("detail", DEFAULT_DETAIL)  # libraries of before have none
             preset = content["preset"]
-            if gone := sorted(constants.keys() - _names_of(preset)):
+            if obsolete := sorted(constants.keys() - _names_of(preset)):
                 warnings.warn(
-                    f"the library was built with constants of an older version: {', '.join(gone)}; "
-                    "new recordings do without them",
+                    "the library was built with constants of an older version: "
+                    f"{', '.join(obsolete)}; new recordings do without them",
                     KinemeWarning,
                     stacklevel=2,
                 )
-                constants = {name: constants[name] for name in constants.keys() - {*gone}}
+                constants = {name: constants[name] for name in constants.keys() - {*obsolete}}
             return cls(preset, constants, reading, content["effectors"], detail)
         except (KeyError, TypeError, AttributeError) as error:
             raise ParameterError(

@@ -244,6 +244,7 @@ def constants(draw: st.DrawFn) -> dict[str, float]:
         "compared_within": some,
         "segment_cost": none_or_some,
         "cluster_cost": none_or_some,
+        "cluster_growth": share,
         "spread_share": share,
         "min_action": none_or_some,
         "max_clusters": st.integers(1, 20),

@@ -143,7 +143,7 @@ def _scaled(
     turn: Floats,
 ) -> Local | None:
     """Rotations as they are and bones as much longer; None where a scale is not one number."""
-    position, rotation, world, own = np.zeros(3), turn, 1.0, 1.0
+    position, rotation, world, node_scale = np.zeros(3), turn, 1.0, 1.0
     for node in above:
         found = transform(node)
         factor = _factor(found.scale)
@@ -151,7 +151,7 @@ def _scaled(
             return None
         position = position + world * rot.rotate(rotation, found.translation)
         rotation = rot.multiply(rotation, found.rotation)
-        world, own = _inherited(world, own, factor, found.inheritance), factor
+        world, node_scale = _inherited(world, node_scale, factor, found.inheritance), factor
     rotations = np.empty((n_frames, len(joints), 4))
     offsets = np.zeros((len(joints), 3))
     slides: dict[int, Floats] = {}
@@ -165,18 +165,18 @@ def _scaled(
             at = position + world * rot.rotate(rotation, found.translation)
             slides[j] = np.array(np.broadcast_to(at, (n_frames, 3)))
             rotations[:, j] = rot.multiply(rotation, found.rotation)
-            scales.append((_inherited(world, own, factor, found.inheritance), factor))
+            scales.append((_inherited(world, node_scale, factor, found.inheritance), factor))
             continue
-        scale, own_scale = scales[parent]
+        scale, parent_factor = scales[parent]
         rotations[:, j] = found.rotation
-        scales.append((_inherited(scale, own_scale, factor, found.inheritance), factor))
+        scales.append((_inherited(scale, parent_factor, factor, found.inheritance), factor))
         _carry(j, scale * found.translation, offsets, slides)
     return Local(rotations, offsets, slides)
 
 
-def _inherited(world: float, own: float, factor: float, inheritance: Inheritance) -> float:
-    """A node's scale in the world, from its parent's and its own."""
-    return world / own * factor if inheritance == "Rrs" else world * factor
+def _inherited(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
+    """A node's scale in the world, from that of its parent and its own factor."""
+    return world / parent * factor if inheritance == "Rrs" else world * factor
 
 
 def _factor(scale: Floats) -> float | None:
@@ -259,8 +259,8 @@ def _product(parent: World, found: Transform, before: Transform | None, span: sl
         product = matrix @ turn
     else:
         if found.inheritance == "Rrs" and before is not None:
-            own = _frames(before.scale, span)
-            inherited = inherited / np.where(own == 0, 1, own)[:, None, :]
+            scale = _frames(before.scale, span)
+            inherited = inherited / np.where(scale == 0, 1, scale)[:, None, :]
         product = axes @ turn @ inherited
     product = product * scale[:, None, :]
     place = position + np.einsum("fij,fj->fi", matrix, _frames(found.translation, span))

@@ -100,12 +100,12 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
         (name,) = people
     if name is None or name not in people:
         listed = _listing([f"{name} ({len(joints)} joints)" for name, joints in people.items()])
-        which = (
+        question = (
             f"{len(people)} characters are in it: choose one with person= (--person), of"
             if name is None
             else f"there is no person {name!r}: choose from"
         )
-        raise SeveralPeopleError(content.path, f"{which} {listed}", people)
+        raise SeveralPeopleError(content.path, f"{question} {listed}", people)
     notes = [f"person {name} of {len(people)}"] if len(people) > 1 else []
     if props := _props(nodes, list(people.values())):
         notes.append(f"left out as props: {_listing(props)}")
@@ -113,7 +113,7 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
 
 
 def choose_take(
-    content: FileContent, names: Sequence[str], lively: Sequence[int], wanted: str | None
+    content: FileContent, names: Sequence[str], lively: Sequence[int], name: str | None
 ) -> tuple[int, list[str]]:
     """The number of the animation that is read, by name or number, and what to say of it.
 
@@ -124,18 +124,18 @@ def choose_take(
         Of all animations, each once.
     lively : sequence of int
         Those that move a skeleton: the first of them is read where none is wanted.
-    wanted : str, optional
+    name : str, optional
 
     Raises
     ------
     ReadError
         None moves a skeleton, or none of this name is there.
     """
-    if wanted is not None:
-        number = _numbered(names, wanted)
+    if name is not None:
+        number = _numbered(names, name)
         if number is None:
             listed = _listing(names) or "none"
-            raise content.error(f"there is no take {wanted!r}: choose from {listed}")
+            raise content.error(f"there is no take {name!r}: choose from {listed}")
         return number, [f"take {names[number]} of {len(names)}"]
     if not lively:
         raise content.error(
@@ -152,15 +152,15 @@ def choose_take(
     return first, [Note(remark, "warning")]
 
 
-def _numbered(names: Sequence[str], wanted: str) -> int | None:
+def _numbered(names: Sequence[str], name: str) -> int | None:
     """The number of a take, by its name, what follows the armature's in it, or its number."""
-    if wanted in names:
-        return names.index(wanted)
+    if name in names:
+        return names.index(name)
     short = [name.rpartition("|")[2] for name in names]
-    if short.count(wanted) == 1:
-        return short.index(wanted)
-    if wanted.isdecimal() and len(wanted) < 10 and int(wanted) < len(names):
-        return int(wanted)
+    if short.count(name) == 1:
+        return short.index(name)
+    if name.isdecimal() and len(name) < 10 and int(name) < len(names):
+        return int(name)
     return None
 
 

@@ -164,7 +164,7 @@ class Sampler:
 
     def __init__(self, at: Floats) -> None:
         self.at = at
-        self._whole = at  # times that are those of the frames, or nearly so
+        self._frame_times = at  # times that are those of the frames, or nearly so
         self._times = np.empty(0)
         self._index: NDArray[np.intp] = np.empty(0, np.intp)
         self._share = np.empty(0)
@@ -199,11 +199,11 @@ class Sampler:
 
     def _are_frames(self, times: Floats) -> bool:
         """Whether there is a key at each frame."""
-        if times is self._whole:
+        if times is self._frame_times:
             return True
         if len(times) != len(self.at) or np.abs(times - self.at).max() > SLACK:
             return False
-        self._whole = times
+        self._frame_times = times
         return True
 
     def _find(self, times: Floats) -> None:
@@ -220,11 +220,11 @@ def _bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:
     step = np.diff(curve.times)[i] / TICKS
     start, stop = curve.values[i], curve.values[i + 1]
     first, last = right_weight[i], left_weight[i]
-    along = _parameter(share, first, 1 - last)
-    rest = 1 - along
+    share_after = _parameter(share, first, 1 - last)
+    rest = 1 - share_after
     out, into = start + right[i] * first * step, stop - left[i] * last * step
-    value = rest**3 * start + 3 * rest**2 * along * out + 3 * rest * along**2 * into
-    return np.asarray(value + along**3 * stop, np.float64)
+    value = rest**3 * start + 3 * rest**2 * share_after * out + 3 * rest * share_after**2 * into
+    return np.asarray(value + share_after**3 * stop, np.float64)
 
 
 def _parameter(share: Floats, first: Floats, second: Floats) -> Floats:

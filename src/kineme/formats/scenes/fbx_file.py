@@ -64,8 +64,8 @@ def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
     root = parse_text(content)
     header = root.child("FBXHeaderExtension")
     found = header.child("FBXVersion") if header else None
-    told = found.values[0] if found and found.values else 0
-    version = told if isinstance(told, int) else 0
+    number = found.values[0] if found and found.values else 0
+    version = number if isinstance(number, int) else 0
     _refuse_old(content, version)
     return version, root
 
@@ -161,13 +161,13 @@ class _Array:
 
     def read(self, content: FileContent) -> NDArray[Any]:
         raw = self.raw(content)
-        wanted = self.count * np.dtype(self.code).itemsize
+        size = self.count * np.dtype(self.code).itemsize
         if self.packed:
-            content.claim(wanted, f"an array of {self.count} numbers")
+            content.claim(size, f"an array of {self.count} numbers")
             try:
-                raw = zlib.decompressobj().decompress(raw, wanted + 1)
+                raw = zlib.decompressobj().decompress(raw, size + 1)
             except zlib.error as error:
                 raise content.error(f"an array cannot be unpacked: {error}") from None
-        if len(raw) != wanted:
+        if len(raw) != size:
             raise content.error(f"an array is not of {self.count} numbers, as it says: damaged")
         return np.frombuffer(raw, self.code)

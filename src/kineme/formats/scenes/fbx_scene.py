@@ -116,14 +116,14 @@ class FBXScene:
         self.takes = self._takes(root)
 
     def _connect(self, link: FBXNode) -> None:
-        part, whole = link.number(1, -1), link.number(2, -1)
-        if not (isinstance(part, int) and isinstance(whole, int)):
+        part, parent = link.number(1, -1), link.number(2, -1)
+        if not (isinstance(part, int) and isinstance(parent, int)):
             return
         if link.text(0) == "OO":
-            self._parts.setdefault(whole, []).append(part)
+            self._parts.setdefault(parent, []).append(part)
         elif link.text(0) == "OP":
-            self._driven.setdefault(part, []).append((whole, link.text(3)))
-            self._driving.setdefault(whole, []).append((part, link.text(3)))
+            self._driven.setdefault(part, []).append((parent, link.text(3)))
+            self._driving.setdefault(parent, []).append((part, link.text(3)))
 
     def _bones(self) -> set[int]:
         """The numbers of the models that are bones: by their kind, or as a skin hangs on them."""
@@ -138,17 +138,17 @@ class FBXScene:
     def _models(self) -> list[Model]:
         """All models, parents before their children; those in a circle are left out."""
         found: list[Model] = []
-        carried = {part for whole in self.objects for part in self._parts.get(whole, ())}
+        carried = {part for parent in self.objects for part in self._parts.get(parent, ())}
         tops = dict.fromkeys(self._parts.get(0, []))
         tops |= dict.fromkeys(number for number in self.objects if number not in carried)
         waiting = [(number, -1) for number in reversed(tops)]
-        known: set[int] = set()
+        visited: set[int] = set()
         while waiting:
             number, parent = waiting.pop()
             node = self.objects.get(number)
-            if node is None or node.name != "Model" or number in known:
+            if node is None or node.name != "Model" or number in visited:
                 continue
-            known.add(number)
+            visited.add(number)
             name = _plain(node.text(1))
             properties = {**self._templates.get("Model", {}), **_properties(node)}
             here = len(found)
@@ -228,9 +228,9 @@ class FBXScene:
 
     def key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
         """The times of the keys of each curve that moves one of these models, in ticks."""
-        wanted = set(models)
+        numbers = set(models)
         for (model, what), parts in self.tracks(take).items():
-            if model in wanted and what in (TRANSLATION, ROTATION, SCALING):
+            if model in numbers and what in (TRANSLATION, ROTATION, SCALING):
                 for _, part in parts:
                     yield from (curve.times for curve in self.curves(part).values())
 
@@ -260,34 +260,34 @@ class Pose:
     def transform(self, number: int) -> Transform:
         """Of the model of this number among the nodes of the scene."""
         model = self.scene.models[number]
-        said = model.properties
-        order = _ORDERS[_choice(said, "RotationOrder", len(_ORDERS))]
+        properties = model.properties
+        order = _ORDERS[_choice(properties, "RotationOrder", len(_ORDERS))]
         turn = self._rotation(model, order)
-        before, after = _vector(said, "PreRotation"), _vector(said, "PostRotation")
+        before, after = _vector(properties, "PreRotation"), _vector(properties, "PostRotation")
         if before.any():
             turn = rot.multiply(_euler(before, "zyx"), turn)
         if after.any():
             turn = rot.multiply(turn, rot.conjugate(_euler(after, "zyx")))
         scale, shift = self._values(model, SCALING, 1.0), self._values(model, TRANSLATION, 0.0)
-        shift = _pivoted(said, shift, turn, scale)
-        inheritance = _INHERITANCE[_choice(said, "InheritType", len(_INHERITANCE))]
+        shift = _pivoted(properties, shift, turn, scale)
+        inheritance = _INHERITANCE[_choice(properties, "InheritType", len(_INHERITANCE))]
         return Transform(shift, turn, scale, inheritance)
 
     def _rotation(self, model: Model, order: str) -> Floats:
         """(4,) or (frames, 4)."""
         angles = _vector(model.properties, ROTATION)
         turn: Floats | None = None  # in place of the angles, once layers were multiplied
-        for value, weight, said in self._layers(model, ROTATION, angles):
+        for value, weight, properties in self._layers(model, ROTATION, angles):
             if weight is None:
                 angles, turn = value, None
-            elif _choice(said, "RotationAccumulationMode", 2) == 1:
+            elif _choice(properties, "RotationAccumulationMode", 2) == 1:
                 angles = angles if turn is None else _angles(turn, order)
-                angles = angles * (1 - weight if _replaces(said) else 1) + value * weight
+                angles = angles * (1 - weight if _replaces(properties) else 1) + value * weight
                 turn = None
             else:
                 turn = _euler(angles, order) if turn is None else turn
                 layer = _euler(value, order)
-                if _replaces(said):
+                if _replaces(properties):
                     layer = rot.multiply(rot.conjugate(turn), layer)
                 turn = rot.multiply(turn, _share_of(layer, weight))
         return _euler(angles, order) if turn is None else turn
@@ -295,55 +295,59 @@ class Pose:
     def _values(self, model: Model, what: str, usual: float) -> Floats:
         """(3,) or (frames, 3): a property with all layers on it."""
         result = _vector(model.properties, what, usual)
-        for value, weight, said in self._layers(model, what, result):
+        for value, weight, properties in self._layers(model, what, result):
             if weight is None:
                 result = value
-            elif what == SCALING and _choice(said, "ScaleAccumulationMode", 2) == 0:
-                rest = 1 - weight if _replaces(said) else 1
+            elif what == SCALING and _choice(properties, "ScaleAccumulationMode", 2) == 0:
+                rest = 1 - weight if _replaces(properties) else 1
                 result = np.abs(result) ** rest * np.abs(value) ** weight
             else:
-                result = result * (1 - weight if _replaces(said) else 1) + value * weight
+                result = result * (1 - weight if _replaces(properties) else 1) + value * weight
         return result
 
     def _layers(
         self, model: Model, what: str, usual: Floats
     ) -> Iterator[tuple[Floats, Floats | float | None, Properties]]:
-        """Value, weight and properties of each layer; the weight is None where it is all."""
+        """Value, weight and table of each layer; the weight is None where it is all."""
         base = next(iter(self.layers), None)
         for layer, part in self.tracks.get((model.number, what), ()):
-            said = self.layers[layer]
+            table = self.layers[layer]
             if layer == base:
-                yield self._sampled(part, usual), None, said
-            elif not _number(said, "Mute", 0):
+                yield self._sampled(part, usual), None, table
+            elif not _number(table, "Mute", 0):
                 rest = np.full(3, 1.0 if what == SCALING else 0.0)
-                whole = _choice(said, "BlendMode", 3) == _OVERRIDE
-                yield self._sampled(part, rest), None if whole else self._weight(layer), said
+                overrides = _choice(table, "BlendMode", 3) == _OVERRIDE
+                yield (
+                    self._sampled(part, rest),
+                    None if overrides else self._weight(layer),
+                    table,
+                )
 
     def _weight(self, layer: int) -> Floats | float:
         """The share of a layer: one, or (frames, 1)."""
-        said = self.layers[layer]
+        table = self.layers[layer]
         for _, part in self.tracks.get((layer, "Weight"), ()):
             for curve in self.scene.curves(part).values():
                 sampled = np.clip(np.asarray(self.sampler.values(curve)) / 100, 0, 1)
                 return sampled[:, None] if sampled.ndim else float(sampled)
-        return min(max(_number(said, "Weight", 100.0) / 100, 0.0), 1.0)
+        return min(max(_number(table, "Weight", 100.0) / 100, 0.0), 1.0)
 
     def _sampled(self, part: int, usual: Floats) -> Floats:
         """(3,) or (frames, 3): what a curve node has for the three axes."""
-        curves, said = self.scene.curves(part), self.scene.properties(part)
+        curves, table = self.scene.curves(part), self.scene.properties(part)
         axes = []
         for letter, rest in zip("XYZ", usual.tolist(), strict=True):
             curve = curves.get(f"d|{letter}")
             value = (
-                _number(said, f"d|{letter}", rest) if curve is None else self.sampler.values(curve)
+                _number(table, f"d|{letter}", rest) if curve is None else self.sampler.values(curve)
             )
             axes.append(np.asarray(value, np.float64))
         return np.stack(np.broadcast_arrays(*axes)).T  # contiguous per axis
 
 
-def _replaces(said: Properties) -> bool:
+def _replaces(properties: Properties) -> bool:
     """Whether a layer takes the place of what is below it, to its share, and is not added."""
-    return _choice(said, "BlendMode", 3) == _PASS_THROUGH
+    return _choice(properties, "BlendMode", 3) == _PASS_THROUGH
 
 
 def _share_of(turn: Floats, weight: Floats | float) -> Floats:
@@ -374,11 +378,11 @@ def _angles(turn: Floats, axes: str) -> Floats:
     return np.asarray(columns[..., [axes.index(axis) for axis in "xyz"]], np.float64)
 
 
-def _pivoted(said: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
+def _pivoted(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
     """The translation with what pivots and their offsets add to it."""
-    shift = shift + _vector(said, "RotationOffset")
-    pivot, center = _vector(said, "RotationPivot"), _vector(said, "ScalingPivot")
-    carried = _vector(said, "ScalingOffset") - pivot
+    shift = shift + _vector(properties, "RotationOffset")
+    pivot, center = _vector(properties, "RotationPivot"), _vector(properties, "ScalingPivot")
+    carried = _vector(properties, "ScalingOffset") - pivot
     if center.any():
         carried = carried + center - scale * center
     if pivot.any() or carried.any():
@@ -410,28 +414,28 @@ def _spans(root: FBXNode) -> dict[str, tuple[float, float]]:
 
 def _properties(node: FBXNode | None) -> Properties:
     """The values of an object's properties, by their names."""
-    held = node.child("Properties70") if node else None
-    if held is None:
+    table = node.child("Properties70") if node else None
+    if table is None:
         return {}
-    return {entry.text(0): entry.values[4:] for entry in held.all("P")}
+    return {entry.text(0): entry.values[4:] for entry in table.all("P")}
 
 
-def _number(said: Properties, name: str, usual: float) -> float:
-    values = said.get(name) or [usual]
+def _number(properties: Properties, name: str, usual: float) -> float:
+    values = properties.get(name) or [usual]
     value = values[0]
     if not isinstance(value, int | float) or not isfinite(value):
         return usual
     return float(value)
 
 
-def _choice(said: Properties, name: str, count: int) -> int:
+def _choice(properties: Properties, name: str, count: int) -> int:
     """One of so many values, the first where it is none of them."""
-    value = _number(said, name, 0)
+    value = _number(properties, name, 0)
     return int(value) if 0 <= value < count else 0
 
 
-def _vector(said: Properties, name: str, usual: float = 0.0) -> Floats:
-    values = said.get(name) or []
+def _vector(properties: Properties, name: str, usual: float = 0.0) -> Floats:
+    values = properties.get(name) or []
     numbers = [v for v in values[:3] if isinstance(v, int | float) and abs(v) < _LARGEST]
     return np.array(numbers, np.float64) if len(numbers) == 3 else np.full(3, usual)
 

@@ -31,7 +31,7 @@ from kineme.formats.scenes.assembly import (
 )
 from kineme.formats.scenes.characters import SceneNode, character_of, choose_take, is_end
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
-from kineme.formats.scenes.gltf_writer import OURS, write_animations, write_gltf
+from kineme.formats.scenes.gltf_writer import EXTRAS, write_animations, write_gltf
 from kineme.formats.scenes.sampling import between, slerp
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
@@ -83,7 +83,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
             order[j] in bones,
             each.mesh is not None or each.camera is not None,
             order[j] in moved[number],
-            end=_is_marked(each) if _is_ours(file) else is_end(each.name),
+            end=_is_marked(each) if _is_kineme(file) else is_end(each.name),
         )
         for j, each in enumerate(objects)
     ]
@@ -110,9 +110,9 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
     )
 
 
-def _is_ours(file: GLTFFile) -> bool:
+def _is_kineme(file: GLTFFile) -> bool:
     extras = file.tree.asset.extras
-    return isinstance(extras, dict) and OURS in extras
+    return isinstance(extras, dict) and EXTRAS in extras
 
 
 def _is_marked(each: SceneObject) -> bool:
@@ -121,18 +121,18 @@ def _is_marked(each: SceneObject) -> bool:
 
 def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
     """The numbers of the nodes, parents first, and the place of each one's parent among them."""
-    held = file.tree.nodes
-    carried = {child for node in held for child in node.children}
-    waiting = [(number, -1) for number in reversed(range(len(held))) if number not in carried]
+    nodes = file.tree.nodes
+    carried = {child for node in nodes for child in node.children}
+    waiting = [(number, -1) for number in reversed(range(len(nodes))) if number not in carried]
     order: list[int] = []
     parents: list[int] = []
-    known: set[int] = set()
+    visited: set[int] = set()
     while waiting:
         number, parent = waiting.pop()
-        if number in known or not 0 <= number < len(held):
+        if number in visited or not 0 <= number < len(nodes):
             continue
-        known.add(number)
-        waiting += [(child, len(order)) for child in reversed(held[number].children)]
+        visited.add(number)
+        waiting += [(child, len(order)) for child in reversed(nodes[number].children)]
         order.append(number)
         parents.append(parent)
     return order, parents
@@ -176,8 +176,8 @@ def _rate(
     if options.fps is not None:
         return options.fps, [f"sampled {options.fps:g} times a second, as asked for"]
     extras = file.tree.asset.extras
-    said = extras.get(OURS) if isinstance(extras, dict) else None
-    fps = said.get("fps") if isinstance(said, dict) else None
+    settings = extras.get(EXTRAS) if isinstance(extras, dict) else None
+    fps = settings.get("fps") if isinstance(settings, dict) else None
     if isinstance(fps, int | float) and SLOWEST <= fps <= FASTEST:
         return float(fps), []
     times = max((each.times for each in keys.values()), key=len, default=np.empty(0))
@@ -203,8 +203,8 @@ def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> T
     """A node's transform at these seconds."""
     rest = _rest(node)
     found = {
-        what: rest[what] if held is None else _sampled(held, at, turns=what == ROTATION)
-        for what, held in keys.items()
+        what: rest[what] if track is None else _sampled(track, at, turns=what == ROTATION)
+        for what, track in keys.items()
     }
     return Transform(found[TRANSLATION], found[ROTATION], found[SCALE])
 

@@ -151,9 +151,9 @@ class GLTFFile:
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
-        text, self._own = content.data, b""
+        text, self._chunk = content.data, b""
         if text.startswith(MAGIC):
-            text, self._own = _chunks(content)
+            text, self._chunk = _chunks(content)
         self.tree = decoded(text, content.path, Tree)
         if not self.tree.asset.version.startswith("2"):
             version = self.tree.asset.version
@@ -207,7 +207,7 @@ class GLTFFile:
     def _buffer(self, number: int) -> bytes:
         if number not in self._buffers:
             place = self.part(self.tree.buffers, number, "buffer").uri
-            self._buffers[number] = self._own if place is None else self._stored(place)
+            self._buffers[number] = self._chunk if place is None else self._stored(place)
         return self._buffers[number]
 
     def _stored(self, place: str) -> bytes:

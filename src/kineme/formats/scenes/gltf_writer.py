@@ -36,7 +36,7 @@ from kineme.recordings.kinematics import local_translations
 
 Floats = NDArray[np.float64]
 
-OURS = "kineme"
+EXTRAS = "kineme"
 """The name of what kineme adds to the extras of a file."""
 
 THICK = 0.08
@@ -110,7 +110,7 @@ class _Writer:
             "asset": {
                 "version": "2.0",
                 "generator": f"kineme {__version__}",
-                "extras": {OURS: {"fps": motion.fps}},
+                "extras": {EXTRAS: {"fps": motion.fps}},
             },
             "scene": 0,
             "bufferViews": [],
@@ -242,20 +242,20 @@ def _bones(
         if not tips and j not in skeleton.end_sites:
             tips = [places[j] + [0.0, SHORT, 0.0]]
         for tip in tips:
-            along = tip - places[j]
-            length = float(np.linalg.norm(along))
+            bone = tip - places[j]
+            length = float(np.linalg.norm(bone))
             if length < RIGID:
                 continue
-            side = np.cross(along, np.eye(3)[np.abs(along).argmin()])
+            side = np.cross(bone, np.eye(3)[np.abs(bone).argmin()])
             side *= THICK * length / np.linalg.norm(side)
-            other = np.cross(along, side) / length
-            ring = [places[j] + 0.2 * along + x * side + y * other for x, y in _RING]
+            other = np.cross(bone, side) / length
+            ring = [places[j] + 0.2 * bone + x * side + y * other for x, y in _RING]
             start = len(vertices)
             vertices += [places[j], *ring, tip]
             joints += [j] * 6
             for k in range(4):
-                here, there = start + 1 + k, start + 1 + (k + 1) % 4
-                faces += [(start, there, here), (start + 5, here, there)]
+                here, after = start + 1 + k, start + 1 + (k + 1) % 4
+                faces += [(start, after, here), (start + 5, here, after)]
     if not vertices:  # all joints are at one place
         vertices, faces, joints = (
             [places[0] + SHORT * axis for axis in np.eye(3)],

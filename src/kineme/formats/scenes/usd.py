@@ -94,17 +94,19 @@ class _Skeleton:
         from pxr import UsdSkel
 
         self.prim = prim
-        held = UsdSkel.Skeleton(prim)
-        self.joints = list(map(str, held.GetJointsAttr().Get() or ()))
-        said = list(map(str, held.GetJointNamesAttr().Get() or ()))
+        schema = UsdSkel.Skeleton(prim)
+        self.joints = list(map(str, schema.GetJointsAttr().Get() or ()))
+        given = list(map(str, schema.GetJointNamesAttr().Get() or ()))
         usual = [joint.rpartition("/")[2] for joint in self.joints]
-        self.names = said if len(said) == len(usual) else usual
+        self.names = given if len(given) == len(usual) else usual
         self.parents = list(UsdSkel.Topology(self.joints).GetParentIndices())
         self.ends = prim.GetCustomDataByKey(END_SITES)
         self.bound = UsdSkel.BindingAPI(prim).GetInheritedAnimationSource()
-        rest = held.GetRestTransformsAttr().Get()
-        whole = rest is not None and len(rest) == len(self.joints)
-        self.rest = np.array(rest, np.float64) if whole else np.tile(np.eye(4), (len(usual), 1, 1))
+        rest = schema.GetRestTransformsAttr().Get()
+        complete = rest is not None and len(rest) == len(self.joints)
+        self.rest = (
+            np.array(rest, np.float64) if complete else np.tile(np.eye(4), (len(usual), 1, 1))
+        )
 
     def is_end(self, j: int) -> bool:
         if self.ends is not None:
@@ -113,8 +115,8 @@ class _Skeleton:
 
     def fitting(self, animations: Sequence[Any]) -> list[Any]:
         """The animations that move joints of it, the one bound to it first."""
-        own = set(self.joints)
-        found = [each for each in animations if own & set(map(str, _joints(each)))]
+        joints = set(self.joints)
+        found = [each for each in animations if joints & set(map(str, _joints(each)))]
         return sorted(found, key=lambda each: each.GetPrim() != self.bound)
 
     def pose(self, animation: Any, codes: Floats) -> list[Transform]:

@@ -54,18 +54,18 @@ def write_usd(motion: Motion, path: Path) -> None:
     top = Sdf.Path(f"/{Tf.MakeValidIdentifier(path.stem)}")
     root = UsdSkel.Root.Define(stage, top)
     stage.SetDefaultPrim(root.GetPrim())
-    held = UsdSkel.Skeleton.Define(stage, top.AppendChild("Skeleton"))
+    bound = UsdSkel.Skeleton.Define(stage, top.AppendChild("Skeleton"))
     places = np.array(skeleton.offsets)
     for j, parent in enumerate(skeleton.parents):
         if parent >= 0:
             places[j] += places[parent]
-    held.CreateJointsAttr(joints)
-    held.CreateJointNamesAttr(names)
-    held.CreateRestTransformsAttr([_shift(Gf, offset) for offset in skeleton.offsets])
-    held.CreateBindTransformsAttr([_shift(Gf, place) for place in places])
+    bound.CreateJointsAttr(joints)
+    bound.CreateJointNamesAttr(names)
+    bound.CreateRestTransformsAttr([_shift(Gf, offset) for offset in skeleton.offsets])
+    bound.CreateBindTransformsAttr([_shift(Gf, place) for place in places])
     ends = [names[j] for j in sorted(skeleton.end_sites)]
-    held.GetPrim().SetCustomDataByKey(END_SITES, Vt.StringArray(ends))
-    animation = UsdSkel.Animation.Define(stage, held.GetPath().AppendChild("Animation"))
+    bound.GetPrim().SetCustomDataByKey(END_SITES, Vt.StringArray(ends))
+    animation = UsdSkel.Animation.Define(stage, bound.GetPath().AppendChild("Animation"))
     animation.CreateJointsAttr(joints)
     animation.CreateScalesAttr(Vt.Vec3hArray(len(joints), Gf.Vec3h(1, 1, 1)))
     shifts = local_translations(skeleton, motion.positions, motion.rotations).astype("f4")
@@ -74,7 +74,7 @@ def write_usd(motion: Motion, path: Path) -> None:
     for frame in range(motion.n_frames):
         moved.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)
         turned.Set(Vt.QuatfArray.FromNumpy(np.ascontiguousarray(turns[frame])), frame)
-    binding = UsdSkel.BindingAPI.Apply(held.GetPrim())
+    binding = UsdSkel.BindingAPI.Apply(bound.GetPrim())
     binding.CreateAnimationSourceRel().SetTargets([animation.GetPath()])
     with atomic_write(path) as draft:
         try:

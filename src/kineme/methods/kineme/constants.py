@@ -95,9 +95,12 @@ class KinemeConstants(Preset):
         slider=(0.02, 2.0, 0.02), default=0.15,
     )  # fmt: skip
     cluster_cost: float = constant(
-        "cost of a cluster: time at the median distance", unit="s", limits=TIME,
+        "cost of a cluster in a minute: time at the median distance", unit="s", limits=TIME,
         slider=(0.1, 5.0, 0.1), default=0.66,
     )  # fmt: skip
+    cluster_growth: float = constant(
+        "power of the duration with which that grows", limits=SHARE, fine=True, default=0.2
+    )
     spread_share: float = constant(
         "share of the distances within two clusters that is subtracted from the one between them",
         limits=SHARE, fine=True, default=0.5,
@@ -227,6 +230,20 @@ class KinemeConstants(Preset):
     def at_most(self, fps: float) -> Self:
         """The preset for a recording of that rate: energies above it are not there."""
         return replace(self, working_fps=fps) if RATE.minimum <= fps < self.working_fps else self
+
+    def cluster_price(self, samples: int) -> float:
+        """Cost of a cluster in a part of so many samples, in samples.
+
+        The longer it is, the more of it differs from the rest by chance.
+
+        Examples
+        --------
+        >>> from kineme.methods.kineme.preset import SENSORS
+        >>> [round(SENSORS.cluster_price(samples), 1) for samples in (300, 1200)]
+        [3.3, 4.4]
+        """
+        minutes = samples / self.rate / 60
+        return self.samples(self.cluster_cost) * float(minutes**self.cluster_growth)
 
     def samples(self, seconds: float) -> float:
         """Seconds in samples, at `rate`."""

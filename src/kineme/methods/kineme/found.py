@@ -103,23 +103,29 @@ class KinemeFound:
             segments,
             DETAILS,
             border_price=self.preset.samples(self.preset.segment_cost),
-            cluster_price=self.preset.samples(self.preset.cluster_cost),
+            cluster_price=self.preset.cluster_price(self._part_length),
         )
         return tables_at(columns, frames, at, longest=0.0)
 
     def _fine_segments(self) -> tuple[FineSegments, Frames]:
         """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
-        coarse = in_samples(self.borders, self.preset, len(self.features))
-        fine = in_samples(self.fine, self.preset, len(self.features))
+        n, per_sample = len(self.features), self.preset.working_fps / self.preset.rate
+        coarse = in_samples(self.borders, self.preset, n)
+        nearest = np.rint(self.fine[:-1] / per_sample).astype(np.int64)
+        fine = np.unique(np.append(np.minimum(nearest, n - 1), n))
         found = tree.levels(fine, tree.between_segments(self.features, fine, self.unit))
         most = min(len(found), EACH * len(coarse), max(MOST, len(coarse)))
         borders = np.unique(np.concatenate([coarse, fine[found[most - 1]]]))
-        per_sample = self.preset.working_fps / self.preset.rate
         frames = np.rint(borders * per_sample).astype(np.int64)
         frames[np.searchsorted(borders, coarse)] = self.borders
         parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
         sums = tree.between_segments(self.features, borders, self.unit) / 2
         return FineSegments(borders, np.arange(len(parents)), parents, sums), frames
+
+    @property
+    def _part_length(self) -> int:
+        """Samples of the recording, or of a part of it."""
+        return min(len(self.features), round(self.preset.samples(self.preset.part)))
 
     @cached_property
     def graph(self) -> NeighborGraph:

@@ -16,6 +16,7 @@ Skeletons and sensors are unknown here: features are any array of frames x dims.
 from __future__ import annotations
 
 from itertools import pairwise
+from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -99,7 +100,8 @@ def _analyze(
     stage = stopwatch(timings, progress)
     n = len(rows)
     poses = np.ascontiguousarray(rows - rows.mean(axis=0), np.float32)  # a shift costs no digits
-    ends = part_ends(n, max(1, preset.frames(preset.part)))
+    least = 2 * ceil(preset.working_fps / preset.rate)  # frames, so that each part has a sample
+    ends = part_ends(n, max(least, preset.frames(preset.part)))
     spans = [slice(*span) for span in pairwise(ends)]
     with stage("views"):
         views = [views_of(rows[span], preset, carried[span], joints=joints) for span in spans]
@@ -113,7 +115,7 @@ def _analyze(
             features = views_of(rows, preset.in_scale(scale), carried, joints=joints).views[0]
         unit = median_distance(features, preset.near)
         at = sampled_at(n, preset.working_fps, preset.rate)
-        price = preset.samples(preset.cluster_cost)
+        price = preset.cluster_price(len(parts[0].view))
         level = linked(features, at, [part.level for part in parts], unit=unit, price=price)
     with stage("borders"):
         starts, stops = to_the_frame(rows, level.borders, preset)

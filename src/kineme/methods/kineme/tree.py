@@ -287,7 +287,7 @@ def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
     lengths = np.diff(borders).astype(np.float64)
     labels = np.empty(len(lengths), np.int64)
     segment_cost = preset.samples(preset.segment_cost)
-    cluster_cost = preset.samples(preset.cluster_cost)
+    cluster_cost = preset.cluster_price(int(borders[-1]))
     most, share = preset.max_clusters, preset.spread_share
     kernels.cheapest_grouping(
         sums.copy(), lengths.copy(), most, segment_cost, cluster_cost, share, labels
