@@ -108,7 +108,13 @@ def measured(takes: Iterator[tuple[Take, Spans]]) -> dict[str, float]:
     people = sorted({take.person for take, *_ in known})
     alone, called, found = [], [], []
     for who, other in zip(people, people[1:] + people[:1], strict=True):
-        theirs = [(take, table) for take, _, table in known if take.person == other]
+        theirs = [
+            (take, table)
+            for take, _, table in known
+            if take.person == other and (table.primitives.label != "").any()
+        ]
+        if not theirs:
+            continue
         knowledge = KnowledgeBase.merged(
             *[KnowledgeBase.from_recording(take.motion, table) for take, table in theirs]
         )
