@@ -204,19 +204,19 @@ class KinemeConstants(Preset):
     # Confidence: a constant, and the weight of a statistic.
     link_weights: tuple[float, float] = constant(
         "confidence of a cluster by the seconds for which an activity prefers it", limits=WEIGHT,
-        fine=True, default=(1.661, 1.057),
+        fine=True, default=(1.676, 1.044),
     )  # fmt: skip
     border_weights: tuple[float, float] = constant(
         "confidence of a border by the same of the side with fewer", limits=WEIGHT, fine=True,
-        default=(1.691, 0.5826),
+        default=(1.666, 0.563),
     )  # fmt: skip
     count_weights: tuple[float, float] = constant(
         "confidence of a count by how much repetitions correlate", limits=WEIGHT, fine=True,
-        default=(-0.016, 1.619),
+        default=(0.1703, 1.008),
     )  # fmt: skip
     cut_weights: tuple[float, float] = constant(
         "confidence of a border between repetitions by the same", limits=WEIGHT, fine=True,
-        default=(0.047, 1.585),
+        default=(-0.6217, 2.034),
     )  # fmt: skip
 
     def __post_init__(self) -> None:
