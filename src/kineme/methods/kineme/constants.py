@@ -212,7 +212,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     count_weights: tuple[float, float] = constant(
         "confidence of a count by how much repetitions correlate", limits=WEIGHT, fine=True,
-        default=(0.1703, 1.008),
+        default=(-0.016, 1.619),
     )  # fmt: skip
     cut_weights: tuple[float, float] = constant(
         "confidence of a border between repetitions by the same", limits=WEIGHT, fine=True,
