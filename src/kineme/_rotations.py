@@ -95,6 +95,12 @@ def to_euler_zyx(q: Floats) -> Floats:
     return join(about_z, about_y, about_x)
 
 
+def normalized(q: Floats) -> Floats:
+    """The quaternions at length one; no rotation where they have none."""
+    norm = np.linalg.norm(q, axis=-1, keepdims=True)
+    return np.where(norm > 0, q / np.where(norm > 0, norm, 1.0), IDENTITY)
+
+
 def components(array: Floats) -> tuple[Floats, ...]:
     """The slices of the last axis."""
     return tuple(array[..., i] for i in range(array.shape[-1]))

@@ -9,11 +9,12 @@ import typer
 
 from kineme._counts import counted
 from kineme.cli.help import OUTPUT, option
+from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import PresetName
 from kineme.cli.options.reading import Quiet, with_reading_options
 from kineme.cli.options.request import Request
-from kineme.errors import KinemeError, ParameterError
+from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 
 if TYPE_CHECKING:
@@ -112,8 +113,9 @@ def cycles(
             recording = request.read(path)
             tables.append(request.segments(recording, table, stage))
             recordings.append(recording)
+    failures = Failures()
     if recordings:
-        try:
+        with failures.caught(""):
             analog = _analog(batch.paths, recordings, request) if names else []
             found = measured(
                 recordings, tables, channels=names, anchor=anchor, beside=analog, common=common
@@ -125,14 +127,10 @@ def cycles(
                 _draw(found, plot, ends=ends)
             if compare is not None:
                 _compare(found, compare, ends=ends)
-        except KinemeError as error:
-            from kineme.cli.messages import one_line, say_error
-
-            say_error(one_line(error))
-            raise typer.Exit(1) from error
-        if not quiet:
-            _show(found, ends=ends, written=[output, plot, compare])
+            if not quiet:
+                _show(found, ends=ends, written=[output, plot, compare])
     batch.exit()
+    failures.exit()
 
 
 def _analog(
@@ -213,7 +211,7 @@ def _show(cycles: Cycles, *, ends: bool, written: list[Path | None]) -> None:
     """Print a line for each group, the notes, and what was written."""
     from rich.text import Text
 
-    from kineme.cli.tables import new_table
+    from kineme.cli.tables import new_table, show_written
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
@@ -250,8 +248,7 @@ def _show(cycles: Cycles, *, ends: bool, written: list[Path | None]) -> None:
         console.print("no repetition: nothing repeats itself here.")
     for note in cycles.provenance["notes"]:
         console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
-    for path in filter(None, written):
-        console.print(Text(f"written: {path}"), soft_wrap=True)
+    show_written(console, written)
 
 
 def _filled(cell: str) -> str:

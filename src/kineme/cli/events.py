@@ -95,7 +95,7 @@ def _show(path: Path, events: Events, gait: Columns, written: list[Path | None])
     """Print how many events there are, and what they tell of the gait."""
     from rich.text import Text
 
-    from kineme.cli.tables import new_table
+    from kineme.cli.tables import new_table, show_written
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
@@ -112,8 +112,7 @@ def _show(path: Path, events: Events, gait: Columns, written: list[Path | None])
         )  # fmt: skip
     if len(gait["measure"]):
         console.print(table)
-    for target in filter(None, written):
-        console.print(Text(f"written: {target}"), soft_wrap=True)
+    show_written(console, written)
 
 
 def _number(mean: float, deviation: float) -> str:

@@ -69,9 +69,14 @@ def show_segments(
         console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
     if "activity" not in segmentation.activities.kind:
         console.print(Text(f"note: {_NOTHING_FOUND}", style="dim"))
-    for path in filter(None, written):
-        console.print(Text(f"written: {path}"), soft_wrap=True)
+    show_written(console, written)
     console.print()
+
+
+def show_written(console: Console, paths: Iterable[Path | None]) -> None:
+    """Print a line for each file that was written."""
+    for path in filter(None, paths):
+        console.print(Text(f"written: {path}"), soft_wrap=True)
 
 
 def show_scores(title: str, columns: Mapping[str, Mapping[str, float]]) -> None:

@@ -32,6 +32,7 @@ from kineme.cycles.angles import about, bend, between, cardan, continuous
 from kineme.cycles.landmarks import SIDES, landmarks
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import body_frame, heading
+from kineme.features.feet import speed_of
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.kinematics import world_rotations
 
@@ -213,20 +214,6 @@ def _place(places: Floats, joint: int, axis: int) -> Floats:
 
 def _from_pelvis(motion: Motion, joint: int, axis: int) -> Floats:
     return np.asarray(body_frame(motion, (joint,))[:, 0, axis])
-
-
-def speed_of(path: Floats, fps: float) -> Floats:
-    """How fast a point is, metres per second; 0 for a single frame.
-
-    Parameters
-    ----------
-    path : (frames, dims) array
-    fps : float
-        Frames per second.
-    """
-    if len(path) < 2:
-        return np.zeros(len(path))
-    return np.asarray(np.linalg.norm(np.gradient(path, axis=0), axis=1) * fps)
 
 
 def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:

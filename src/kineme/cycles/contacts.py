@@ -21,8 +21,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_floats
-from kineme.cycles.channels import speed_of
 from kineme.errors import ParameterError
+from kineme.features.feet import low_and_slow
+from kineme.recordings.arrays import spans_of
 
 Floats = NDArray[np.float64]
 
@@ -42,8 +43,6 @@ FIRST = 0.3
 """Of a movement, in which the heel rises."""
 LOW, SLOW = 0.04, 0.8
 """Metres above its lowest place, and metres per second, below which a heel or a toe stands."""
-LOWEST = 5.0
-"""Per cent of the frames in which a point is as low as its lowest place."""
 BRIDGE_S, STAND_S = 0.1, 0.1
 """Seconds: a shorter break is none, and a shorter stand is none."""
 NEWTON = 20.0
@@ -85,9 +84,8 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     if not size.any():
         return np.empty((0, 2))
     usual = float(np.percentile(size[size > 0.1 * size.max()], 75))
-    stands = [
-        (a, b) for a, b in _spans(size < STEADY * usual) if b - a >= FLAT_S * fps
-    ]  # fmt: skip
+    steady = spans_of(size < STEADY * usual).tolist()
+    stands = [(a, b) for a, b in steady if b - a >= FLAT_S * fps]
     moves = [(before[1], after[0]) for before, after in pairwise(stands)]
     axis = np.linalg.eigh(np.cov(turning.T))[1][:, -1]
     pitch = turning @ axis
@@ -106,7 +104,7 @@ def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, 
 
     There are two swings where two turns forward are `APART_S` from each other.
     """
-    forward = _spans(pitch[start:stop] > HIGH * pitch[start:stop].max(initial=0.0))
+    forward = spans_of(pitch[start:stop] > HIGH * pitch[start:stop].max(initial=0.0)).tolist()
     cuts = [start]
     for (_, before), (after, _) in pairwise(forward):
         if after - before >= APART_S * fps:
@@ -174,8 +172,7 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
         raise ParameterError("the points of a foot must be of the same frames")
     stands = np.zeros(len(paths[0]), bool)
     for path in paths:
-        low = path[:, 1] < np.percentile(path[:, 1], LOWEST) + LOW
-        stands |= low & (speed_of(path, fps) < SLOW)
+        stands |= low_and_slow(path, fps, height=LOW, speed=SLOW)
     return _lasting(stands, fps)
 
 
@@ -209,19 +206,13 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
 def _lasting(stands: NDArray[np.bool_], fps: float) -> Floats:
     """Seconds of stands, joined over short breaks, without short ones."""
     joined: list[list[int]] = []
-    for start, stop in _spans(stands):
+    for start, stop in spans_of(stands).tolist():
         if joined and start - joined[-1][1] < BRIDGE_S * fps:
             joined[-1][1] = stop
         else:
             joined.append([start, stop])
     lasting = [each for each in joined if each[1] - each[0] >= STAND_S * fps]
     return np.array(lasting, np.float64).reshape(-1, 2) / fps
-
-
-def _spans(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Frames [start, stop) of each span over which a mask is true."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(np.int8), [0]])))
-    return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
 
 
 def _columns(values: ArrayLike, name: str, n: int) -> Floats:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from kineme._interpolation import bridge_line
 from kineme.recordings import Motion
+from kineme.recordings.arrays import spans_of
 
 Floats = NDArray[np.float64]
 Spans = NDArray[np.intp]
@@ -99,12 +100,6 @@ def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
 def unseen(motion: Motion) -> list[bool]:
     """For each frame whether it lies in a gap of the motion."""
     return list(map(bool, covered(motion.gaps, motion.n_frames)))
-
-
-def spans_of(mask: NDArray[np.bool_]) -> Spans:
-    """(spans, 2): where the mask is true, half-open."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
-    return edges.reshape(-1, 2)
 
 
 def _between(visible: NDArray[np.intp], values: Floats, at: NDArray[np.intp]) -> Floats:

@@ -29,7 +29,8 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._clock import Clock
 from kineme._counts import counted, listed
 from kineme.formats.files import FileContent
-from kineme.formats.gaps import LONGEST_S, spans_of
+from kineme.formats.gaps import LONGEST_S
+from kineme.recordings.arrays import spans_of
 
 Floats = NDArray[np.float64]
 

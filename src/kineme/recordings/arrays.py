@@ -49,3 +49,15 @@ def assign(instance: object, **values: object) -> None:
     """Set fields of a frozen dataclass while it is being made."""
     for name, value in values.items():
         object.__setattr__(instance, name, value)
+
+
+def spans_of(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """(spans, 2): where the mask is true, half-open.
+
+    Examples
+    --------
+    >>> spans_of(np.array([True, False, True, True])).tolist()
+    [[0, 1], [2, 4]]
+    """
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
+    return edges.reshape(-1, 2)

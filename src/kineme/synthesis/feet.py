@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.errors import EndEffectorError
 from kineme.features import end_effectors
+from kineme.features.feet import low_and_slow
 from kineme.recordings import Motion
+from kineme.recordings.arrays import spans_of
 from kineme.recordings.kinematics import (
     forward_kinematics,
     local_translations,
@@ -98,10 +100,7 @@ def foot_contacts(path: Floats, fps: float) -> Spans:
     """
     if len(path) < 2:
         return []
-    speed = np.linalg.norm(np.gradient(path, axis=0), axis=1) * fps
-    low = path[:, 1] < np.percentile(path[:, 1], 5) + HEIGHT
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], (low & (speed < SPEED)), [0]])))
-    spans = edges.reshape(-1, 2).tolist()
+    spans = spans_of(low_and_slow(path, fps, height=HEIGHT, speed=SPEED)).tolist()
     return [(start, stop) for start, stop in spans if stop - start >= SHORTEST * fps]
 
 

@@ -29,9 +29,10 @@ from kineme._counts import counted
 from kineme._interpolation import bridge_line
 from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import FileContent
-from kineme.formats.gaps import LONGEST_S, covered, spans_of
+from kineme.formats.gaps import LONGEST_S, covered
 from kineme.formats.timing import NO_TIMES, Timing, is_timing, table_timing
 from kineme.recordings import Signals
+from kineme.recordings.arrays import spans_of
 
 Floats = NDArray[np.float64]
 

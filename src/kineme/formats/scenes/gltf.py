@@ -237,9 +237,11 @@ def _sampled(keys: Keys, at: Floats, *, turns: bool) -> Floats:
     times, values = keys.times, keys.values
     cubic = keys.interpolation == "CUBICSPLINE"
     tangents = values.reshape(len(times), 3, -1) if cubic else values[:, None]
-    values = tangents[:, 1] if cubic else values
     if turns:
-        values = _unit(values)
+        tangents = np.roll(tangents, 1, axis=-1)  # w first
+    values = tangents[:, 1] if cubic else tangents[:, 0]
+    if turns:
+        values = rot.normalized(values)
     slack = SLACK * (at[1] - at[0] if len(at) > 1 else 1.0)
     if len(times) == 1:
         found = values[0]
@@ -258,7 +260,7 @@ def _sampled(keys: Keys, at: Floats, *, turns: bool) -> Floats:
             found = slerp(start, stop, share)
         else:
             found = start + share[:, None] * (stop - start)
-    return np.roll(_unit(found), 1, axis=-1) if turns else found
+    return rot.normalized(found) if turns else found
 
 
 def _hermite(
@@ -269,13 +271,6 @@ def _hermite(
     first, last = 2 * cube - 3 * square + 1, 3 * square - 2 * cube
     slopes = (cube - 2 * square + share) * out + (cube - square) * into
     return np.asarray(first * start + last * stop + step * slopes, np.float64)
-
-
-def _unit(turns: Floats) -> Floats:
-    """Quaternions at length one; where they have none, no rotation."""
-    norm = np.linalg.norm(turns, axis=-1, keepdims=True)
-    none = np.array([0.0, 0.0, 0.0, 1.0])
-    return np.where(norm > 0, turns / np.where(norm > 0, norm, 1.0), none)
 
 
 FORMAT = Format(

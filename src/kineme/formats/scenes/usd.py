@@ -132,7 +132,7 @@ class _Skeleton:
             shift, turn, scale = (part[0] for part in rest[:3])
             if (at := places.get(joint)) is not None:
                 shift = shift if shifts is None else shifts[:, at]
-                turn = turn if turns is None else _unit(turns[:, at])
+                turn = turn if turns is None else rot.normalized(turns[:, at])
                 scale = scale if scales is None else scales[:, at]
             found.append(Transform(shift, turn, scale))
         return found
@@ -205,12 +205,6 @@ def _values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | 
             return None
         values[frame] = np.asarray(found)
     return np.roll(values, 1, axis=-1) if width == 4 else values
-
-
-def _unit(turns: Floats) -> Floats:
-    """Quaternions at length one; where they have none, no rotation."""
-    norm = np.linalg.norm(turns, axis=-1, keepdims=True)
-    return np.where(norm > 0, turns / np.where(norm > 0, norm, 1.0), rot.IDENTITY)
 
 
 def _carrier(xformable: Any, codes: Floats) -> Transform:

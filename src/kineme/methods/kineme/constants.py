@@ -232,7 +232,7 @@ class KinemeConstants(Preset):
         return replace(self, working_fps=fps) if RATE.minimum <= fps < self.working_fps else self
 
     def cluster_price(self, samples: int) -> float:
-        """Cost of a cluster in a part of so many samples, in samples.
+        """Cost of a cluster in a recording of so many samples, or in a part of it, in samples.
 
         The longer it is, the more of it differs from the rest by chance.
 
@@ -242,7 +242,7 @@ class KinemeConstants(Preset):
         >>> [round(SENSORS.cluster_price(samples), 1) for samples in (300, 1200)]
         [3.3, 4.4]
         """
-        minutes = samples / self.rate / 60
+        minutes = min(samples / self.rate, self.part) / 60
         return self.samples(self.cluster_cost) * float(minutes**self.cluster_growth)
 
     def samples(self, seconds: float) -> float:

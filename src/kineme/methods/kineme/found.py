@@ -103,7 +103,7 @@ class KinemeFound:
             segments,
             DETAILS,
             border_price=self.preset.samples(self.preset.segment_cost),
-            cluster_price=self.preset.cluster_price(self._part_length),
+            cluster_price=self.preset.cluster_price(len(self.features)),
         )
         return tables_at(columns, frames, at, longest=0.0)
 
@@ -121,11 +121,6 @@ class KinemeFound:
         parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
         sums = tree.between_segments(self.features, borders, self.unit) / 2
         return FineSegments(borders, np.arange(len(parents)), parents, sums), frames
-
-    @property
-    def _part_length(self) -> int:
-        """Samples of the recording, or of a part of it."""
-        return min(len(self.features), round(self.preset.samples(self.preset.part)))
 
     @cached_property
     def graph(self) -> NeighborGraph:

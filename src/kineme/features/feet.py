@@ -1,0 +1,43 @@
+"""Where a point of a foot is low and slow, which is how standing is told from positions."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+LOWEST = 5.0
+"""Per cent of the frames in which a point is as low as its lowest place."""
+
+
+def speed_of(path: Floats, fps: float) -> Floats:
+    """How fast a point is, metres per second; 0 for a single frame.
+
+    Parameters
+    ----------
+    path : (frames, dims) array
+    fps : float
+        Frames per second.
+    """
+    if len(path) < 2:
+        return np.zeros(len(path))
+    return np.asarray(np.linalg.norm(np.gradient(path, axis=0), axis=1) * fps)
+
+
+def low_and_slow(path: Floats, fps: float, *, height: float, speed: float) -> NDArray[np.bool_]:
+    """The frames in which a point stands.
+
+    Parameters
+    ----------
+    path : (frames, 3) array
+        Metres, y up.
+    fps : float
+        Frames per second.
+    height : float
+        Metres above its lowest place, below which it is low.
+    speed : float
+        Metres per second, below which it is slow.
+    """
+    low = path[:, 1] < np.percentile(path[:, 1], LOWEST) + height
+    return np.asarray(low & (speed_of(path, fps) < speed))
