@@ -34,7 +34,6 @@ from numpy.typing import NDArray
 
 from kineme._threads import even_slices, map_threads
 from kineme.methods.kineme import _tree_kernels as kernels
-from kineme.methods.samples import spread
 from kineme.methods.segments import by_first_appearance
 
 if TYPE_CHECKING:
@@ -359,6 +358,18 @@ def preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
     inside = means[each, labels]
     means[each, labels] = np.inf
     return np.asarray(np.clip(1 - inside / np.maximum(means.min(axis=1), 1e-12), 0, 1), np.float64)
+
+
+def spread(start: int, stop: int, most: int) -> Samples:
+    """Samples of a segment, evenly spread, so many at most.
+
+    Examples
+    --------
+    >>> spread(0, 10, 2)
+    array([2, 7])
+    """
+    n = min(stop - start, most)
+    return start + (2 * np.arange(n) + 1) * (stop - start) // (2 * n)
 
 
 def part_ends(n: int, longest: int) -> list[int]:
