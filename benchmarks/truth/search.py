@@ -1,10 +1,11 @@
-"""One repetition as example, searched in all recordings of other people, at the default threshold.
+"""One repetition as example, searched in all recordings of other people, as a library does.
 
     python -m benchmarks search [--record]
 
-Exercises of HDM05, actions of UTKinect, and of each take of UI-PRMD the repetition in its midst.
-A hit is right if its middle lies in the same exercise; a repetition is found if half of it lies in
-hits. Both are means over examples that have a hit, and over all.
+At the default threshold, mirror images as well. Examples are exercises of HDM05, actions of
+UTKinect, and of each take of UI-PRMD the repetition in its midst. A hit is right if its middle lies
+in the same exercise; a repetition is found if half of it lies in hits. Both are means over examples
+that have a hit, and over all.
 """
 
 from __future__ import annotations
@@ -21,8 +22,11 @@ from _corpora import Take, corpora
 from _figures import add_option, record
 from _options import command_line, few
 from _sources import PERSON, of_bodies
-from kineme.features.canonical import MATCHING_FPS, matching_features
-from kineme.matching import search
+from kineme.features.canonical import MATCHING_FPS, matching_features, mirrored_features
+from kineme.library.searching import spans_like
+from kineme.matching import THRESHOLD, Matches
+
+Features = NDArray[np.float32]
 
 LEAST = 6
 """Samples of an example."""
@@ -43,13 +47,17 @@ def uiprmd() -> Iterator[Take]:
         yield Take(name, PERSON.findall(name)[-1], kineme.read(path), tuple(spans))
 
 
-def searched(
-    example: NDArray[np.float32], label: str, takes: Sequence[tuple[Take, NDArray[np.float32]]]
-) -> Searched:
+def found_either_way(example: Features, features: Features) -> Matches:
+    """Spans that are like an example or like its mirror image."""
+    examples = [example, mirrored_features(example)]
+    return spans_like(features, examples, [], threshold=THRESHOLD, top=None)
+
+
+def searched(example: Features, label: str, takes: Sequence[tuple[Take, Features]]) -> Searched:
     hits = right = wanted = found = 0
     for take, features in takes:
         covered = np.zeros(len(features), np.bool_)
-        for start, stop, _ in zip(*search(example, features), strict=True):
+        for start, stop, _ in zip(*found_either_way(example, features), strict=True):
             middle = (start + stop) / 2 / MATCHING_FPS
             hits += 1
             right += any(a <= middle < b and name == label for a, b, name in take.spans)

@@ -5,7 +5,7 @@
 A trial is one repetition in the midst of a take, cut as people cut it. Alone it should be one
 activity that is done once. Beside a recording of another person, which is segmented and named, its
 exercise should be found in it (`kineme.transfer_labels`), and by search with one of the repetitions
-of that recording (`kineme.matching.search`), at the default thresholds.
+of that recording (as a library searches), at the default thresholds.
 """
 
 from __future__ import annotations
@@ -24,12 +24,11 @@ from _figures import add_option, record
 from _options import command_line
 from _recordings import REPETITIONS
 from kineme.features.canonical import MATCHING_FPS, matching_features
-from kineme.matching import search
 from kineme.recordings import Motion
 from kineme.segments.editing.naming import name_cluster
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer import KnowledgeBase, transfer_features
-from search import uiprmd
+from search import found_either_way, uiprmd
 
 Floats = NDArray[np.floating]
 Spans = list[tuple[float, float]]
@@ -97,7 +96,7 @@ def found_in(trial: Trial, example: Floats) -> bool:
     """Whether matches of the example cover half of it."""
     features = matching_features(trial.motion)
     covered = np.zeros(len(features), np.bool_)
-    for start, stop, _ in zip(*search(example, features), strict=True):
+    for start, stop, _ in zip(*found_either_way(example, features), strict=True):
         covered[start:stop] = True
     return bool(covered.mean() >= 0.5)
 

@@ -140,11 +140,11 @@ def test_a_cluster_is_searched_for_by_number_and_name(library: Library) -> None:
         library.search()
 
 
-def test_the_mirror_image_is_found_on_request(library: Library, tmp_path: Path) -> None:
+def test_the_mirror_image_is_found_unless_left_out(library: Library, tmp_path: Path) -> None:
     mirrored = kineme.mirror(kineme.read(kineme.bundled_recording())[0:300])
-    plain = library.search(mirrored, 0.5, 1.6, top=1)[0]
-    found = library.search(mirrored, 0.5, 1.6, top=1, mirror=True)[0]
-    assert found.distance < 0.02 < plain.distance
+    plain = library.search(mirrored, 0.5, 1.6, top=1, mirror=False)[0]
+    found = library.search(mirrored, 0.5, 1.6, top=1)[0]
+    assert found.distance < 0.15 < plain.distance
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._counts import counted
-from kineme.errors import MotionError, ParameterError
+from kineme.errors import MotionError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.features.channels import at_rate, channel_statistics, standardized
 from kineme.features.effectors import Names
@@ -87,23 +87,19 @@ def describe(
     *,
     effectors: Names | None = None,
     emg: bool = False,
-    mirrored: bool = False,
 ) -> Description:
     """The features of a recording; none, with the reason, where it has no body.
 
     ``effectors`` are joints to take for head, hands and feet where names do not tell. With ``emg``
-    the envelopes of muscle signals are taken, with ``mirrored`` left and right of a body are
-    exchanged.
+    the envelopes of muscle signals are taken.
     """
     if isinstance(recording, Signals):
-        if mirrored:
-            raise ParameterError("signals have no left and right to exchange: leave out mirroring")
         vocabulary = sha256("\0".join(recording.names).encode()).hexdigest()[:8]
         features = signal_features(recording, emg=emg)
         named = f"{counted(recording.n_channels, 'channel')}, {vocabulary}"
         return Description(named, features, SENSORS.rate)
     try:
-        features, poses = features_and_poses(recording, effectors=effectors, mirrored=mirrored)
+        features, poses = features_and_poses(recording, effectors=effectors)
     except MotionError as error:
         return Description("", np.empty((0, 0), np.float32), MATCHING_FPS, str(error))
     return Description(BODIES, features, MATCHING_FPS, poses=poses)

@@ -9,6 +9,7 @@ import numpy as np
 
 from kineme._checks import is_number
 from kineme.errors import ParameterError, ReadError
+from kineme.features.canonical import mirrored_features
 from kineme.formats.files import warn
 from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
@@ -54,7 +55,9 @@ def hits_like(
     top = None if top is None else int(min(top, MOST_HITS))
     if max_per_recording is not None:
         max_per_recording = int(min(max_per_recording, MOST_HITS))
-    described = features_of(tables, examples, mirror=mirror)
+    described = features_of(tables, examples)
+    if mirror and one_vocabulary(described) == BODIES:
+        described += [(BODIES, mirrored_features(part)) for _, part in described]
     vocabulary = one_vocabulary(described)
     refused = [part for kind, part in features_of(tables, counterexamples) if kind == vocabulary]
     features = [part for _, part in described]
@@ -156,27 +159,23 @@ def as_examples(
     return examples
 
 
-def features_of(
-    tables: OpenTables, examples: Sequence[Example], *, mirror: bool = False
-) -> list[tuple[str, Float32s]]:
-    """Vocabulary and features of each example, and of its mirror image."""
+def features_of(tables: OpenTables, examples: Sequence[Example]) -> list[tuple[str, Float32s]]:
+    """Vocabulary and features of each example."""
     found = []
     for example in examples:
-        for mirrored in (False, True)[: 1 + mirror]:
-            described = _description(tables, example.recording, mirrored=mirrored)
-            lasts = len(described.features) / described.fps
-            stop_s = lasts if example.stop_s is None else min(example.stop_s, lasts)
-            if not mirrored and example.stop_s is not None and example.stop_s > lasts + BEYOND:
-                warn(
-                    f"the example stops at {example.stop_s:g} s, its recording lasts "
-                    f"{lasts:.2f} s: taken to its end"
-                )
-            if example.start_s >= stop_s:
-                raise ParameterError(
-                    f"the example starts at {example.start_s:g} s, its recording lasts "
-                    f"{lasts:.2f} s"
-                )
-            found.append((described.vocabulary, described.between(example.start_s, stop_s)))
+        described = _description(tables, example.recording)
+        lasts = len(described.features) / described.fps
+        stop_s = lasts if example.stop_s is None else min(example.stop_s, lasts)
+        if example.stop_s is not None and example.stop_s > lasts + BEYOND:
+            warn(
+                f"the example stops at {example.stop_s:g} s, its recording lasts "
+                f"{lasts:.2f} s: taken to its end"
+            )
+        if example.start_s >= stop_s:
+            raise ParameterError(
+                f"the example starts at {example.start_s:g} s, its recording lasts {lasts:.2f} s"
+            )
+        found.append((described.vocabulary, described.between(example.start_s, stop_s)))
     return found
 
 
@@ -188,9 +187,7 @@ def one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
     return kinds[0]
 
 
-def _description(
-    tables: OpenTables, recording: AnyPath | Motion | Signals, *, mirrored: bool
-) -> Description:
+def _description(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Description:
     """The features of a recording, from the library where it is one of it."""
     recordings, settings = tables.recordings, tables.settings
     if isinstance(recording, str) and (
@@ -198,19 +195,17 @@ def _description(
     ):
         if recording not in recordings["recording"]:
             raise ReadError(recording, "there is no such file, and no recording of that name")
-        if not mirrored:
-            row = recordings["recording"].index(recording)
-            features = read_features(tables.folder / ANALYSES, recordings["piece"][row])
-            described = Description(
-                recordings["vocabulary"][row], features, recordings["features_fps"][row]
-            )
-            return _comparable(described, recording)
-        recording = tables.path_of(recording)
+        row = recordings["recording"].index(recording)
+        features = read_features(tables.folder / ANALYSES, recordings["piece"][row])
+        described = Description(
+            recordings["vocabulary"][row], features, recordings["features_fps"][row]
+        )
+        return _comparable(described, recording)
     example = recording
     if not isinstance(example, Motion | Signals):
         example = read_at(place(example), settings.reading)
     emg = settings.options().emg
-    described = describe(example, effectors=settings.effectors, emg=emg, mirrored=mirrored)
+    described = describe(example, effectors=settings.effectors, emg=emg)
     return _comparable(described, example.provenance.path or "the example")
 
 

@@ -128,7 +128,7 @@ class Library:
         threshold: float = THRESHOLD,
         top: int | None = 50,
         max_per_recording: int | None = None,
-        mirror: bool = False,
+        mirror: bool = True,
         client: Any = None,
     ) -> list[Hit]:
         """Where the recordings of the library are like an example, the nearest first.
@@ -153,7 +153,8 @@ class Library:
         max_per_recording : int, optional
             Of one recording at most.
         mirror : bool
-            Search for the mirror images of the examples as well; of bodies only.
+            Search for the mirror images of the examples as well; of bodies only. Their distances
+            are estimates (see `kineme.features.canonical.mirrored_features`).
         client : dask.distributed.Client or str, optional
             Search on this cluster, or on that of the scheduler at an address.
 

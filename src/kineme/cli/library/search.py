@@ -53,8 +53,13 @@ def search(
         option(SOUGHT, "Leave out what is more like this; may be given again.", metavar=SPAN),
     ] = None,
     mirror: Annotated[
-        bool, option(SOUGHT, "Search for it with left and right exchanged as well.", "--mirror")
-    ] = False,
+        bool,
+        option(
+            SOUGHT,
+            "Bodies: search for it with left and right exchanged, too.",
+            "--mirror/--no-mirror",
+        ),
+    ] = True,
     threshold: Annotated[
         float | None,
         option(

@@ -1,6 +1,17 @@
 """Features of a body that is the same for all: in them, movements of different people match."""
 
 from kineme.features.canonical.body import mirror_poses
-from kineme.features.canonical.matching import MATCHING_FPS, matching_features, matching_poses
+from kineme.features.canonical.matching import (
+    MATCHING_FPS,
+    matching_features,
+    matching_poses,
+    mirrored_features,
+)
 
-__all__ = ["MATCHING_FPS", "matching_features", "matching_poses", "mirror_poses"]
+__all__ = [
+    "MATCHING_FPS",
+    "matching_features",
+    "matching_poses",
+    "mirror_poses",
+    "mirrored_features",
+]

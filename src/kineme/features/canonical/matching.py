@@ -131,9 +131,35 @@ def stacked_poses(poses: Floats) -> Floats:
 
 def directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
     """Unit vectors (frames, 40): where stacked poses lie from the mean, along the axes."""
-    values = (stacked - mean) @ axes
-    lengths = np.linalg.norm(values, axis=1, keepdims=True)
-    return np.asarray(values / np.maximum(lengths, 1e-9), np.float32)
+    return _unit_vectors((stacked - mean) @ axes)
+
+
+def mirrored_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Matching features (n, 40) of the body in a mirror, estimated from those of the body.
+
+    The axes hold nearly, not exactly, what a mirror shows of them: the median error is 0.1.
+
+    Examples
+    --------
+    >>> import kineme, numpy as np
+    >>> from kineme.features.canonical import matching_features, mirrored_features
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> mirrored = mirrored_features(matching_features(motion))
+    >>> errors = np.linalg.norm(mirrored - matching_features(kineme.mirror(motion)), axis=1)
+    >>> bool(np.median(errors) < 0.1)
+    True
+    """
+    return _unit_vectors(features @ _mirror())
+
+
+@cache
+def _mirror() -> Floats:
+    """(40, 40): by least squares, what features along the axes become in a mirror."""
+    _, axes = basis()
+    poses = len(axes) // len(OFFSETS_S)
+    exchange = np.kron(np.eye(len(OFFSETS_S)), mirror_poses(np.eye(poses)))
+    matrix: Floats = np.linalg.pinv(axes) @ exchange @ axes
+    return matrix
 
 
 @cache
@@ -141,6 +167,11 @@ def basis() -> tuple[Floats, Floats]:
     """The mean (85,) and the axes (85, 40), each over its shrunk deviation."""
     with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
+
+
+def _unit_vectors(values: NDArray[np.floating]) -> NDArray[np.float32]:
+    lengths = np.linalg.norm(values, axis=1, keepdims=True)
+    return np.asarray(values / np.maximum(lengths, 1e-9), np.float32)
 
 
 def _smoothed(positions: Floats) -> Floats:

@@ -26,7 +26,7 @@ export class LibraryPage {
   readonly news = signal("");
   readonly hits = signal<LibraryHit[]>([]);
   readonly threshold = signal(0.85);
-  readonly mirror = signal(false);
+  readonly mirror = signal(true);
   readonly playing = signal(false);
   /** The span that the form of the search shows. */
   readonly span = signal<Span | null>(null);
