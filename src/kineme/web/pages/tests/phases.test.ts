@@ -1,13 +1,19 @@
 import { expect, test } from "vitest";
+import { AXES, coursesOfMotion, type Course } from "../src/clusters/courses";
 import { curveOf, liveliest, spreadOf } from "../src/clusters/curves";
 import { phasesOf } from "../src/clusters/phases";
 import type { Segment } from "../src/messages";
+import type { Motion } from "../src/motion";
 import { motion, segment } from "./recordings";
 
 const CYCLE = 20; // frames
 const swing = (frame: number): number => 300 * Math.sin((2 * Math.PI * frame) / CYCLE);
-const walk = motion(201, (frame, joint) => [0, 900, joint * Math.round(swing(frame))]);
-const track = { joint: 1, axis: "forward" as const };
+const walk = placesOf(motion(201, (frame, joint) => [0, 900, joint * Math.round(swing(frame))]));
+const forward = walk.find(({ group, name }) => group === "forward" && name === "hand")!;
+
+function placesOf(of: Motion): Course[] {
+  return coursesOfMotion(of).filter(({ group }) => AXES.some((axis) => axis === group));
+}
 
 /** Repetitions of an activity, each a whole cycle, from a frame on. */
 function cycles(from: number, n: number, activity: number): Segment[] {
@@ -21,14 +27,14 @@ test("two walks cut at opposite phases have the mean of a walk", () => {
   const phases = phasesOf(walk, members);
   expect(phases).toEqual([0, 0, 0, 0, 0.5, 0.5, 0.5, 0.5]);
   const of = (which: readonly number[]): { extent: number; most: number } => {
-    const curves = members.map((each, i) => curveOf(walk, each, track, 41, which[i]));
+    const curves = members.map((each, i) => curveOf(forward, each, 41, which[i]));
     const { mean, deviation } = spreadOf(curves);
     return { extent: Math.max(...mean) - Math.min(...mean), most: Math.max(...deviation) };
   };
   expect(of([]).extent).toBeLessThan(0.01); // as it is without
   expect(of(phases).extent).toBeCloseTo(0.6, 2);
   expect(of(phases).most).toBeLessThan(0.02);
-  expect(liveliest(walk, members, phases)).toEqual(track);
+  expect(liveliest(walk, members, phases)).toBe(forward);
 });
 
 test("the activity that has most members tells the phase", () => {
@@ -39,13 +45,15 @@ test("the activity that has most members tells the phase", () => {
 test("what is cut at one phase stays as it is cut, and so does what is another movement", () => {
   expect(phasesOf(walk, [...cycles(0, 2, 0), ...cycles(80, 2, 1)])).toEqual([0, 0, 0, 0]);
   expect(phasesOf(walk, cycles(0, 3, 0))).toEqual([0, 0, 0]);
-  const reach = motion(101, (frame, joint) => [0, joint * (frame < 50 ? 10 : -7) * frame, 0]);
+  const reach = placesOf(
+    motion(101, (frame, joint) => [0, joint * (frame < 50 ? 10 : -7) * frame, 0]),
+  );
   expect(phasesOf(reach, [segment(0, 50), segment(50, 100, { activity: 1 })])).toEqual([0, 0]);
   expect(phasesOf(walk, [])).toEqual([]);
 });
 
 test("a turned curve is broken where it goes on from its end to its start", () => {
-  const curve = curveOf(walk, segment(0, CYCLE), track, 21, 0.25);
+  const curve = curveOf(forward, segment(0, CYCLE), 21, 0.25);
   expect(curve[0]).toBeCloseTo(0.3);
   expect([...curve.keys()].filter((i) => Number.isNaN(curve[i]!))).toEqual([16]);
 });

@@ -1,6 +1,5 @@
 /** Curves and signals over time: under the timeline, or on the stage of a recording without a body. */
-import { useComputed, useSignal } from "@preact/signals";
-import { useEffect, useMemo } from "preact/hooks";
+import { useMemo } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import { useCalm } from "../canvas/calm";
@@ -13,7 +12,8 @@ import { toPixel } from "../view";
 import { ChannelChoice } from "./ChannelChoice";
 import { endsOf, rowsOf } from "./chosen";
 import { boxOf, drawChannels, type Row } from "./drawing";
-import { CurveTiles } from "./tiles";
+import type { CurveTiles } from "./tiles";
+import { useTiles } from "./useTiles";
 
 interface Props {
   /** Whether times are written above. */
@@ -22,12 +22,7 @@ interface Props {
 
 export function Channels({ ruler = false }: Props): JSX.Element | null {
   const store = useStore();
-  const data = store.active.value?.data;
-  const loaded = useSignal<CurveTiles | null>(null);
-  // Those of the recording before are never asked for what is shown of this one.
-  const current = useComputed(() =>
-    loaded.value?.data === store.active.value?.data ? loaded.value : null,
-  );
+  const current = useTiles();
   const gestures = useMemo(
     () =>
       new Gestures(
@@ -37,16 +32,6 @@ export function Channels({ ruler = false }: Props): JSX.Element | null {
       ),
     [store],
   );
-  useEffect(() => {
-    let asked = true;
-    void data?.curves().then(
-      (list) => {
-        if (asked && list) loaded.value = new CurveTiles(data, list);
-      },
-      () => undefined,
-    );
-    return () => void (asked = false);
-  }, [data, loaded]);
   const tiles = current.value;
   if (!tiles) return <div class="channels" aria-busy="true" />;
   const ends = endsOfShown(store);

@@ -5,71 +5,79 @@ import type { JSX } from "preact";
 import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
+import type { CurveTiles } from "../channels/tiles";
+import { useTiles } from "../channels/useTiles";
 import { clusterColor } from "../colors";
 import type { Segment } from "../messages";
+import type { Motion } from "../motion";
 import type { Store } from "../store";
-import {
-  AXES,
-  curveOf,
-  liveliest,
-  pointsFor,
-  someOf,
-  spreadOf,
-  type Axis,
-  type Track,
-} from "./curves";
-import { phasesOf } from "./phases";
+import { AXES, coursesOfChannels, coursesOfMotion, type Course } from "./courses";
+import { curveOf, distanceFrom, farthest, liveliest, pointsFor, someOf, spreadOf } from "./curves";
 import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
+import { phasesOf } from "./phases";
 
 const MOST = 150; // curves drawn, and members that the mean is of
-const FEW = 12; // members looked at to choose a joint
+const FEW = 12; // members looked at to choose a course
+const FIRST = 6; // channels, or joints of a body that nothing is known of, looked at for that
+const FARTHEST = 3; // members named that differ most from the mean
 
 export function Curves(): JSX.Element {
   const store = useStore();
-  const chosen = useSignal<Partial<Track>>({});
-  const shown = useMemo(() => computed(() => contentOf(store, chosen.value)), [store, chosen]);
+  const tiles = useTiles();
+  const chosen = useSignal<string | null>(null);
+  const shown = useMemo(
+    () => computed(() => contentOf(store, tiles.value, chosen.value)),
+    [store, tiles, chosen],
+  );
   const member = useMemo(
     () => computed(() => (shown.value ? memberAt(store, shown.value) : -1)),
     [store, shown],
   );
   const content = shown.value;
   if (!content) return <Missing />;
-  const { motion, track, members, phases, color } = content;
+  const { courses, course, members, phases, color } = content;
   const all = store.shownCluster.value?.members.length ?? 0;
   const turned = phases.filter((phase) => phase > 0).length;
   const plural = members.length === 1 && all <= 1 ? "member" : "members";
   const memberCount = `${members.length < all ? `${members.length} of ${all}` : members.length} ${plural}`;
+  const groups = [...new Set(courses.map(({ group }) => group))];
+  const choose = (found: Course | undefined): void => {
+    if (found) chosen.value = nameOf(found);
+  };
   return (
     <div class="curves">
       <div class="curve-choice">
         <span class="swatch" style={{ background: color }} />
         <select
-          aria-label="Joint"
-          value={track.joint}
-          onChange={(event) =>
-            (chosen.value = { ...track, joint: Number(event.currentTarget.value) })
+          aria-label="Joint or channel"
+          value={course.name}
+          onChange={({ currentTarget: { value } }) =>
+            choose(courses.find(({ group, name }) => name === value && group === course.group))
           }
         >
-          {motion.head.joints.map((name, joint) => (
-            <option key={joint} value={joint}>
-              {name}
-            </option>
-          ))}
+          {courses
+            .filter(({ group }) => group === course.group)
+            .map(({ name }) => (
+              <option key={name} value={name}>
+                {name}
+              </option>
+            ))}
         </select>
         <select
-          aria-label="Axis"
-          value={track.axis}
-          onChange={(event) =>
-            (chosen.value = { ...track, axis: event.currentTarget.value as Axis })
-          }
+          aria-label="What of it"
+          value={course.group}
+          onChange={({ currentTarget: { value } }) => {
+            const those = courses.filter(({ group }) => group === value);
+            choose(those.find(({ name }) => name === course.name) ?? those[0]);
+          }}
         >
-          {AXES.map((axis) => (
-            <option key={axis} value={axis}>
-              {axis}
+          {groups.map((group) => (
+            <option key={group} value={group}>
+              {group}
             </option>
           ))}
         </select>
-        <span class="quiet">metres</span>
+        <span class="quiet">{course.unit}</span>
       </div>
       <div class="curve-room">
         <Canvas
@@ -88,8 +96,10 @@ export function Curves(): JSX.Element {
         />
         <Now members={members} phases={phases} />
       </div>
+      <Farthest content={content} />
       <p class="quiet note">
-        {memberCount}, mean ± deviation, seen from the pelvis
+        {memberCount}, mean ± deviation
+        {AXES.some((axis) => axis === course.group) && ", seen from the pelvis"}
         {turned > 0 &&
           `; ${turned} cut at another phase of the cycle, turned to that of the others`}
       </p>
@@ -99,19 +109,76 @@ export function Curves(): JSX.Element {
 
 type Content = NonNullable<ReturnType<typeof contentOf>>;
 
-function contentOf(store: Store, chosen: Partial<Track>) {
-  const motion = store.active.value?.motion.value;
+function contentOf(store: Store, tiles: CurveTiles | null, chosen: string | null) {
+  const active = store.active.value;
+  const motion = active?.motion.value;
   const cluster = store.shownCluster.value ?? store.clusters.value[0];
-  if (!motion || !cluster) return null;
+  if (!active || !cluster) return null;
+  void tiles?.settled.value;
+  const fps = store.fps.value;
+  const channels = tiles ? coursesOfChannels(tiles, fps) : [];
+  const courses = [...(motion ? coursesOfMotion(motion) : []), ...channels];
   const members = someOf(cluster.members, MOST);
-  const phases = phasesOf(motion, members);
+  const telling = motion ? ofEnds(motion, courses) : channels.slice(0, FIRST);
+  if (!telling.length) return null;
+  const phases = phasesOf(telling, members);
   const some = someOf([...members.keys()], FEW);
   const of = <T,>(all: readonly T[]): T[] => some.map((i) => all[i]!);
-  const track = { ...liveliest(motion, of(members), of(phases)), ...chosen };
-  const points = pointsFor(motion, members);
-  const curves = members.map((member, i) => curveOf(motion, member, track, points, phases[i]));
+  const size = (course: Course): number => extentOf(tiles, channels.indexOf(course));
+  const course =
+    courses.find((each) => nameOf(each) === chosen) ??
+    liveliest(telling, of(members), of(phases), motion ? undefined : size)!;
+  const points = pointsFor(course.fps, members);
+  const curves = members.map((each, i) => curveOf(course, each, points, phases[i]));
   const color = clusterColor(cluster.id);
-  return { motion, track, members, phases, curves, spread: spreadOf(curves), color };
+  return { courses, course, members, phases, curves, spread: spreadOf(curves), color };
+}
+
+/** Where hands, feet and head are; of a body that nothing is known of, some of its joints. */
+function ofEnds({ head: { effectors, joints } }: Motion, courses: readonly Course[]): Course[] {
+  const parts = Object.keys(effectors).filter((part) => part !== "pelvis");
+  const ends = parts.length
+    ? parts.map((part) => joints[effectors[part]!]!)
+    : someOf(joints, FIRST);
+  return courses.filter(
+    ({ group, name }) => AXES.some((axis) => axis === group) && ends.includes(name),
+  );
+}
+
+/** From the least to the greatest value of a channel. */
+function extentOf(tiles: CurveTiles | null, channel: number): number {
+  const [low, high] = tiles?.bounds(channel) ?? [0, 1];
+  return high - low || 1;
+}
+
+function nameOf({ group, name }: Course): string {
+  return `${group}: ${name}`;
+}
+
+/** The members that differ most from the mean, each a way to it. */
+function Farthest({ content }: { content: Content }): JSX.Element | null {
+  const store = useStore();
+  const { members, curves, spread, course } = content;
+  if (members.length < 3) return null;
+  return (
+    <p class="farthest" aria-label="Farthest from the mean">
+      <span class="quiet">Farthest:</span>
+      {farthest(spread, curves, FARTHEST).map((i) => {
+        const each = members[i]!;
+        const far = `${distanceFrom(spread, curves[i]!).toPrecision(2)} ${course.unit}`.trim();
+        return (
+          <button
+            key={i}
+            type="button"
+            title={`${far} from the mean, from ${each.start_s.toFixed(2)} to ${each.stop_s.toFixed(2)} s`}
+            onClick={() => store.select(each)}
+          >
+            {each.start_s.toFixed(1)} s
+          </button>
+        );
+      })}
+    </p>
+  );
 }
 
 /** The member under the playhead, else the selected one. */
@@ -140,11 +207,5 @@ function Now(props: { members: readonly Segment[]; phases: readonly number[] }):
 }
 
 function Missing(): JSX.Element {
-  const store = useStore();
-  const bodiless = store.recording.value?.motion === null;
-  return (
-    <p class="empty quiet">
-      {bodiless ? "Curves need a skeleton; this recording has none." : "No cluster to show."}
-    </p>
-  );
+  return <p class="empty quiet">No cluster to show.</p>;
 }

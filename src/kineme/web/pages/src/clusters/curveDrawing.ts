@@ -90,15 +90,15 @@ function drawAxes(pen: Pen, { low, high, x, y, height, last }: Axes): void {
   pen.fillStyle = cssColor("quiet");
   pen.strokeStyle = cssColor("line");
   pen.lineWidth = 1;
-  const step =
-    [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5].find((each) => (high - low) / each <= 5) ?? 10;
+  const step = stepOf(high - low);
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   for (let i = Math.ceil(low / step); i * step <= high; i++) {
     const at = Math.round(y(i * step)) + 0.5;
     pen.beginPath();
     pen.moveTo(LEFT, at);
     pen.lineTo(x(last), at);
     pen.stroke();
-    pen.fillText((i * step).toFixed(step < 0.1 ? 2 : 1), LEFT - 5, at);
+    pen.fillText((i * step).toFixed(Math.min(digits, 4)), LEFT - 5, at);
   }
   for (const [share, align] of [
     [0, "left"],
@@ -109,6 +109,12 @@ function drawAxes(pen: Pen, { low, high, x, y, height, last }: Axes): void {
     pen.fillText(`${100 * share} %`, x(share * last), height - BELOW / 2 + 1);
   }
   pen.textAlign = "left";
+}
+
+/** 1, 2 or 5 times a power of ten: five steps or fewer in an extent. */
+function stepOf(extent: number): number {
+  const power = 10 ** Math.floor(Math.log10(extent / 5));
+  return [1, 2, 5, 10].map((times) => times * power).find((step) => extent / step <= 5)!;
 }
 
 function line(pen: Pen, curve: Float32Array, x: Axes["x"], y: Axes["y"]): void {

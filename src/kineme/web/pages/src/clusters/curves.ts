@@ -1,42 +1,24 @@
 /** What the members of a cluster have in common: their curves over normalised time. Pure. */
 import type { Segment } from "../messages";
-import { headingAt, poseAt, rootOf, type Motion } from "../motion";
-
-export const AXES = ["forward", "up", "left"] as const;
-export type Axis = (typeof AXES)[number];
+import type { Course } from "./courses";
 
 /** Fewest and most points of a curve, from the first to the last frame of a member. */
 const FEWEST = 2;
 const MOST_POINTS = 600; // more than the curves have pixels
 
-/** A point of the body followed along one axis of the body's own frame. */
-export interface Track {
-  joint: number;
-  axis: Axis;
-}
-
 /** How many points the curves of these members need: one for each sample of the longest. */
-export function pointsFor(motion: Motion, members: readonly Segment[]): number {
+export function pointsFor(fps: number, members: readonly Segment[]): number {
   const seconds = Math.max(...members.map((each) => each.stop_s - each.start_s), 0);
-  const samples = Math.ceil(seconds * motion.head.sample_fps) + 1;
-  return Math.min(Math.max(samples, FEWEST), MOST_POINTS);
+  return Math.min(Math.max(Math.ceil(seconds * fps) + 1, FEWEST), MOST_POINTS);
 }
 
 /**
- * The track of a member: metres from the root, at `points` times from its start to its end. With
- * a `phase` the curve begins that share of the cycle later and goes on from its end to its start;
- * it is broken (NaN) there.
+ * The course of a member at `points` times from its start to its end. With a `phase` the curve
+ * begins that share of the cycle later and goes on from its end to its start; it is broken (NaN)
+ * there.
  */
-export function curveOf(
-  motion: Motion,
-  segment: Segment,
-  { joint, axis }: Track,
-  points: number,
-  phase = 0,
-): Float32Array {
+export function curveOf(course: Course, segment: Segment, points: number, phase = 0): Float32Array {
   const curve = new Float32Array(points);
-  const pose = new Float32Array(motion.head.joints.length * 3);
-  const root = 3 * rootOf(motion.head);
   const length = segment.stop_s - segment.start_s;
   for (let i = 0; i < points; i++) {
     const share = i / (points - 1) + phase;
@@ -44,21 +26,9 @@ export function curveOf(
       curve[i] = NaN;
       continue;
     }
-    const seconds = segment.start_s + length * (share > 1 ? share - 1 : share);
-    poseAt(motion, seconds, pose);
-    const x = pose[3 * joint]! - pose[root]!;
-    const y = pose[3 * joint + 1]! - pose[root + 1]!;
-    const z = pose[3 * joint + 2]! - pose[root + 2]!;
-    curve[i] = component(axis, x, y, z, headingAt(motion, seconds));
+    curve[i] = course.at(segment.start_s + length * (share > 1 ? share - 1 : share));
   }
   return curve;
-}
-
-/** A direction of the world seen from a body that looks to `heading`. */
-export function component(axis: Axis, x: number, y: number, z: number, heading: number): number {
-  if (axis === "up") return y;
-  const [sin, cos] = [Math.sin(heading), Math.cos(heading)];
-  return axis === "forward" ? x * sin + z * cos : x * cos - z * sin;
 }
 
 export interface Spread {
@@ -81,29 +51,40 @@ export function spreadOf(curves: readonly Float32Array[]): Spread {
   return { mean, deviation };
 }
 
-const COARSE = 61; // points that tell which track moves most
+/** How far a curve is from the mean: the root of the mean square; NaN where nothing was seen. */
+export function distanceFrom({ mean }: Spread, curve: Float32Array): number {
+  let [sum, n] = [0, 0];
+  curve.forEach((value, i) => {
+    if (Number.isNaN(value)) return;
+    sum += (value - mean[i]!) ** 2;
+    n += 1;
+  });
+  return Math.sqrt(sum / n);
+}
 
-/** The track on which hands, feet and head move most in these members. */
+/** Numbers of the curves that are farthest from the mean, the farthest first. */
+export function farthest(spread: Spread, curves: readonly Float32Array[], n: number): number[] {
+  const far = curves.map((curve) => distanceFrom(spread, curve));
+  const known = [...far.keys()].filter((i) => !Number.isNaN(far[i]!));
+  return known.sort((a, b) => far[b]! - far[a]!).slice(0, n);
+}
+
+const COARSE = 61; // points that tell which course moves most
+
+/** The course that goes farthest in the mean of these members, in proportion to its `size`. */
 export function liveliest(
-  motion: Motion,
+  courses: readonly Course[],
   members: readonly Segment[],
   phases: readonly number[] = [],
-): Track {
-  const { effectors } = motion.head;
-  const parts = Object.keys(effectors).filter((part) => part !== "pelvis");
-  const joints = parts.length ? parts.map((part) => effectors[part]!) : motion.head.joints.keys();
-  let best: Track = { joint: 0, axis: "up" };
+  size: (course: Course) => number = () => 1,
+): Course | null {
+  let best: Course | null = courses[0] ?? null;
   let most = -1;
-  for (const joint of joints) {
-    for (const axis of AXES) {
-      const track = { joint, axis };
-      const { mean } = spreadOf(
-        members.map((member, i) => curveOf(motion, member, track, COARSE, phases[i])),
-      );
-      const finite = mean.filter((value) => !Number.isNaN(value));
-      const extent = Math.max(...finite) - Math.min(...finite);
-      if (extent > most) [best, most] = [{ joint, axis }, extent];
-    }
+  for (const course of courses) {
+    const { mean } = spreadOf(members.map((each, i) => curveOf(course, each, COARSE, phases[i])));
+    const finite = mean.filter((value) => !Number.isNaN(value));
+    const extent = (Math.max(...finite) - Math.min(...finite)) / size(course);
+    if (extent > most) [best, most] = [course, extent];
   }
   return best;
 }

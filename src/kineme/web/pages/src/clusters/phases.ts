@@ -7,64 +7,45 @@
  * each activity is turned as a whole to the phase of the one that has most members.
  */
 import type { Segment } from "../messages";
-import { headingAt, poseAt, rootOf, type Motion } from "../motion";
-import { AXES, component, someOf } from "./curves";
+import type { Course } from "./courses";
+import { someOf } from "./curves";
 
 const POINTS = 60; // of a cycle; phases are told as finely
 const ROW = POINTS + 1; // with the point at which the next one begins
 const FEW = 6; // members that an activity is told by
-const MOST_JOINTS = 12;
 /** It is another phase where turning leaves less than this share of what differs. */
 const LEFT = 0.5;
 
-/** How much of a cycle each member begins later than the others do: 0 to 1. */
-export function phasesOf(motion: Motion, members: readonly Segment[]): number[] {
+/** How much of a cycle each member begins later than the others do, by these courses: 0 to 1. */
+export function phasesOf(courses: readonly Course[], members: readonly Segment[]): number[] {
   const groups = new Map<number, Segment[]>();
   for (const member of members)
     groups.set(member.activity, [...(groups.get(member.activity) ?? []), member]);
   const most = Math.max(...[...groups.values()].map((each) => each.length));
   const first = [...groups.values()].find((each) => each.length === most);
   if (!first || groups.size === 1) return members.map(() => 0);
-  const joints = jointsOf(motion);
-  const reference = meanCycle(motion, first, joints);
+  const reference = meanCycle(courses, first);
   const phases = new Map<number, number>();
   for (const [activity, group] of groups)
-    phases.set(activity, group === first ? 0 : turned(reference, meanCycle(motion, group, joints)));
+    phases.set(activity, group === first ? 0 : turned(reference, meanCycle(courses, group)));
   return members.map(({ activity }) => phases.get(activity)!);
 }
 
-/** Hands, feet and head; of a body that nothing is known of, some of its joints. */
-function jointsOf({ head }: Motion): number[] {
-  const parts = Object.keys(head.effectors).filter((part) => part !== "pelvis");
-  if (parts.length) return parts.map((part) => head.effectors[part]!);
-  return someOf([...head.joints.keys()], MOST_JOINTS);
-}
-
-/** Where joints are on average, seen from the body: joint, axis and point, each less its mean. */
-function meanCycle(motion: Motion, group: readonly Segment[], joints: number[]): Float64Array {
-  const pose = new Float32Array(motion.head.joints.length * 3);
-  const root = 3 * rootOf(motion.head);
-  const rows = joints.length * AXES.length;
-  const sums = new Float64Array(rows * ROW);
-  const counts = new Float64Array(rows * ROW);
+/** What the courses are on average: course by course its points, less their mean. */
+function meanCycle(courses: readonly Course[], group: readonly Segment[]): Float64Array {
+  const sums = new Float64Array(courses.length * ROW);
+  const counts = new Float64Array(courses.length * ROW);
   for (const { start_s, stop_s } of someOf(group, FEW))
-    for (let point = 0; point < ROW; point++) {
-      const seconds = start_s + ((stop_s - start_s) * point) / POINTS;
-      poseAt(motion, seconds, pose);
-      const heading = headingAt(motion, seconds);
-      joints.forEach((joint, i) => {
-        const [x, y, z] = [0, 1, 2].map((axis) => pose[3 * joint + axis]! - pose[root + axis]!);
-        AXES.forEach((axis, k) => {
-          const value = component(axis, x!, y!, z!, heading);
-          if (Number.isNaN(value)) return;
-          const at = (AXES.length * i + k) * ROW + point;
-          sums[at]! += value;
-          counts[at]! += 1;
-        });
-      });
-    }
+    courses.forEach((course, i) => {
+      for (let point = 0; point < ROW; point++) {
+        const value = course.at(start_s + ((stop_s - start_s) * point) / POINTS);
+        if (Number.isNaN(value)) continue;
+        sums[i * ROW + point]! += value;
+        counts[i * ROW + point]! += 1;
+      }
+    });
   const cycle = sums.map((sum, at) => sum / counts[at]!); // NaN where nothing was seen
-  for (let row = 0; row < rows; row++) center(cycle.subarray(row * ROW, (row + 1) * ROW));
+  for (let row = 0; row < courses.length; row++) center(cycle.subarray(row * ROW, (row + 1) * ROW));
   return cycle;
 }
 
