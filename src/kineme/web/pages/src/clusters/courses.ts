@@ -28,7 +28,7 @@ export function coursesOfMotion(motion: Motion): Course[] {
   const { joints, sample_fps } = motion.head;
   const pose = new Float32Array(joints.length * 3);
   const root = 3 * rootOf(motion.head);
-  const along = (joint: number, axis: Axis) => (seconds: number) => {
+  const placeOf = (joint: number, axis: Axis) => (seconds: number) => {
     poseAt(motion, seconds, pose);
     const [x, y, z] = [0, 1, 2].map((i) => pose[3 * joint + i]! - pose[root + i]!);
     return component(axis, x!, y!, z!, headingAt(motion, seconds));
@@ -38,7 +38,7 @@ export function coursesOfMotion(motion: Motion): Course[] {
     return angleBetween(bone(pose, before, joint), bone(pose, joint, after));
   };
   const axes = AXES.flatMap((group) =>
-    joints.map((name, i) => ({ group, name, unit: "m", fps: sample_fps, at: along(i, group) })),
+    joints.map((name, i) => ({ group, name, unit: "m", fps: sample_fps, at: placeOf(i, group) })),
   );
   const angles = bendsOf(motion).map(([before, joint, after]) => ({
     group: BEND,

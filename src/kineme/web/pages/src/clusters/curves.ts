@@ -65,8 +65,8 @@ export function distanceFrom({ mean }: Spread, curve: Float32Array): number {
 /** Numbers of the curves that are farthest from the mean, the farthest first. */
 export function farthest(spread: Spread, curves: readonly Float32Array[], n: number): number[] {
   const far = curves.map((curve) => distanceFrom(spread, curve));
-  const known = [...far.keys()].filter((i) => !Number.isNaN(far[i]!));
-  return known.sort((a, b) => far[b]! - far[a]!).slice(0, n);
+  const numbers = [...far.keys()].filter((i) => !Number.isNaN(far[i]!));
+  return numbers.sort((a, b) => far[b]! - far[a]!).slice(0, n);
 }
 
 const COARSE = 61; // points that tell which course moves most
