@@ -57,6 +57,41 @@ def test_the_keyboard_alone_is_enough(page, take):
     assert set(screen.labels()) == {""}
 
 
+def test_a_border_comes_to_the_playhead_and_a_held_key_is_one_step_back(page, take):
+    screen = Screen(page)
+    untouched = screen.starts()
+    segment = screen.lane("primitive")[2]
+    screen.click(segment)
+    for _ in range(4):
+        page.keyboard.press("ArrowRight")
+    page.keyboard.press("[")
+    here = segment["start_frame"] + 4
+    screen.wait(f"k.segments.some((row) => row.start_frame === {here})")
+    screen.saved()
+    page.keyboard.down("Alt")
+    for _ in range(3):
+        page.keyboard.down("ArrowRight")
+    page.keyboard.up("ArrowRight")
+    page.keyboard.up("Alt")
+    screen.wait(f"k.segments.some((row) => row.start_frame === {here + 3})")
+    screen.saved()
+    page.keyboard.press("Control+z")
+    screen.wait(f"k.segments.some((row) => row.start_frame === {here})")
+    page.keyboard.press("Control+z")
+    screen.saved()
+    assert screen.starts() == untouched
+
+
+def test_a_recording_keeps_the_level_one_works_in(page, take):
+    screen = Screen(page)
+    activities = page.get_by_role("button", name="Activities")
+    activities.click()
+    assert activities.get_attribute("aria-pressed") == "true"
+    page.reload()
+    screen.opened()
+    assert activities.get_attribute("aria-pressed") == "true"
+
+
 def test_a_cluster_is_named_exported_and_found_again(page, take, tmp_path):
     screen = Screen(page)
     chosen = screen.lane("primitive")[9]

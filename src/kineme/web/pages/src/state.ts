@@ -6,6 +6,13 @@ import type { OpenRecording } from "./opened";
 import { clustersOf, laneOf, nearestBorder, segmentAt, type Cluster } from "./segments";
 import type { Span } from "./view";
 
+/** A border on its way to another frame. */
+export interface Drag {
+  lane: string;
+  frame: number;
+  to: number;
+}
+
 /** A segment is known by its level and first frame. */
 export interface Selection {
   level: Level;
@@ -75,6 +82,8 @@ export class State {
   /** null where there is one detail only. */
   readonly levels = signal<Levels | null>(null);
   readonly edits = signal<EditHooks | null>(null);
+  /** The border that a pointer or a key that is held moves. */
+  readonly drag = signal<Drag | null>(null);
 
   readonly active: ReadonlySignal<OpenRecording | undefined> = computed(
     () => this.opened.value[this.current.value],

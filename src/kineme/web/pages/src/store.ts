@@ -1,6 +1,6 @@
 /** The state of a page, and what may be done with it. */
 import { batch } from "@preact/signals";
-import type { Segment } from "./messages";
+import type { Level, Segment } from "./messages";
 import type { OpenRecording } from "./opened";
 import { durationOf, indexAt } from "./segments";
 import { State, UNBOUNDED } from "./state";
@@ -66,8 +66,12 @@ export class Store extends State {
 
   /** Works on the other level from now on. */
   changeLevel(): void {
-    const level = this.worked.value === "activity" ? "primitive" : "activity";
-    if (!this.lane(level).length) return;
+    this.workOn(this.worked.value === "activity" ? "primitive" : "activity");
+  }
+
+  /** Works on a level from now on, where it has segments. */
+  workOn(level: Level): void {
+    if (!this.lane(level).length || level === this.worked.value) return;
     batch(() => {
       this.level.value = level;
       this.selection.value = null;

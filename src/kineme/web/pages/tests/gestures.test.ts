@@ -3,7 +3,7 @@ import { beforeEach, expect, test } from "vitest";
 import type { Recording } from "../src/messages";
 import type { RecordingData } from "../src/recordingData";
 import { Store } from "../src/store";
-import type { Drag } from "../src/timeline/drawing";
+import type { Drag } from "../src/state";
 import { Gestures } from "../src/timeline/gestures";
 import { GUTTER, layOut, type Lane } from "../src/timeline/lanes";
 import { segment, tableOf } from "./recordings";

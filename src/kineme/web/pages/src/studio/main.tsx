@@ -11,6 +11,7 @@ import { Front, StudioProvider } from "./context";
 import { Api } from "./server/api";
 import { Editor } from "./editing/editor";
 import { commandOf } from "./keys";
+import { rememberLevel } from "./rememberedLevel";
 import { Review } from "./review/review";
 import { Session } from "./session";
 import { exposeStudio } from "./snapshot";
@@ -41,9 +42,11 @@ function start(): void {
   effect(() => {
     document.title = `${store.recording.value?.name ?? "kineme"} · kineme studio`;
   });
+  rememberLevel(store);
   startPlayer(store);
   exposeStudio(session);
   startKeys(store, (event) => commandOf(event, parts));
+  for (const what of ["keyup", "blur"]) addEventListener(what, () => editor.release());
   render(
     <StoreProvider value={store}>
       <StudioProvider value={parts}>

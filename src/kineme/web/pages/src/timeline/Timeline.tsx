@@ -1,5 +1,4 @@
 /** The lanes: activities, primitives, labels, and another result below them. */
-import { useSignal } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
@@ -7,23 +6,22 @@ import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
 import { durationOf, nameOf } from "../segments";
 import { clock, toPixel } from "../view";
-import { drawLanes, type Drag } from "./drawing";
+import { drawLanes } from "./drawing";
 import { Gestures } from "./gestures";
 import { GUTTER, layOut, type Lane } from "./lanes";
 import { Overview } from "./Overview";
 
 export function Timeline(): JSX.Element {
   const store = useStore();
-  const drag = useSignal<Drag | null>(null);
   const lanes = useRef<Lane[]>([]);
   const gestures = useMemo(
     () =>
       new Gestures(
         store,
         () => lanes.current,
-        (next) => void (drag.value = next),
+        (next) => void (store.drag.value = next),
       ),
-    [store, drag],
+    [store],
   );
   useEffect(() => {
     const onKey = (event: KeyboardEvent): void => {
@@ -44,7 +42,7 @@ export function Timeline(): JSX.Element {
           label="Segments over time. Click one to go there; use the wheel or two fingers to zoom, drag to pan."
           watch={() => {
             void [given(), store.range.value, store.selected.value, store.hovered.value];
-            void [store.loop.value, drag.value, store.target.value, store.border.value];
+            void [store.loop.value, store.drag.value, store.target.value, store.border.value];
             void [
               store.bounds.value,
               store.labelColors.value,
@@ -54,7 +52,7 @@ export function Timeline(): JSX.Element {
           }}
           draw={(pen, width, height) => {
             lanes.current = layOut(given(), height);
-            drawLanes(pen, lanes.current, store, drag.value, width);
+            drawLanes(pen, lanes.current, store, store.drag.value, width);
           }}
           gestures={gestures}
         />

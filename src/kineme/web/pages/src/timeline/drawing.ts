@@ -2,6 +2,7 @@
 import { inkOn } from "../colors";
 import type { Segment } from "../messages";
 import { nameOf } from "../segments";
+import type { Drag } from "../state";
 import type { Store } from "../store";
 import { cssColor } from "../theme";
 import { toPixel, type Span } from "../view";
@@ -11,13 +12,6 @@ import { GUTTER, visible, type Lane } from "./lanes";
 type Pen = CanvasRenderingContext2D;
 
 const ROUND = 3;
-
-/** A border on its way to another frame. */
-export interface Drag {
-  lane: string;
-  frame: number;
-  to: number;
-}
 
 export function drawLanes(
   pen: Pen,

@@ -5,9 +5,10 @@
 import { batch } from "@preact/signals";
 import { CLICK, Fingers, placeOf, wheelFactor, type Pinch } from "../canvas/pointers";
 import { indexAt } from "../segments";
+import type { Drag } from "../state";
 import type { Store } from "../store";
 import { toSeconds } from "../view";
-import type { Drag } from "./drawing";
+
 import { borderNear, GUTTER, laneAt, roomFor, RULER, type Lane } from "./lanes";
 
 const GRIP = 5; // pixels to either side of a border

@@ -38,6 +38,14 @@ it("moves a border no farther than its neighbours let it", () => {
   expect(commands.nudgeBorder(at(30), -100)).toMatchObject({ frame: 30, to: 1 });
 });
 
+it("brings the border before the playhead to it, or the one after", () => {
+  expect(commands.borderHere(at(45), "start")).toMatchObject({ frame: 30, to: 45 });
+  expect(commands.borderHere(at(45), "stop")).toMatchObject({ frame: 60, to: 45 });
+  expect(commands.borderHere(at(10), "start")).toBeNull(); // the recording starts with it
+  expect(commands.borderHere(at(99), "stop")).toBeNull(); // and ends with it
+  expect(commands.borderHere(at(30), "stop")).toBeNull(); // nothing would be left of it
+});
+
 it("knows where a segment starts after its border moved", () => {
   const edit = { kind: "move_border", level: "primitive", frame: 30, to: 33 } as const;
   expect(commands.followed(edit, "primitive", 30)).toBe(33);

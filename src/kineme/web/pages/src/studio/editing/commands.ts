@@ -44,6 +44,16 @@ export function nudgeBorder(
   return to === frame ? null : { kind: "move_border", level: after.level, frame, to };
 }
 
+/** The segment at the playhead starts or stops there: its border on that side comes to it. */
+export function borderHere({ lane, frame }: Where, side: "start" | "stop"): Edit | null {
+  const at = indexAt(lane, frame);
+  const segment = lane[at];
+  const after = side === "start" ? segment : lane[at + 1];
+  if (!segment || !after || (side === "start" && at === 0)) return null;
+  if (segment.start_frame === frame) return null;
+  return { kind: "move_border", level: segment.level, frame: after.start_frame, to: frame };
+}
+
 /** Where a segment starts after an edit; null where it was not the one that moved. */
 export function followed(edit: Edit, level: Level, start: number): number | null {
   return edit.kind === "move_border" && edit.level === level && edit.frame === start

@@ -9,6 +9,7 @@ import type { ByHand, Edit, Kind, Level, Segment } from "../../messages";
 import type { Store } from "../../store";
 import * as commands from "./commands";
 import type { Session } from "../session";
+import { nearestBorder } from "../../segments";
 import { counted } from "./words";
 
 export class Editor {
@@ -16,6 +17,8 @@ export class Editor {
   readonly naming = signal<"segment" | "cluster" | null>(null);
   readonly segment = computed<Segment | undefined>(() => this.store.target.value);
   private readonly store: Store;
+  /** The border that a key holds: from where, and how far it is by now. */
+  private held: { where: commands.Where; by: number } | null = null;
 
   constructor(private readonly session: Session) {
     this.store = session.store;
@@ -49,16 +52,54 @@ export class Editor {
     );
   }
 
-  /** Moves the border nearest to the playhead, which goes with it. */
-  nudge(frames: number): void {
+  /** The segment at the playhead starts, or stops, at the playhead. */
+  borderHere(side: "start" | "stop"): void {
     this.make(
-      () => commands.nudgeBorder(this.where(), frames),
-      () => this.store.border.value?.start_frame,
-      "There is no border to move, or no room for it.",
-      (edit) => {
-        if (edit.kind === "move_border") this.store.seek(edit.to / this.store.fps.value);
-      },
+      () => commands.borderHere(this.where(), side),
+      () => this.store.frame.value,
+      "There is a border at the playhead already, or none on that side to bring here.",
     );
+  }
+
+  /**
+   * Moves the border nearest to the playhead, which goes with it. It is made when the key is
+   * released: as long as it is held it is one edit.
+   */
+  nudge(frames: number): void {
+    if (this.held) this.carry(frames);
+    else
+      this.make(
+        () => commands.nudgeBorder(this.where(), frames),
+        () => this.store.border.value?.start_frame,
+        "There is no border to move, or no room for it.",
+        () => {
+          this.held = { where: this.where(), by: 0 };
+          this.carry(frames);
+        },
+      );
+  }
+
+  /** Makes the border that a key holds. */
+  release(): void {
+    const edit = this.held && commands.nudgeBorder(this.held.where, this.held.by);
+    this.held = null;
+    batch(() => {
+      if (edit) this.send(edit);
+      this.store.drag.value = null;
+    });
+  }
+
+  /** Takes the border that a key holds on, as far as there is room. */
+  private carry(frames: number): void {
+    const { where, by } = this.held!;
+    const edit = commands.nudgeBorder(where, by + frames);
+    const frame = nearestBorder(where.lane, where.frame)!.start_frame;
+    const to = edit?.to ?? frame;
+    this.held = { where, by: to - frame };
+    batch(() => {
+      this.store.drag.value = { lane: this.store.worked.value, frame, to };
+      this.store.seek(to / this.store.fps.value);
+    });
   }
 
   /** The field of a name takes the keyboard, where there is one. */
@@ -153,7 +194,7 @@ export class Editor {
     command: () => Edit | null,
     place: () => number | undefined,
     otherwise: string,
-    after: (edit: Edit) => void = () => undefined,
+    act: (edit: Edit) => void = (edit) => this.send(edit),
   ): void {
     this.session.edited.value?.whenShown(() => {
       const edit = command();
@@ -161,11 +202,7 @@ export class Editor {
       if (!edit || frame === undefined) this.session.bulletin.tell(otherwise);
       else if (this.store.reveal(frame / this.store.fps.value))
         this.session.bulletin.tell("This is where it would be: press once more to do it.");
-      else
-        batch(() => {
-          this.send(edit);
-          after(edit);
-        });
+      else act(edit);
     });
   }
 

@@ -1,36 +1,60 @@
 /** The buttons that cut and join, for those without a keyboard at hand. */
 import type { JSX } from "preact";
+import { useStore } from "../../context";
+import type { Level } from "../../messages";
 import { useStudio } from "../context";
 
+const LEVELS: readonly (readonly [Level, string])[] = [
+  ["activity", "Activities"],
+  ["primitive", "Primitives"],
+];
+
 export function EditTools(): JSX.Element {
+  const store = useStore();
   const { editor } = useStudio();
   const disabled = !editor.segment.value;
   return (
-    <span class="group edit-tools" role="group" aria-label="Segments">
-      <button
-        type="button"
-        disabled={disabled}
-        title="A border at the playhead (S)"
-        onClick={() => editor.split()}
-      >
-        Split
-      </button>
-      <button
-        type="button"
-        disabled={disabled}
-        title="The segment and the next one become one (M)"
-        onClick={() => editor.mergeWithNext()}
-      >
-        Merge
-      </button>
-      <button
-        type="button"
-        disabled={disabled}
-        title="Delete the border nearest to the playhead (Delete)"
-        onClick={() => editor.deleteBorder()}
-      >
-        Delete border
-      </button>
-    </span>
+    <>
+      <span class="group" role="group" aria-label="Work on">
+        {LEVELS.map(([level, name]) => (
+          <button
+            key={level}
+            type="button"
+            aria-pressed={store.worked.value === level}
+            disabled={!store.lane(level).length}
+            title={`Work on ${name.toLowerCase()} (A)`}
+            onClick={() => store.workOn(level)}
+          >
+            {name}
+          </button>
+        ))}
+      </span>
+      <span class="group edit-tools" role="group" aria-label="Segments">
+        <button
+          type="button"
+          disabled={disabled}
+          title="A border at the playhead (S)"
+          onClick={() => editor.split()}
+        >
+          Split
+        </button>
+        <button
+          type="button"
+          disabled={disabled}
+          title="The segment and the next one become one (M)"
+          onClick={() => editor.mergeWithNext()}
+        >
+          Merge
+        </button>
+        <button
+          type="button"
+          disabled={disabled}
+          title="Delete the border nearest to the playhead (Delete)"
+          onClick={() => editor.deleteBorder()}
+        >
+          Delete border
+        </button>
+      </span>
+    </>
   );
 }
