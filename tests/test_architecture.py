@@ -68,7 +68,10 @@ ROOMS = {
         "features labels recordings segments",
     ),
     "plot": Room("pictures, each on given axes", "graph methods recordings segmentation segments"),
-    "clips": Room("a file per segment, loops that close", "formats labels recordings segments"),
+    "clips": Room(
+        "a file per segment, loops that close, ranked; manifests of them",
+        "cycles features formats labels recordings segments",
+    ),
     "interop": Room(
         "segments and recordings as other libraries have them",
         "formats labels methods recordings segmentation segments",

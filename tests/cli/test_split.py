@@ -54,6 +54,7 @@ def test_split_by_labels_that_a_person_corrected(kineme, tmp_path: Path) -> None
         "exercises_0002_Äpfel_pflücken.bvh",
         "exercises_0003_transition.bvh",
         "manifest.csv",
+        "manifest.json",
     ]
     assert package.read(tmp_path / "clips" / "exercises_0001_walk.bvh").n_frames == 60
 
@@ -109,6 +110,7 @@ def test_clips_as_animations_of_a_glb_and_back(kineme, tmp_path: Path) -> None:
     assert {path.name for path in (tmp_path / "clips").iterdir()} == {
         "exercises.glb",
         "manifest.csv",
+        "manifest.json",
     }
     (name, *_) = (tmp_path / "clips" / "manifest.csv").read_text().splitlines()[1].split(",")[-1:]
     done = kineme("convert", "clips/exercises.glb", "walk.bvh", "--take", name, "-q")

@@ -36,6 +36,24 @@ def split(
     loop: Annotated[
         bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
     ] = False,
+    best: Annotated[
+        int | None,
+        option(OUTPUT, "Write so many loops of each cluster, the best ones only.", "--best", min=1),
+    ] = None,
+    in_place: Annotated[
+        bool,
+        option(
+            OUTPUT,
+            "Put clips to the origin, facing +z, without root motion (the list keeps it).",
+            "--in-place",
+        ),
+    ] = False,
+    straight: Annotated[
+        bool, option(OUTPUT, "Take the turn out of each clip.", "--straight")
+    ] = False,
+    mirror: Annotated[
+        bool, option(OUTPUT, "Exchange left and right in each clip.", "--mirror")
+    ] = False,
     to_format: Annotated[
         str | None,
         option(
@@ -57,7 +75,7 @@ def split(
 ) -> None:
     """Write each segment of a recording as a file of its own, and a list of them.
 
-    Clips of signals are rows of their file. The list is manifest.csv.
+    Clips of signals are rows of their file. The list is manifest.csv; manifest.json says more.
     """
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
@@ -81,6 +99,10 @@ def split(
                 cluster=cluster,
                 loops=loop,
                 format=to_format,
+                best=best,
+                in_place=in_place,
+                straight=straight,
+                mirror=mirror,
             )
             if not quiet:
                 typer.echo(f"{counted(len(clips), 'clip')} in {folder}")

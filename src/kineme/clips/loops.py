@@ -2,18 +2,21 @@
 
 Played in a circle, the frame after the last is the first again, but further on and turned. A
 `Carry` says how: a turn about the vertical and a shift on the floor, as in a player with root
-motion. What remains between the two (joints that are bent differently, another height) is spread
-evenly over the clip: frame f of n gets the share f/n - 1/2 of it. So the ends move least, no joint
-changes its speed by more than a constant, and the frame rate and the number of frames stay.
+motion. The seam lies half a frame after the last frame, which is half a frame before the first.
 
-1. Where the recording goes on after the last frame is estimated from the steps
-   on both sides of the seam: half the last step of the clip, half its first.
-   That keeps the step over the seam within those inside.
-2. The carry is the rigid motion on the floor that brings the first pose closest
-   to that frame: Kovar, Gleicher, Pighin, Motion Graphs, SIGGRAPH 2002,
+1. Pose, speed and acceleration on both sides of the seam are those of a parabola
+   through the frames of the last 0.08 s, and one through those of the first.
+2. The carry is the rigid motion on the floor that brings the pose after the seam closest to
+   the one before it: Kovar, Gleicher, Pighin, Motion Graphs, SIGGRAPH 2002,
    section 3.1, all joints weighing the same.
-3. Rotations close along the shorter arc, roots after the carry; translations
+3. The step of pose that remains is spread evenly over the clip, half of it on either side:
+   the ends move least, and no joint changes its speed by more than a constant.
+4. The steps of speed and of acceleration are spread over 0.25 s on either side, by curves
+   that leave the pose at the seam where it is. So position, speed and acceleration meet.
+5. Rotations close along the shorter arc, roots after the carry; translations
    and positions without rotations in a line.
+
+Frame rate and number of frames stay.
 """
 
 from __future__ import annotations
@@ -29,6 +32,13 @@ from kineme.recordings import Motion
 from kineme.recordings.kinematics import forward_kinematics, local_translations
 
 Floats = NDArray[np.float64]
+
+NEAR_S = 0.08
+"""Seconds of a clip that tell how it ends and begins."""
+FEWEST = 4
+"""Frames through which a parabola is laid; of fewer a line."""
+BLEND_S = 0.25
+"""Seconds before and after a seam over which steps of speed and acceleration are spread."""
 
 
 @dataclass(frozen=True)
@@ -64,26 +74,28 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
     """
     if motion.n_frames < 2:
         return motion, Carry(0.0, 0.0, 0.0)
-    carry = _carry(motion.positions)
+    carry, fps = carry_of(motion), motion.fps
     note = "ends blended into a loop"
     provenance = motion.provenance.noted(note)
     if motion.rotations is None:
-        positions = _closed_places(
-            motion.positions, carry, np.ones(motion.positions.shape[1], bool)
-        )
+        free = np.ones(motion.positions.shape[1], bool)
+        positions = _closed_places(motion.positions, fps, carry, free)
         return replace(motion, positions=positions, provenance=provenance), carry
     roots = np.array(motion.skeleton.parents) < 0
-    rotations = _closed_rotations(motion.rotations, carry, roots)
+    rotations = _closed_rotations(motion.rotations, fps, carry, roots)
     translations = _closed_places(
-        local_translations(motion.skeleton, motion.positions, motion.rotations), carry, roots
+        local_translations(motion.skeleton, motion.positions, motion.rotations), fps, carry, roots
     )
     positions = forward_kinematics(motion.skeleton, rotations, translations=translations)
-    return Motion(motion.skeleton, positions, motion.fps, rotations, provenance), carry
+    return Motion(motion.skeleton, positions, fps, rotations, provenance), carry
 
 
-def _carry(positions: Floats) -> Carry:
-    """What brings the first pose closest to the one expected after the last."""
-    first, last = positions[0], 2 * positions[-1] - positions[-2]
+def carry_of(motion: Motion) -> Carry:
+    """What brings the pose half a frame before the first closest to that after the last."""
+    if motion.n_frames < 2:
+        return Carry(0.0, 0.0, 0.0)
+    before, after = seam_sides(motion.positions, motion.fps)
+    first, last = after[0], before[0]
     (x, _, z), (u, _, w) = (pose.mean(axis=0) for pose in (first, last))
     a, b = first - first.mean(axis=0), last - last.mean(axis=0)
     across = float(a[:, 2] @ b[:, 0] - a[:, 0] @ b[:, 2])
@@ -92,46 +104,90 @@ def _carry(positions: Floats) -> Carry:
     return Carry(turn, to_x, float(w + x * sin(turn) - z * cos(turn)))
 
 
-def _closed_rotations(rotations: Floats, carry: Carry, roots: NDArray[np.bool_]) -> Floats:
-    """R[f] * gap ** (f/n - 1/2), where R[n] * gap is the first frame carried on."""
-    inverse = rot.conjugate(rotations)
-    last_step = rot.multiply(inverse[-2], rotations[-1])
-    first_step = rot.multiply(inverse[0], rotations[1])
-    between = _power(rot.multiply(rot.conjugate(last_step), first_step), 0.5)
-    after = rot.multiply(rotations[-1], rot.multiply(last_step, between))
-    first = np.array(rotations[0])
-    first[roots] = rot.multiply(carry.rotation, first[roots])
-    gap = rot.multiply(rot.conjugate(after), first)
-    closed = rot.multiply(rotations, _power(gap, _shares(len(rotations))[:, None]))
-    unit: Floats = closed / np.linalg.norm(closed, axis=-1, keepdims=True)
-    return unit
+def seam_sides(values: Floats, fps: float) -> tuple[Floats, Floats]:
+    """Value, speed and acceleration (3, ...) before and after the seam, per frame.
+
+    ``values`` (frames, ...) are two frames at least.
+    """
+    near = min(len(values), max(FEWEST, round(NEAR_S * fps)))
+    return _at_seam(values[-near:], 0.5 - near), _at_seam(values[:near], 0.5)
 
 
-def _closed_places(places: Floats, carry: Carry, free: NDArray[np.bool_]) -> Floats:
+def _at_seam(values: Floats, first: float) -> Floats:
+    """Value, speed and acceleration at 0 of the parabola nearest to values from ``first`` on."""
+    frames = first + np.arange(len(values))
+    degree = 2 if len(frames) >= FEWEST else 1
+    fit = np.linalg.pinv(np.vander(frames, degree + 1, increasing=True))
+    found = np.zeros((3, *values.shape[1:]))
+    found[: degree + 1] = np.tensordot(fit, values, axes=1)
+    found[2] *= 2
+    return found
+
+
+def _closed_rotations(
+    rotations: Floats, fps: float, carry: Carry, roots: NDArray[np.bool_]
+) -> Floats:
+    """Each rotation turned by what is added to it, in its own frame."""
+    first, last = rotations[0], rotations[-1]
+    before, _ = seam_sides(_logarithm(rot.multiply(rot.conjugate(last), rotations)), fps)
+    _, after = seam_sides(_logarithm(rot.multiply(rot.conjugate(first), rotations)), fps)
+    ahead = np.array(first)
+    ahead[roots] = rot.multiply(carry.rotation, ahead[roots])
+    left = rot.multiply(last, _exponential(before[0]))
+    right = rot.multiply(ahead, _exponential(after[0]))
+    gaps = after - before
+    gaps[0] = _logarithm(rot.multiply(rot.conjugate(left), right))
+    added = np.tensordot(_shares(len(rotations), fps), gaps, axes=1)
+    return rot.normalized(rot.multiply(rotations, _exponential(added)))
+
+
+def _closed_places(places: Floats, fps: float, carry: Carry, free: NDArray[np.bool_]) -> Floats:
     """The same for places; those that are ``free`` are carried on, the others hang on a parent.
 
     What is added to the free ones turns with the carry, so that it fits at both ends.
     """
-    first_step, first = places[1] - places[0], np.array(places[0])
-    first_step[free] = rot.rotate(carry.rotation, first_step[free])
-    first[free] = carry.apply(first[free])
-    after = places[-1] + (places[-1] - places[-2] + first_step) / 2
-    shares = _shares(len(places))[:, None]
-    added = shares[..., None] * (first - after)
-    added[:, free] = rot.rotate(_power(carry.rotation, shares - 0.5), added[:, free])
+    before, after = seam_sides(places, fps)
+    after[:, free] = rot.rotate(carry.rotation, after[:, free])
+    after[0, free] += carry.shift
+    shares = _shares(len(places), fps)
+    added = np.tensordot(shares, after - before, axes=1)
+    turns = np.zeros((len(places), 1, 3))
+    turns[:, 0, 1] = carry.turn * (shares[:, 0] - 0.5)
+    added[:, free] = rot.rotate(_exponential(turns), added[:, free])
     closed: Floats = places + added
     return closed
 
 
-def _shares(n: int) -> Floats:
-    shares: Floats = np.arange(n) / n - 0.5
-    return shares
+def _shares(n: int, fps: float) -> Floats:
+    """(frames, 3): how much each frame takes of a step of pose, of speed and of acceleration.
+
+    With t frames from the seam, negative before it, and k = (1 - |t| / width)^3: the share of the
+    step of speed is -|t| k / 2, that of the step of acceleration -t |t| k / 4.
+    """
+    frames = np.arange(n) + 0.5
+    width = min(n / 2, BLEND_S * fps)
+    ahead, back = np.maximum(1 - frames / width, 0), np.maximum(1 - (n - frames) / width, 0)
+    rise, fall = frames * ahead**3, (n - frames) * back**3
+    return np.stack(
+        [
+            frames / n - 0.5,
+            -(rise + fall) / 2,
+            (fall * (n - frames) - rise * frames) / 4,
+        ],
+        axis=1,
+    )
 
 
-def _power(q: Floats, exponent: Floats | float) -> Floats:
-    """The rotation ``exponent`` times as far, along the shorter arc."""
+def _logarithm(q: Floats) -> Floats:
+    """Turns as vectors: axis times radians, along the shorter arc."""
     q = np.where(q[..., :1] < 0, -q, q)
-    norm = np.linalg.norm(q[..., 1:], axis=-1)
-    angle = np.arctan2(norm, q[..., 0]) * exponent
-    axis = q[..., 1:] / np.maximum(norm, 1e-300)[..., None]
-    return np.concatenate([np.cos(angle)[..., None], np.sin(angle)[..., None] * axis], axis=-1)
+    norm = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
+    angle = 2 * np.arctan2(norm, q[..., :1])
+    vectors: Floats = q[..., 1:] * np.where(norm > 0, angle / np.maximum(norm, 1e-300), 2.0)
+    return vectors
+
+
+def _exponential(vectors: Floats) -> Floats:
+    """The inverse of `_logarithm`."""
+    half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2
+    return np.concatenate([np.cos(half), vectors * np.sinc(half / np.pi) / 2], axis=-1)

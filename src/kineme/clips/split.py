@@ -1,19 +1,22 @@
-"""Segments as clips: a folder with a file each, and a manifest of them.
+"""Segments as clips: a folder with a file each, and lists of them.
 
 A clip of a motion is a BVH, or of another format that is asked for; a CSV of joint positions
 where it has no rotations (see `kineme.formats.tables`). Of a format that holds several motions,
 such as GLB, there is one file for each recording, with its clips as animations. A clip of signals
-is rows of their own file (see `kineme.formats.channels.writing`). Clips are called
+is rows of their own file (see `kineme.formats.channels.writing`). Files are called
 ``RECORDING_NUMBER_TEXT``, with the text of
 `kineme.labels.spans` and ``_`` for what file systems dislike.
 
-``manifest.csv`` has a row per clip:
+``manifest.csv`` has a row per clip, in the order of the segments; ``manifest.json`` says more of
+it (see `kineme.clips.manifest`):
 
 ============================ =====================================================
 ``file``, ``source``         the clip, the recording it was cut from
 ``start_frame``, ...         ``stop_frame``, ``start_s``, ``stop_s``: where in it
 ``level``, ``kind``          as in the segment table
 ``cluster``, ``label``       as in the segment table
+``rank``, ``cost``           of loops only: its place in its cluster, 1 the best, and
+                             what it was placed by (see `kineme.clips.quality`)
 ``turn_deg``, ``x_m``,       of loops only: what carries one round to the next, a
 ``z_m``                      turn about the vertical axis, then a shift
 ``animation``                of files with several clips only: the name of the clip
@@ -24,37 +27,24 @@ The folder appears whole or not at all, and nothing that was there is touched.
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterable, Sequence
-from math import degrees
 from os import PathLike
 from pathlib import Path
 from typing import get_args
 
 from kineme._checks import check_flag, is_number, is_one_of
 from kineme._files import atomic_folder
-from kineme.clips.loops import loop
+from kineme.clips.manifest import Clip, safe_name, write_manifests
+from kineme.clips.shaping import Shape, ShapedClip, shaped
 from kineme.errors import MotionError, ParameterError
+from kineme.features import mirror as mirrored
 from kineme.formats import write
 from kineme.formats.channels.writing import rows_of
-from kineme.formats.delimited import as_text
 from kineme.formats.registry import Format, supported_formats, writer_of
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion, Signals
-from kineme.recordings.operations import cut
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
-
-MANIFEST = "manifest.csv"
-SPANS = ("start_frame", "stop_frame", "start_s", "stop_s", "level", "kind", "cluster", "label")
-CARRY = ("turn_deg", "x_m", "z_m")
-ANIMATION = "animation"
-
-Clips = Sequence[tuple[str, Segment]]
-"""Names without a suffix, and the segments."""
-
-Lines = list[tuple[str, tuple[object, ...]]]
-"""For each clip its file, and what the manifest says of it besides the segment."""
 
 
 def split(
@@ -66,6 +56,10 @@ def split(
     cluster: int | None = None,
     loops: bool = False,
     format: str | None = None,  # noqa: A002 (as in read_segments)
+    best: int | None = None,
+    in_place: bool = False,
+    straight: bool = False,
+    mirror: bool = False,
 ) -> list[Path]:
     """Write each segment as a clip of its own; for each clip the path of its file.
 
@@ -82,17 +76,27 @@ def split(
     cluster : int, optional
         See `level`.
     loops : bool, optional
-        Blend the ends of each clip (see `kineme.clips.loops`); motions only.
+        Blend the ends of each clip but transitions (see `kineme.clips.loops`); motions only.
     format : str, optional
         The suffix of a format that motions are written in, such as "bvh", "amc" or "glb".
+    best : int, optional
+        Of loops: so many of each cluster, the best ones (see `kineme.clips.quality`), and no
+        transitions.
+    in_place : bool, optional
+        Put each clip to the origin, facing +z, and take its root motion out, which the
+        manifest keeps (see `kineme.clips.root_motion`).
+    straight : bool, optional
+        Take the turn out, so that the body goes straight on.
+    mirror : bool, optional
+        Exchange left and right.
 
     Raises
     ------
     MotionError
         The segments are of another recording.
     ParameterError
-        No segment is of that level and cluster, loops or a format of signals, or no format of
-        that suffix.
+        No segment is of that level and cluster, loops or a format of signals, no format of
+        that suffix, or the best of what is no loop.
     WriteError
         The folder is not empty, or cannot be written.
 
@@ -115,12 +119,20 @@ def split(
         raise ParameterError(f"level must be {' or '.join(get_args(Level))}, not {level!r:.60}")
     if cluster is not None and not is_number(cluster):
         raise ParameterError(f"a cluster is a number, not {cluster!r:.60}")
-    check_flag(loops, "loops")
     rows = [row for row in segmentation.level(level) if cluster in (None, row.cluster)]
     if not rows:
         found = sorted({row.cluster for row in segmentation.level(level)} - {-1})
         raise ParameterError(f"no {level} is in cluster {cluster}; there are {found}")
-    return write_clips([(recording, rows)], folder, loops=loops, format=format)
+    return write_clips(
+        [(recording, rows)],
+        folder,
+        loops=loops,
+        format=format,
+        best=best,
+        in_place=in_place,
+        straight=straight,
+        mirror=mirror,
+    )
 
 
 def write_clips(
@@ -129,6 +141,10 @@ def write_clips(
     *,
     loops: bool = False,
     format: str | None = None,  # noqa: A002
+    best: int | None = None,
+    in_place: bool = False,
+    straight: bool = False,
+    mirror: bool = False,
 ) -> list[Path]:
     """Write segments of several recordings as clips in one folder; for each clip its file.
 
@@ -138,49 +154,69 @@ def write_clips(
         Gone through once, so that one recording at a time needs memory.
     folder : str or PathLike
         To be made; one that is there must be empty.
-    loops : bool, optional
-        Blend the ends of each clip; motions only.
-    format : str, optional
-        As for `split`.
+    loops, format, best, in_place, straight, mirror
+        As for `split`. Loops are ranked among those of their recording.
 
     Raises
     ------
     ParameterError
-        Loops or a format of signals, or no format of that suffix.
+        Loops or a format of signals, no format of that suffix, or the best of what is no loop.
     WriteError
         The folder is not empty, or cannot be written.
     """
     target, chosen = Path(folder), _format(format)
-    lines: list[list[object]] = []
+    shape = _shape(loops, best, in_place, straight, mirror)
+    entries: list[Clip] = []
     with atomic_folder(target) as draft:
         for recording, rows in clips:
-            path = str(recording.provenance.path or "")
-            stem = _plain(Path(path or "recording").stem)
-            source = path.encode(errors="backslashreplace").decode()
-            named = [
-                (f"{stem}_{number:04d}_{_plain(text_of(row))}", row)
-                for number, row in enumerate(rows, len(lines))
-            ]
             if isinstance(recording, Signals):
-                if loops:
-                    raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
-                if format is not None:
-                    raise ParameterError("signals are rows of their file: leave out format")
-                written = _write_rows(recording, named, draft)
-            elif chosen is None or chosen.write_animations is None:
-                suffix = format or ("csv" if recording.rotations is None else "bvh")
-                written = _write_files(recording, named, draft, suffix, loops=loops)
+                _refuse_poses(shape, format)
+                entries += _write_rows(recording, rows, draft, len(entries))
+                continue
+            motion = mirrored(recording) if mirror else recording
+            made = shaped(motion, rows, shape)
+            if chosen is None or chosen.write_animations is None:
+                suffix = format or ("csv" if motion.rotations is None else "bvh")
+                entries += _write_files(motion, made, draft, suffix, len(entries), shape)
             else:
-                file = draft / f"{stem}.{format}"
-                if file.exists():  # another recording of this name
-                    file = draft / f"{stem}_{len(lines):04d}.{format}"
-                written = _write_animations(recording, named, file, chosen, loops=loops)
-            for row, (name, more) in zip(rows, written, strict=True):
-                lines.append([name, source, *(getattr(row, span) for span in SPANS), *more])
+                entries += _write_animations(
+                    motion, made, draft, chosen, len(entries), shape, format
+                )
         several = chosen is not None and chosen.write_animations is not None
-        columns = [*(CARRY if loops else ()), *((ANIMATION,) if several else ())]
-        _write_manifest(draft / MANIFEST, columns, lines)
-    return [target / str(name) for name, *_ in lines]
+        write_manifests(entries, draft, loops=loops, animations=several)
+    return [target / clip.file for clip in entries]
+
+
+def _shape(
+    loops: bool,
+    best: int | None,
+    in_place: bool,
+    straight: bool,
+    mirror: bool,
+) -> Shape:
+    """What is to be done to clips, checked."""
+    flags = {"loops": loops, "in_place": in_place, "straight": straight, "mirror": mirror}
+    for name, value in flags.items():
+        check_flag(value, name)
+    if best is not None:
+        if not is_number(best) or best != int(best) or best < 1:
+            raise ParameterError(f"best is {best!r:.60}: give a number of loops, 1 at least")
+        if not loops:
+            raise ParameterError("best is of loops only: ask for loops (--loop), too")
+    return Shape(loops, best, in_place, straight, mirror)
+
+
+def _refuse_poses(shape: Shape, format: str | None) -> None:  # noqa: A002
+    """ParameterError where signals are to be treated as bodies."""
+    if shape.loops:
+        raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
+    if shape.changes:
+        raise ParameterError(
+            "signals have no pose: leave out in_place, straight and mirror "
+            "(--in-place, --straight, --mirror)"
+        )
+    if format is not None:
+        raise ParameterError("signals are rows of their file: leave out format")
 
 
 def _format(suffix: str | None) -> Format | None:
@@ -195,59 +231,111 @@ def _format(suffix: str | None) -> Format | None:
     return found
 
 
-def _write_rows(signals: Signals, clips: Clips, folder: Path) -> Lines:
+def _write_rows(signals: Signals, rows: Sequence[Segment], folder: Path, first: int) -> list[Clip]:
     """Leave each clip in a file of its own: rows of the recording's."""
-    shortest = min((row.stop_frame - row.start_frame for _, row in clips), default=None)
+    shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
     file_rows = rows_of(signals, shortest=shortest)
-    written: Lines = []
-    for name, row in clips:
-        file_rows.write(folder / f"{name}{file_rows.suffix}", row.start_frame, row.stop_frame)
-        written.append((f"{name}{file_rows.suffix}", ()))
-    return written
+    entries = []
+    for number, row in enumerate(rows, first):
+        file = f"{_file_name(signals, row, number)}{file_rows.suffix}"
+        file_rows.write(folder / file, row.start_frame, row.stop_frame)
+        entries.append(
+            Clip(
+                safe_name(_stem(signals), number, text_of(row)),
+                file,
+                _source(signals),
+                row,
+                row.stop_frame - row.start_frame,
+                signals.fps,
+            )
+        )
+    return entries
 
 
-def _write_files(motion: Motion, clips: Clips, folder: Path, suffix: str, *, loops: bool) -> Lines:
+def _write_files(
+    motion: Motion,
+    made: Sequence[ShapedClip],
+    folder: Path,
+    suffix: str,
+    first: int,
+    shape: Shape,
+) -> list[Clip]:
     """Leave each clip in a file of its own."""
-    written: Lines = []
-    for name, row in clips:
-        clip, carry = _clip(motion, row, loops=loops)
-        write(clip, folder / f"{name}.{suffix}")
-        written.append((f"{name}.{suffix}", carry))
-    return written
+    entries = []
+    for number, clip in enumerate(made, first):
+        file = f"{_file_name(motion, clip.segment, number)}.{suffix}"
+        write(clip.motion, folder / file)
+        entries.append(_entry(motion, clip, number, file, shape))
+    return entries
 
 
 def _write_animations(
-    motion: Motion, clips: Clips, path: Path, chosen: Format, *, loops: bool
-) -> Lines:
+    motion: Motion,
+    made: Sequence[ShapedClip],
+    folder: Path,
+    chosen: Format,
+    first: int,
+    shape: Shape,
+    suffix: str | None,
+) -> list[Clip]:
     """Leave all clips in one file."""
-    animations: dict[str, Motion] = {}
-    written: Lines = []
-    for name, row in clips:
-        animations[name], carry = _clip(motion, row, loops=loops)
-        written.append((path.name, (*carry, name)))
+    stem = _plain(_stem(motion))
+    path = folder / f"{stem}.{suffix}"
+    if path.exists():  # another recording of this name
+        path = folder / f"{stem}_{first:04d}.{suffix}"
+    entries = [
+        _entry(motion, clip, number, path.name, shape, animation=True)
+        for number, clip in enumerate(made, first)
+    ]
+    animations = {clip.name: each.motion for clip, each in zip(entries, made, strict=True)}
     if chosen.write_animations is not None and animations:
         chosen.write_animations(animations, path)
-    return written
+    return entries
 
 
-def _clip(motion: Motion, row: Segment, *, loops: bool) -> tuple[Motion, tuple[float, ...]]:
-    """A segment as a motion; of a loop also what carries one round to the next."""
-    clip = cut(motion, row.start_frame, row.stop_frame)
-    if not loops:
-        return clip, ()
-    clip, carry = loop(clip)
-    return clip, (degrees(carry.turn), carry.x, carry.z)
+def _entry(
+    motion: Motion,
+    clip: ShapedClip,
+    number: int,
+    file: str,
+    shape: Shape,
+    *,
+    animation: bool = False,
+) -> Clip:
+    """What the lists say of a clip."""
+    name = safe_name(_stem(motion), number, text_of(clip.segment))
+    return Clip(
+        name,
+        file,
+        _source(motion),
+        clip.segment,
+        clip.motion.n_frames,
+        clip.motion.fps,
+        name if animation else None,
+        clip.carry,
+        clip.quality,
+        clip.rank,
+        clip.root,
+        clip.planted,
+        clip.poses,
+        shape.changes,
+    )
+
+
+def _stem(recording: Motion | Signals) -> str:
+    return Path(str(recording.provenance.path or "") or "recording").stem
+
+
+def _source(recording: Motion | Signals) -> str:
+    return str(recording.provenance.path or "").encode(errors="backslashreplace").decode()
+
+
+def _file_name(recording: Motion | Signals, row: Segment, number: int) -> str:
+    """The name of a clip's file, without a suffix."""
+    return f"{_plain(_stem(recording))}_{number:04d}_{_plain(text_of(row))}"
 
 
 def _plain(text: str) -> str:
     """Letters, digits and ``_`` and ``-``; short enough for any file system."""
     kept = "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in text)
     return kept.encode(errors="replace")[:80].decode(errors="ignore")
-
-
-def _write_manifest(path: Path, more: Sequence[str], lines: Sequence[Sequence[object]]) -> None:
-    with path.open("w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["file", "source", *SPANS, *more])
-        for line in lines:
-            table.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in line])

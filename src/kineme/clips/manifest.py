@@ -1,0 +1,181 @@
+"""Lists of clips that lie beside them: ``manifest.json`` for programs, ``manifest.csv`` for tables.
+
+``manifest.json`` follows the JSON Schema ``manifest.schema.json`` beside this module, which says
+what each name means. Loops come first, those of a cluster together and the best first; what plays
+once follows in the order of time.
+
+A clip's name survives import in Blender, Unreal, Unity, Godot and three.js: ASCII letters, digits
+and ``_``, the first a letter, 63 characters at most, no two the same whatever the case.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import unicodedata
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from math import degrees
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kineme._version import __version__
+from kineme.clips.loops import Carry
+from kineme.clips.quality import LoopQuality
+from kineme.clips.root_motion import RootMotion
+from kineme.formats.delimited import as_text
+from kineme.segments.table import Segment
+
+SCHEMA = "kineme.clips/1"
+MANIFEST, MANIFEST_JSON = "manifest.csv", "manifest.json"
+SPANS = ("start_frame", "stop_frame", "start_s", "stop_s", "level", "kind", "cluster", "label")
+RANKED = ("rank", "cost")
+CARRY = ("turn_deg", "x_m", "z_m")
+ANIMATION = "animation"
+LONGEST = 63
+"""Characters of a name: what Blender keeps."""
+DIGITS = 6
+"""After the point, in JSON."""
+
+
+@dataclass(frozen=True)
+class Clip:
+    """What the lists say of one clip."""
+
+    name: str
+    file: str
+    source: str
+    segment: Segment
+    n_frames: int
+    fps: float
+    animation: str | None = None
+    carry: Carry | None = None
+    quality: LoopQuality | None = None
+    rank: int | None = None
+    root: RootMotion | None = None
+    planted: Mapping[str, Sequence[tuple[int, int]]] | None = None
+    poses: Mapping[str, Mapping[str, Any]] | None = None
+    changes: tuple[str, ...] = ()
+
+
+def safe_name(stem: str, number: int, text: str) -> str:
+    """The name of a clip: its recording, its number and its label, in letters that survive.
+
+    Examples
+    --------
+    >>> safe_name("Take 1.final", 3, "Äpfel pflücken")
+    'Take_1_final_0003_Apfel_pflucken'
+    >>> safe_name("86_01", 12, "walk")
+    'clip_86_01_0012_walk'
+    """
+    middle = f"_{number:04d}_"
+    label = _ascii(text)[:24].strip("_") or "clip"
+    first = _ascii(stem)
+    if not first[:1].isalpha():
+        first = f"clip_{first}".rstrip("_")
+    first = first[: LONGEST - len(middle) - len(label)].rstrip("_")
+    return f"{first}{middle}{label}"
+
+
+def write_manifests(clips: Sequence[Clip], folder: Path, *, loops: bool, animations: bool) -> None:
+    """Leave both lists in a folder."""
+    _write_csv(clips, folder / MANIFEST, loops=loops, animations=animations)
+    loops_first = sorted(clips, key=_order)
+    content = {
+        "schema": SCHEMA,
+        "kineme": __version__,
+        "clips": [_as_json(clip) for clip in loops_first],
+    }
+    text = json.dumps(content, ensure_ascii=False, indent=1, allow_nan=False)
+    (folder / MANIFEST_JSON).write_text(f"{text}\n", encoding="utf-8", newline="\n")
+
+
+def _order(clip: Clip) -> tuple[bool, str, int, str, int]:
+    """Loops of a cluster together, the best first; then the others as they are."""
+    if clip.rank is None:
+        return True, "", 0, "", 0
+    return False, clip.source, clip.segment.cluster, clip.segment.label, clip.rank
+
+
+def _as_json(clip: Clip) -> dict[str, Any]:
+    row, carry = clip.segment, clip.carry
+    content = {
+        "name": clip.name,
+        "file": clip.file,
+        "take": clip.animation,
+        "source": clip.source,
+        "start_frame": row.start_frame,
+        "stop_frame": row.stop_frame,
+        "start_s": row.start_s,
+        "stop_s": row.stop_s,
+        "n_frames": clip.n_frames,
+        "fps": clip.fps,
+        "level": row.level,
+        "kind": row.kind,
+        "cluster": row.cluster,
+        "label": row.label,
+        "loop": carry is not None,
+        "rank": clip.rank,
+        "quality": None if clip.quality is None else _quality(clip.quality),
+        "carry": None if carry is None else dict(zip(CARRY, _cells(carry), strict=True)),
+        "root": None if clip.root is None else _root(clip.root),
+        "planted": None if clip.planted is None else dict(clip.planted),
+        "poses": clip.poses,
+        "changes": clip.changes,
+    }
+    return {name: _rounded(value) for name, value in content.items()}
+
+
+def _quality(quality: LoopQuality) -> dict[str, float]:
+    return {"cost": quality.cost, **asdict(quality)}
+
+
+def _root(root: RootMotion) -> dict[str, float]:
+    return {
+        "speed_m_s": root.speed,
+        "x_m_s": root.x,
+        "z_m_s": root.z,
+        "turn_deg_s": degrees(root.turn),
+    }
+
+
+def _rounded(value: Any) -> Any:
+    """JSON with `DIGITS` after the point; null for what is not a number."""
+    if isinstance(value, Mapping):
+        return {name: _rounded(each) for name, each in value.items()}
+    if isinstance(value, tuple | list | np.ndarray):
+        return [_rounded(each) for each in value]
+    if isinstance(value, float):
+        return round(float(value), DIGITS) if math.isfinite(value) else None
+    return int(value) if isinstance(value, np.integer) else value
+
+
+def _cells(carry: Carry) -> tuple[float, float, float]:
+    return degrees(carry.turn), carry.x, carry.z
+
+
+def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bool) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        more = [*((*RANKED, *CARRY) if loops else ()), *((ANIMATION,) if animations else ())]
+        table.writerow(["file", "source", *SPANS, *more])
+        for clip in clips:
+            cells: list[object] = [clip.file, clip.source]
+            cells += [getattr(clip.segment, name) for name in SPANS]
+            if loops:
+                cells += ["", ""] if clip.quality is None else [clip.rank, clip.quality.cost]
+                cells += ["", "", ""] if clip.carry is None else _cells(clip.carry)
+            if animations:
+                cells.append(clip.animation or "")
+            table.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in cells])
+
+
+def _ascii(text: str) -> str:
+    """ASCII letters and digits, accents taken off, and single ``_`` for all else."""
+    parted = unicodedata.normalize("NFKD", text.replace("ß", "ss"))
+    bare = "".join(letter for letter in parted if not unicodedata.combining(letter))
+    kept = "".join(each if each.isascii() and each.isalnum() else " " for each in bare)
+    return "_".join(kept.split())

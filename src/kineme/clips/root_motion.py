@@ -1,0 +1,152 @@
+"""How a clip moves over the floor, told apart from how it moves in place.
+
+The root motion of a clip is the even one: from the first frame to the one after the last the body
+goes at one speed and turns at one rate, so that its path is a line or an arc. What a clip does
+beyond it, such as the sway of the hips in walking, stays in the poses. So a loop in place closes,
+and is put back on its path by two speeds and a rate.
+
+Source: the exponential map of rigid motions of the plane, as in Murray, Li, Sastry, "A
+Mathematical Introduction to Robotic Manipulation", 1994, section 3.2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import atan2, cos, hypot, sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.clips.loops import Carry
+from kineme.errors import EndEffectorError, MotionError
+from kineme.features import heading
+from kineme.recordings import Motion
+
+Floats = NDArray[np.float64]
+
+STILL = 1e-9
+"""Radians a round below which a path is a line."""
+
+
+@dataclass(frozen=True)
+class RootMotion:
+    """How a body goes and turns: metres per second in its own axes, radians per second.
+
+    ``x`` is to its left and ``z`` ahead where the clip faces +z, as clips in place do.
+
+    Examples
+    --------
+    >>> walk = RootMotion(0.0, 1.5, 0.5)
+    >>> walk.speed
+    1.5
+    """
+
+    x: float
+    z: float
+    turn: float
+
+    @property
+    def speed(self) -> float:
+        return hypot(self.x, self.z)
+
+
+def root_motion(motion: Motion, carry: Carry) -> RootMotion:
+    """The even motion of the body that goes round with this carry, in the axes of the recording."""
+    shift, seconds = _generator(_about(carry, _start(motion))), motion.n_frames / motion.fps
+    return RootMotion(shift[0] / seconds, shift[2] / seconds, carry.turn / seconds)
+
+
+def without_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion]:
+    """The motion in place, at the origin and facing +z, and what was taken out, in its axes."""
+    start = root_motion(motion, carry)
+    unmoved = _on_path(motion, carry, np.zeros(3))
+    x, _, z = unmoved.positions[:, _root(motion)].mean(axis=0)
+    facing, center = _facing(unmoved), np.array([x, 0.0, z])
+    settled = _turned(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
+    # The speed of the point that comes to lie at the origin, not that of the root in frame 0.
+    arm = center - _start(motion)
+    across, ahead = start.x + start.turn * arm[2], start.z - start.turn * arm[0]
+    removed = RootMotion(
+        across * cos(facing) - ahead * sin(facing),
+        across * sin(facing) + ahead * cos(facing),
+        start.turn,
+    )
+    return _noted(settled, "root motion taken out, put to the origin"), removed
+
+
+def straightened(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
+    """The motion with its turn taken out, so that the body goes on as it begins."""
+    shift = _generator(_about(carry, _start(motion)))
+    straight = _noted(_on_path(motion, carry, shift), "turn taken out")
+    return straight, Carry(0.0, float(shift[0]), float(shift[2]))
+
+
+def _on_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
+    """Without its root motion, but with an even shift instead."""
+    start = _start(motion)
+    about = _about(carry, start)
+    speed = _generator(about)
+    shares = np.linspace(0.0, 1.0, motion.n_frames, endpoint=False)
+    path: Floats = np.array(
+        [share * (_arc(share * about.turn) @ speed) for share in shares.tolist()]
+    )
+    target = start + shares[:, None] * shift
+    return _turned(motion, shares * -about.turn, start + path, target)
+
+
+def _turned(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> Motion:
+    """Each frame turned about the vertical through its center, which goes to its target."""
+    quaternions = np.zeros((motion.n_frames, 1, 4))
+    quaternions[:, 0, 0], quaternions[:, 0, 2] = np.cos(turns / 2), np.sin(turns / 2)
+    centers, targets = (np.broadcast_to(each, (motion.n_frames, 3)) for each in (centers, targets))
+    positions = rot.rotate(quaternions, motion.positions - centers[:, None]) + targets[:, None]
+    rotations = motion.rotations
+    if rotations is not None:
+        roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
+        rotations = np.array(rotations)
+        rotations[:, roots] = rot.multiply(quaternions, rotations[:, roots])
+    return replace(motion, positions=positions, rotations=rotations)
+
+
+def _about(carry: Carry, place: Floats) -> Carry:
+    """The carry as seen from a place on the floor."""
+    shift = carry.apply(place) - place
+    return Carry(carry.turn, float(shift[0]), float(shift[2]))
+
+
+def _generator(carry: Carry) -> Floats:
+    """The shift, in the axes of the body, that even motion for one round consists of."""
+    shift: Floats = np.asarray(np.linalg.solve(_arc(carry.turn), carry.shift), np.float64)
+    return shift
+
+
+def _arc(turn: float) -> Floats:
+    """The mean of the rotations from 0 to ``turn`` about the vertical."""
+    if abs(turn) < STILL:
+        return np.eye(3)
+    even, odd = sin(turn) / turn, (1 - cos(turn)) / turn
+    return np.array([[even, 0.0, odd], [0.0, 1.0, 0.0], [-odd, 0.0, even]])
+
+
+def _facing(motion: Motion) -> float:
+    """Where the body looks in the mean, radians from +z; 0 where nothing tells."""
+    try:
+        _, angles = heading(motion)
+    except (EndEffectorError, MotionError):
+        return 0.0
+    return atan2(float(np.sin(angles).mean()), float(np.cos(angles).mean()))
+
+
+def _root(motion: Motion) -> int:
+    return motion.skeleton.parents.index(-1) if -1 in motion.skeleton.parents else 0
+
+
+def _start(motion: Motion) -> Floats:
+    """Where on the floor the first root begins."""
+    x, _, z = motion.positions[0, _root(motion)]
+    return np.array([x, 0.0, z])
+
+
+def _noted(motion: Motion, note: str) -> Motion:
+    return replace(motion, provenance=motion.provenance.noted(note))

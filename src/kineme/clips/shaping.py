@@ -1,0 +1,204 @@
+"""Segments of a recording as motions: cut, closed into loops, ranked, put in place."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.clips.loops import Carry, carry_of, loop
+from kineme.clips.quality import LoopQuality, distances, loop_quality, ranks, usual_steps
+from kineme.clips.root_motion import (
+    RootMotion,
+    root_motion,
+    straightened,
+    without_root_motion,
+)
+from kineme.cycles.contacts import stands_from_positions
+from kineme.cycles.landmarks import SIDES, landmarks
+from kineme.errors import EndEffectorError, MotionError
+from kineme.features import PARTS, body_frame, end_effectors
+from kineme.recordings import Motion
+from kineme.recordings.arrays import spans_of
+from kineme.recordings.operations import cut
+from kineme.segments.table import Segment
+
+Masks = NDArray[np.bool_]
+Feet = Mapping[str, tuple[tuple[int, ...], Masks]]
+"""By side: the points of a foot, and the frames in which it is planted."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What is done to clips, besides cutting them.
+
+    Parameters
+    ----------
+    loops : bool
+        Blend the ends of all but transitions.
+    best : int, optional
+        Of the loops of a cluster; all by default.
+    in_place : bool
+        Without root motion, at the origin and facing +z.
+    straight : bool
+        Without turning.
+    mirror : bool
+        Left and right exchanged.
+    """
+
+    loops: bool = False
+    best: int | None = None
+    in_place: bool = False
+    straight: bool = False
+    mirror: bool = False
+
+    @property
+    def changes(self) -> tuple[str, ...]:
+        """What was done, in the words of the manifest."""
+        given = (("in place", self.in_place), ("straight", self.straight), ("mirror", self.mirror))
+        return tuple(name for name, done in given if done)
+
+
+@dataclass(frozen=True)
+class ShapedClip:
+    """A clip before it is written. ``carry`` is of loops only."""
+
+    segment: Segment
+    motion: Motion
+    carry: Carry | None
+    root: RootMotion
+    planted: Mapping[str, Sequence[tuple[int, int]]] | None
+    quality: LoopQuality | None = None
+    rank: int | None = None
+    poses: Mapping[str, Mapping[str, Any]] | None = field(default=None, repr=False)
+
+
+def shaped(motion: Motion, rows: Sequence[Segment], shape: Shape) -> list[ShapedClip]:
+    """The segments as clips, in their order; of loops those that were asked for."""
+    feet = planted_feet(motion)
+    qualities = loop_qualities(motion, rows, feet) if shape.loops else {}
+    places = _places(rows, qualities)
+    clips = []
+    for index, row in enumerate(rows):
+        rank = places.get(index)
+        if shape.best is not None and (rank is None or rank > shape.best):
+            continue
+        clips.append(_shaped(motion, row, shape, feet, qualities.get(index), rank))
+    return clips
+
+
+def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
+    """By index of the segment the quality of each loop; transitions have none."""
+    usual, found = usual_steps(motion.positions), dict[int, LoopQuality]()
+    for members in _candidates(rows).values():
+        shapes = []
+        for index in members:
+            clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
+            shapes.append(without_root_motion(clip, carry_of(clip))[0].positions)
+        for index, unlike in zip(members, distances(shapes), strict=True):
+            row = rows[index]
+            clip = cut(motion, row.start_frame, row.stop_frame)
+            closed, carry = loop(clip)
+            of_clip = [(points, mask[row.start_frame : row.stop_frame]) for points, mask in
+                       feet.values()]  # fmt: skip
+            found[index] = loop_quality(
+                clip.positions,
+                closed.positions,
+                carry,
+                motion.fps,
+                usual=usual,
+                feet=of_clip,
+                unlike=unlike,
+            )
+    return found
+
+
+def planted_feet(motion: Motion) -> Feet:
+    """When each foot is planted, in frames; nothing where no foot is found."""
+    joints, feet = landmarks(motion), dict[str, tuple[tuple[int, ...], Masks]]()
+    for side in SIDES:
+        heel = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
+        if heel is None:
+            continue
+        points = tuple(dict.fromkeys([heel, joints.get(f"{side}_toe", heel)]))
+        stands = stands_from_positions([motion.positions[:, j] for j in points], motion.fps)
+        mask = np.zeros(motion.n_frames, bool)
+        for start, stop in np.rint(stands * motion.fps).astype(int).tolist():
+            mask[start:stop] = True
+        feet[side] = (points, mask)
+    return feet
+
+
+def _candidates(rows: Sequence[Segment]) -> dict[Hashable, list[int]]:
+    """Indices of what can become a loop, those of a cluster or a label together."""
+    groups: defaultdict[Hashable, list[int]] = defaultdict(list)
+    for index, row in enumerate(rows):
+        if row.kind != "transition" and row.stop_frame - row.start_frame >= 2:
+            groups[row.label if row.cluster < 0 else row.cluster].append(index)
+    return groups
+
+
+def _places(rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]) -> dict[int, int]:
+    """By index the rank of a loop in its cluster."""
+    places: dict[int, int] = {}
+    for members in _candidates(rows).values() if qualities else ():
+        places |= zip(members, ranks([qualities[index] for index in members]), strict=True)
+    return places
+
+
+def _shaped(
+    motion: Motion,
+    row: Segment,
+    shape: Shape,
+    feet: Feet,
+    quality: LoopQuality | None,
+    rank: int | None,
+) -> ShapedClip:
+    clip = cut(motion, row.start_frame, row.stop_frame)
+    carry = carry_of(clip)
+    if quality is not None:
+        clip, carry = loop(clip)
+    root = root_motion(clip, carry)
+    if shape.straight:
+        clip, carry = straightened(clip, carry)
+        root = root_motion(clip, carry)
+    if shape.in_place:
+        clip, root = without_root_motion(clip, carry)
+        carry = Carry(0.0, 0.0, 0.0)
+    return ShapedClip(
+        row,
+        clip,
+        carry if quality is not None else None,
+        root,
+        _intervals(feet, row) if feet else None,
+        quality,
+        rank,
+        _poses(clip),
+    )
+
+
+def _intervals(feet: Feet, row: Segment) -> dict[str, list[tuple[int, int]]]:
+    """Frames of the clip in which each foot is planted."""
+    return {
+        side: [(a, b) for a, b in spans_of(mask[row.start_frame : row.stop_frame]).tolist()]
+        for side, (_, mask) in feet.items()
+    }
+
+
+def _poses(clip: Motion) -> dict[str, dict[str, Any]] | None:
+    """How the clip begins and ends: head, hands and feet from the pelvis, and its height."""
+    try:
+        ends = end_effectors(clip)
+        relative = body_frame(clip, ends.indices)[[0, -1]]
+    except (EndEffectorError, MotionError):
+        return None
+    root = clip.skeleton.parents.index(-1)
+    heights = clip.positions[[0, -1], root, 1]
+    return {
+        name: {"height_m": float(height), **dict(zip(PARTS, pose.tolist(), strict=True))}
+        for name, height, pose in zip(("first", "last"), heights, relative, strict=True)
+    }

@@ -1,0 +1,220 @@
+"""Good loops before bad ones: seams that meet, ranks, root motion apart, and the manifest of it."""
+
+from __future__ import annotations
+
+import json
+from importlib.resources import files
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import kineme
+from kineme.clips.loops import Carry, carry_of, loop
+from kineme.clips.manifest import safe_name
+from kineme.clips.quality import distances, loop_quality, usual_steps
+from kineme.clips.root_motion import root_motion, straightened, without_root_motion
+from kineme.clips.split import split
+from kineme.errors import ParameterError
+from kineme.recordings import Motion
+from kineme.recordings.operations import cut
+
+SCHEMA = json.loads(files("kineme.clips").joinpath("manifest.schema.json").read_text("utf-8"))
+
+
+@pytest.fixture(scope="module")
+def motion() -> Motion:
+    return kineme.read(kineme.bundled_recording())
+
+
+@pytest.fixture(scope="module")
+def truth() -> kineme.Segmentation:
+    return kineme.read_segments(kineme.bundled_recording().with_suffix(".json"))
+
+
+def repetitions(motion: Motion, truth: kineme.Segmentation) -> list[Motion]:
+    rows = [row for row in truth.primitives if row.kind == "primitive"]
+    return [cut(motion, row.start_frame, row.stop_frame) for row in rows]
+
+
+def manifest(folder: Path) -> list[dict]:
+    told = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    jsonschema.validate(told, SCHEMA)
+    return told["clips"]
+
+
+def rounds(motion: Motion, carry: Carry, n: int) -> np.ndarray:
+    """Positions of a loop that is played so often."""
+    played = [motion.positions]
+    for _ in range(n - 1):
+        played.append(carry.apply(played[-1]))
+    return np.concatenate(played)
+
+
+def test_speed_and_acceleration_meet_at_the_seam(motion, truth) -> None:
+    for clip in repetitions(motion, truth):
+        bare = Motion(clip.skeleton, clip.positions, clip.fps)
+        for closed, carry in (loop(clip), loop(bare)):
+            twice, n = rounds(closed, carry, 2), closed.n_frames
+            changes = np.linalg.norm(np.diff(twice, 2, axis=0), axis=-1).mean(axis=1)
+            assert changes[n - 2 : n].max() <= 1.05 * changes[: n - 2].max()
+
+
+def test_a_cycle_that_is_one_costs_next_to_nothing_and_a_cut_in_the_wrong_place_more() -> None:
+    frames = np.arange(120)
+    angle = 2 * np.pi * frames / 60
+    body = np.stack([np.cos(angle), 1 + 0.1 * np.sin(angle), frames / 60], axis=-1)[:, None]
+    body = np.concatenate([body, body + [0.3, 0.2, 0.1]], axis=1)
+
+    def cost(stop: int) -> float:
+        clip = Motion(kineme.Skeleton(("a", "b"), (-1, -1), np.zeros((2, 3))), body[:stop], 60)
+        closed, carry = loop(clip)
+        found = loop_quality(clip.positions, closed.positions, carry, 60, usual=usual_steps(body))
+        assert np.isnan(found.slide_m_s)
+        assert found.step < 1.5
+        return found.pose_m + found.speed_m_s
+
+    assert cost(60) < 0.1  # of some 6 m/s
+    assert cost(50) > 10 * cost(60)
+
+
+def test_the_one_that_is_unlike_the_others_is_told() -> None:
+    poses = np.zeros((30, 2, 3))
+    assert np.isnan(distances([poses])).all()
+    found = distances([poses, poses[:20], poses + 0.1, poses])
+    assert found[2] > 0.1
+    assert found[:2] == [0.0, 0.0]
+
+
+def test_planted_feet_that_are_dragged_slide(motion) -> None:
+    still = np.repeat(motion.positions[:1], 60, axis=0)
+    dragged = still + np.linspace(0, 0.6, 60)[:, None, None] * [1.0, 0.0, 0.0]
+    feet = [((0, 1), np.ones(60, bool))]
+    for positions, slide in ((still, 0.0), (dragged, 0.6)):
+        carry = carry_of(Motion(motion.skeleton, positions, 60))
+        found = loop_quality(positions, positions, carry, 60, usual=(0.01, 0.01), feet=feet)
+        assert found.slide_m_s == pytest.approx(slide, abs=0.02)
+
+
+def test_loops_in_place_close_where_they_are_and_their_root_motion_brings_them_back(
+    motion, truth
+) -> None:
+    for clip in repetitions(motion, truth):
+        closed, carry = loop(clip)
+        still, root = without_root_motion(closed, carry)
+        n, fps = closed.n_frames, closed.fps
+        step = np.linalg.norm(still.positions[0] - still.positions[-1], axis=-1).max()
+        assert step <= 1.1 * np.linalg.norm(np.diff(still.positions, axis=0), axis=-1).max()
+        assert np.abs(still.positions[:, 0, [0, 2]].mean(axis=0)).max() < 1e-9
+        assert root.turn == pytest.approx(carry.turn * fps / n)
+        # Put on its path again, it moves as before, seen from its first frame.
+        place, facing, moved = np.zeros(2), 0.0, []
+        parts = 200
+        for pose in still.positions:
+            c, s = np.cos(facing), np.sin(facing)
+            x, z = pose[:, 0], pose[:, 2]
+            moved.append(np.stack([x * c + z * s + place[0], z * c - x * s + place[1]], axis=-1))
+            for part in range(parts):
+                at = facing + root.turn / fps * (part + 0.5) / parts
+                step = [root.x * np.cos(at) + root.z * np.sin(at),
+                        root.z * np.cos(at) - root.x * np.sin(at)]  # fmt: skip
+                place = place + np.array(step) / fps / parts
+            facing += root.turn / fps
+        there, here = np.array(moved), closed.positions[..., [0, 2]]
+        apart = [np.linalg.norm(each - each[:1, :1], axis=-1) for each in (there, here)]
+        assert np.abs(apart[0] - apart[1]).max() < 1e-4
+
+
+@given(st.floats(-3.1, 3.1), st.floats(-3, 3), st.floats(-3, 3))
+def test_a_straightened_loop_goes_on_as_it_begins(motion, turn, x, z) -> None:
+    clip = cut(motion, 354, 414)
+    straight, carry = straightened(clip, Carry(turn, x, z))
+    before, after = root_motion(clip, Carry(turn, x, z)), root_motion(straight, carry)
+    assert carry.turn == 0
+    assert after.speed == pytest.approx(before.speed, abs=1e-6)
+    assert np.abs(straight.positions[0] - clip.positions[0]).max() < 1e-9
+
+
+def test_the_best_loops_of_each_cluster_stand_first(tmp_path: Path, motion, truth) -> None:
+    split(motion, truth, tmp_path / "all", level="primitive", loops=True)
+    told = manifest(tmp_path / "all")
+    loops = [clip for clip in told if clip["loop"]]
+    assert told[: len(loops)] == loops
+    assert all((clip["kind"] == "transition") != clip["loop"] for clip in told)
+    for cluster in {clip["cluster"] for clip in loops}:
+        of_cluster = [clip for clip in loops if clip["cluster"] == cluster]
+        assert [clip["rank"] for clip in of_cluster] == list(range(1, len(of_cluster) + 1))
+        costs = [clip["quality"]["cost"] for clip in of_cluster]
+        assert costs == sorted(costs)
+    split(motion, truth, tmp_path / "best", level="primitive", loops=True, best=1)
+    best = manifest(tmp_path / "best")
+    assert [clip["start_frame"] for clip in best] == [
+        clip["start_frame"] for clip in loops if clip["rank"] == 1
+    ]
+    table = pd.read_csv(tmp_path / "all" / "manifest.csv")
+    assert table.start_frame.is_monotonic_increasing
+    assert table.query("kind == 'transition'").turn_deg.isna().all()
+    assert table.query("kind != 'transition'")["rank"].notna().all()
+
+
+def test_the_manifest_knows_feet_poses_and_root_motion(tmp_path: Path, motion, truth) -> None:
+    options = {"level": "primitive", "cluster": 0, "loops": True, "in_place": True}
+    paths = split(motion, truth, tmp_path / "walk", format="glb", **options)
+    told = manifest(tmp_path / "walk")
+    assert len(told) == len(paths)
+    for clip in told:
+        assert clip["changes"] == ["in place"]
+        assert clip["carry"] == {"turn_deg": 0, "x_m": 0, "z_m": 0}
+        assert 0.8 < clip["root"]["speed_m_s"] < 1.6
+        assert clip["root"]["z_m_s"] > 0.95 * clip["root"]["speed_m_s"]
+        planted = [sum(b - a for a, b in spans) for spans in clip["planted"].values()]
+        assert all(0.4 < each / clip["n_frames"] < 0.8 for each in planted)
+        assert clip["poses"]["first"]["left_ankle"][0] > clip["poses"]["first"]["right_ankle"][0]
+        read = kineme.read(tmp_path / "walk" / clip["file"], take=clip["take"])
+        assert read.n_frames == clip["n_frames"]
+
+
+def test_a_mirrored_clip_plants_the_other_foot(tmp_path: Path, motion, truth) -> None:
+    told = []
+    for mirror in (False, True):
+        folder = tmp_path / str(mirror)
+        split(motion, truth, folder, level="primitive", cluster=5, mirror=mirror)
+        told.append(manifest(folder)[0])
+    assert told[0]["planted"]["left"] == told[1]["planted"]["right"]
+    assert told[1]["changes"] == ["mirror"]
+
+
+def test_straight_loops_do_not_turn(tmp_path: Path, motion, truth) -> None:
+    split(motion, truth, tmp_path / "walk", level="primitive", cluster=0, loops=True, straight=True)
+    told = manifest(tmp_path / "walk")
+    assert max(abs(clip["quality"]["turn_deg"]) for clip in told) > 20
+    assert {clip["carry"]["turn_deg"] for clip in told} == {0}
+
+
+@given(st.text(max_size=40), st.integers(0, 99999), st.text(max_size=40))
+def test_names_survive_import_and_are_not_the_same(stem: str, number: int, label: str) -> None:
+    name = safe_name(stem, number, label)
+    jsonschema.validate(name, SCHEMA["properties"]["clips"]["items"]["properties"]["name"])
+    assert f"_{number:04d}_" in name
+
+
+@pytest.mark.parametrize("best", [0, -1, 1.5, "2"])
+def test_odd_numbers_of_loops_are_refused(tmp_path: Path, motion, truth, best) -> None:
+    with pytest.raises(ParameterError, match="give a number of loops"):
+        split(motion, truth, tmp_path / "clips", loops=True, best=best)
+    with pytest.raises(ParameterError, match="best is of loops only"):
+        split(motion, truth, tmp_path / "clips", best=2)
+
+
+def test_signals_have_no_place(tmp_path: Path) -> None:
+    signals = kineme.Signals(np.zeros((60, 2)), 30)
+    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [60]}
+    one = kineme.Segmentation.from_columns(columns, n_frames=60, fps=30)
+    with pytest.raises(ParameterError, match="signals have no pose: leave out in_place"):
+        split(signals, one, tmp_path / "clips", in_place=True)
+    split(signals, one, tmp_path / "clips")
+    assert manifest(tmp_path / "clips")[0]["root"] is None
