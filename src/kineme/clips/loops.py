@@ -5,13 +5,13 @@ Played in a circle, the frame after the last is the first again, but further on 
 motion. The seam lies half a frame after the last frame, which is half a frame before the first.
 
 1. Pose, speed and acceleration on both sides of the seam are those of a parabola
-   through the frames of the last 0.08 s, and one through those of the first.
+   through the frames of the last 0.035 s (four at least), and one through those of the first.
 2. The carry is the rigid motion on the floor that brings the pose after the seam closest to
    the one before it: Kovar, Gleicher, Pighin, Motion Graphs, SIGGRAPH 2002,
    section 3.1, all joints weighing the same.
 3. The step of pose that remains is spread evenly over the clip, half of it on either side:
    the ends move least, and no joint changes its speed by more than a constant.
-4. The steps of speed and of acceleration are spread over 0.25 s on either side, by curves
+4. The steps of speed and of acceleration are spread over 0.4 s on either side, by curves
    that leave the pose at the seam where it is. So position, speed and acceleration meet.
 5. Rotations close along the shorter arc, roots after the carry; translations
    and positions without rotations in a line.
@@ -33,11 +33,11 @@ from kineme.recordings.kinematics import forward_kinematics, local_translations
 
 Floats = NDArray[np.float64]
 
-NEAR_S = 0.08
+NEAR_S = 0.035
 """Seconds of a clip that tell how it ends and begins."""
 FEWEST = 4
 """Frames through which a parabola is laid; of fewer a line."""
-BLEND_S = 0.25
+BLEND_S = 0.4
 """Seconds before and after a seam over which steps of speed and acceleration are spread."""
 
 

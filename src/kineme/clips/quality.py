@@ -37,9 +37,9 @@ COSTS = {
     "step": 1.0,
     "speed_step": 1.0,
     "slide_m_s": 0.1,
-    "turn_deg": 45.0,
-    "rise_m": 0.05,
-    "unlike_m": 0.2,
+    "turn_deg": 180.0,
+    "rise_m": 0.2,
+    "unlike_m": 1.0,
 }
 """How much of each measure counts as one."""
 
