@@ -25,26 +25,25 @@ def split(
         Path,
         option(
             OUTPUT,
-            "Folder to make, new or empty. Of several recordings each gets a folder in it, "
-            "or one by a path with {name} in it.",
+            "Folder to make; of several recordings each has a folder in it, or a path with {name}.",
             "--output",
             "-o",
         ),
     ],
-    level: Annotated[Level, option(OUTPUT, "Write activities, or each primitive.")] = "activity",
+    level: Annotated[Level, option(OUTPUT, "Activities, or primitives.")] = "activity",
     cluster: Annotated[int | None, option(OUTPUT, "Write those of this cluster only.")] = None,
     loop: Annotated[
         bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
     ] = False,
     best: Annotated[
         int | None,
-        option(OUTPUT, "Write so many loops of each cluster, the best ones only.", "--best", min=1),
+        option(OUTPUT, "Of loops: so many of each cluster.", "--best", min=1),
     ] = None,
     in_place: Annotated[
         bool,
         option(
             OUTPUT,
-            "Put clips to the origin, facing +z, without root motion (the list keeps it).",
+            "Put clips to the origin, without root motion.",
             "--in-place",
         ),
     ] = False,
@@ -58,8 +57,7 @@ def split(
         str | None,
         option(
             OUTPUT,
-            "Format of the clips, such as glb (all in one file); by default bvh, or csv without "
-            "rotations.",
+            "Such as glb; by default bvh, or csv of points.",
             "--format",
             metavar="SUFFIX",
         ),
@@ -75,7 +73,7 @@ def split(
 ) -> None:
     """Write each segment of a recording as a file of its own, and a list of them.
 
-    Clips of signals are rows of their file. The list is manifest.csv; manifest.json says more.
+    The lists are manifest.csv, and manifest.json for programs.
     """
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)

@@ -84,13 +84,18 @@ def write_manifests(clips: Sequence[Clip], folder: Path, *, loops: bool, animati
     """Leave both lists in a folder."""
     _write_csv(clips, folder / MANIFEST, loops=loops, animations=animations)
     loops_first = sorted(clips, key=_order)
-    content = {
-        "schema": SCHEMA,
-        "kineme": __version__,
-        "clips": [_as_json(clip) for clip in loops_first],
-    }
-    text = json.dumps(content, ensure_ascii=False, indent=1, allow_nan=False)
-    (folder / MANIFEST_JSON).write_text(f"{text}\n", encoding="utf-8", newline="\n")
+    head = f'{{\n"schema": "{SCHEMA}",\n"kineme": "{__version__}",\n"clips": ['
+    body = ",".join(f"\n{_as_text(clip)}" for clip in loops_first)
+    (folder / MANIFEST_JSON).write_text(f"{head}{body}\n]\n}}\n", encoding="utf-8", newline="\n")
+
+
+def _as_text(clip: Clip) -> str:
+    """A clip as JSON, a line for each name."""
+    lines = (
+        f" {json.dumps(name)}: {json.dumps(value, ensure_ascii=False, allow_nan=False)}"
+        for name, value in _as_json(clip).items()
+    )
+    return "{\n" + ",\n".join(lines) + "\n}"
 
 
 def _order(clip: Clip) -> tuple[bool, str, int, str, int]:
