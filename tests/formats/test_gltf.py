@@ -309,3 +309,11 @@ def test_a_body_of_one_joint(tmp_path: Path) -> None:
     motion = Motion.from_rotations(skeleton, [[[1, 0, 0, 0]]], 30, [[1, 2, 3]])
     write(motion, tmp_path / "a.glb")
     assert read_quietly(tmp_path / "a.glb").positions.tolist() == [[[1, 2, 3]]]
+
+
+def test_gaps_are_told_since_the_format_has_none(tmp_path: Path) -> None:
+    skeleton = Skeleton(("a",), (-1,), np.zeros((1, 3)))
+    motion = Motion.from_rotations(skeleton, [[[1, 0, 0, 0]]] * 60, 30, [[1, 2, 3]] * 60)
+    motion = replace(motion, gaps=[(15, 30)])
+    with pytest.warns(KinemeWarning, match=r"a\.glb: gaps of 0\.5 s become movement"):
+        write(motion, tmp_path / "a.glb")

@@ -11,11 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme._interpolation import bridge_line
+from kineme.formats.files import warn
 from kineme.recordings import Motion
 from kineme.recordings.arrays import spans_of
 
@@ -100,6 +102,16 @@ def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
 def unseen(motion: Motion) -> list[bool]:
     """For each frame whether it lies in a gap of the motion."""
     return list(map(bool, covered(motion.gaps, motion.n_frames)))
+
+
+def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
+    """Warn where motions have gaps, and go into a file of a format that has none."""
+    seconds = sum((b - a) / motion.fps for motion in motions for a, b in motion.gaps)
+    if seconds:
+        warn(
+            f"{path.name}: gaps of {seconds:.1f} s become movement, since the format has none: "
+            "leave these clips out, or write .npz, .csv or .trc"
+        )
 
 
 def _between(visible: NDArray[np.intp], values: Floats, at: NDArray[np.intp]) -> Floats:

@@ -29,6 +29,7 @@ from kineme._files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
 from kineme.formats.files import spelled
+from kineme.formats.gaps import warn_of_gaps
 from kineme.formats.scenes.gltf_file import BYTES, CHUNK, HEADER, JSON, MAGIC
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.recordings import Motion, Skeleton
@@ -81,6 +82,7 @@ def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
             )
         if motion.skeleton is not first.skeleton and not _same(motion.skeleton, first.skeleton):
             raise WriteError(path, "its animations are of different skeletons: write several files")
+    warn_of_gaps(motions.values(), path)
     file = _Writer(first, path)
     for name, motion in motions.items():
         file.animate(name, motion)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, WriteError
 from kineme.formats.files import spelled, unique
+from kineme.formats.gaps import warn_of_gaps
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
 
@@ -38,6 +39,7 @@ def write_usd(motion: Motion, path: Path) -> None:
         from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
     except ImportError as error:
         raise MissingDependencyError("usd-core", "usd") from error
+    warn_of_gaps([motion], path)
     skeleton = motion.skeleton
     names = spelled(path, skeleton.names, str.strip)
     words = unique(Tf.MakeValidIdentifier(name) for name in names)
