@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 from screen import PLACES, Screen, box_of, picture_of, until
 
 
@@ -67,6 +69,29 @@ def test_chosen_rows_become_a_cluster_or_clips(page):
     page.get_by_role("button", name="New cluster").click()
     screen.saved()
     assert {row["cluster"] for row in screen.lane("primitive")} == clusters | {max(clusters) + 1}
+
+
+def test_good_loops_come_first_and_are_saved(page):
+    screen = Screen(page)
+    page.get_by_role("tab", name="Table").click()
+    page.get_by_role("button", name="Loops by quality…").click()
+    window = page.get_by_role("dialog", name="Repetitions as loops")
+    row = window.locator("tbody tr")
+    row.first.wait_for()
+    ranks = [int(each) for each in window.locator("tbody tr td:nth-child(2)").all_inner_texts()]
+    bests = [index for index, rank in enumerate(ranks) if rank == 1]
+    for start, stop in zip(bests, [*bests[1:], len(ranks)], strict=True):
+        assert ranks[start:stop] == list(range(1, stop - start + 1))
+    checked = window.get_by_role("checkbox", checked=True)
+    assert checked.count() == len(bests)
+    page.screenshot(path=os.environ.get("KINEME_SHOT", "/dev/null"), type="png")
+    checked.first.uncheck()
+    with page.expect_download() as loops:
+        window.get_by_role("button", name=f"Save {len(bests) - 1} as loops").click()
+    assert loops.value.suggested_filename.endswith(".zip")
+    row.nth(1).get_by_role("button", name="Show").click()
+    screen.wait("k.selected")
+    assert not window.is_visible()
 
 
 def test_a_repetition_is_laid_over_another_one(page):

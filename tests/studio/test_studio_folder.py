@@ -61,6 +61,23 @@ def test_labels_are_shared_and_clips_are_of_chosen_rows(studio: Studio) -> None:
     assert studio.client.post(address, json={"rows": [10_000], "loops": False}).status_code == 400
 
 
+def test_repetitions_are_ranked_as_loops(studio: Studio) -> None:
+    rows = studio.recording()["segmentation"]["segments"]
+    loops = studio.get(f"/api/recordings/{studio.id}/loops").json()["loops"]
+    candidates = [
+        number
+        for number, row in enumerate(rows)
+        if row["level"] == "primitive" and row["kind"] != "transition"
+    ]
+    assert sorted(each["number"] for each in loops) == candidates
+    costs: dict[int, list[float]] = {}
+    for each in loops:
+        of_cluster = costs.setdefault(rows[each["number"]]["cluster"], [])
+        of_cluster.append(each["cost"])
+        assert each["rank"] == len(of_cluster)
+    assert all(each == sorted(each) for each in costs.values())
+
+
 def test_a_video_lies_beside_and_keeps_its_offset(studio: Studio) -> None:
     address = f"/api/recordings/{studio.id}/video"
     assert studio.recording()["video"] is None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -77,18 +77,42 @@ class ShapedClip:
     poses: Mapping[str, Mapping[str, Any]] | None = field(default=None, repr=False)
 
 
-def shaped(motion: Motion, rows: Sequence[Segment], shape: Shape) -> list[ShapedClip]:
-    """The segments as clips, in their order; of loops those that were asked for."""
+def shaped(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterator[ShapedClip]:
+    """The segments as clips one by one, in their order; of loops those that were asked for."""
     feet = planted_feet(motion)
     qualities = loop_qualities(motion, rows, feet) if shape.loops else {}
     places = _places(rows, qualities)
-    clips = []
     for index, row in enumerate(rows):
         rank = places.get(index)
-        if shape.best is not None and (rank is None or rank > shape.best):
-            continue
-        clips.append(_shaped(motion, row, shape, feet, qualities.get(index), rank))
-    return clips
+        if shape.best is None or (rank is not None and rank <= shape.best):
+            yield _shaped(motion, row, shape, feet, qualities.get(index), rank)
+
+
+@dataclass(frozen=True)
+class RankedLoop:
+    """A candidate of a loop: the index of its segment, its place in its cluster, and why."""
+
+    index: int
+    rank: int
+    quality: LoopQuality
+    speed_m_s: float
+
+
+def ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
+    """All candidates among the segments, those of a cluster together and the best first."""
+    qualities = loop_qualities(motion, rows, planted_feet(motion))
+    places = _places(rows, qualities)
+    order = [
+        index
+        for members in _candidates(rows).values()
+        for index in sorted(members, key=places.__getitem__)
+    ]
+    found = []
+    for index in order:
+        clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
+        speed = root_motion(clip, carry_of(clip)).speed
+        found.append(RankedLoop(index, places[index], qualities[index], speed))
+    return found
 
 
 def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:

@@ -254,7 +254,7 @@ def _write_rows(signals: Signals, rows: Sequence[Segment], folder: Path, first: 
 
 def _write_files(
     motion: Motion,
-    made: Sequence[ShapedClip],
+    made: Iterable[ShapedClip],
     folder: Path,
     suffix: str,
     first: int,
@@ -271,7 +271,7 @@ def _write_files(
 
 def _write_animations(
     motion: Motion,
-    made: Sequence[ShapedClip],
+    made: Iterable[ShapedClip],
     folder: Path,
     chosen: Format,
     first: int,
@@ -283,11 +283,11 @@ def _write_animations(
     path = folder / f"{stem}.{suffix}"
     if path.exists():  # another recording of this name
         path = folder / f"{stem}_{first:04d}.{suffix}"
-    entries = [
-        _entry(motion, clip, number, path.name, shape, animation=True)
-        for number, clip in enumerate(made, first)
-    ]
-    animations = {clip.name: each.motion for clip, each in zip(entries, made, strict=True)}
+    entries: list[Clip] = []
+    animations: dict[str, Motion] = {}
+    for number, clip in enumerate(made, first):
+        entries.append(_entry(motion, clip, number, path.name, shape, animation=True))
+        animations[entries[-1].name] = clip.motion
     if chosen.write_animations is not None and animations:
         chosen.write_animations(animations, path)
     return entries

@@ -43,6 +43,7 @@ from kineme.web.messages import (
     Edited,
     FileChoice,
     Listing,
+    Loops,
     Preview,
     Recording,
     State,
@@ -88,6 +89,7 @@ class Api:
             route(f"{one}/compare", self.compare, CompareRequest),
             route(f"{one}/export/{{format}}", self.export),
             route(f"{one}/clips", self.clips, ClipsRequest),
+            route(f"{one}/loops", self.loops),
             route(f"{one}/video", self.video),
             route(f"{one}/video", self.offset, VideoRequest),
             route(f"{one}/reading", self.reading, ReadingRequest),
@@ -237,6 +239,11 @@ class Api:
 
         files = downloads.clip_files(self._opened(request), sent.rows, loops=sent.loops)
         return file_response(*files)
+
+    def loops(self, request: Request) -> Loops:
+        from kineme.studio import downloads
+
+        return downloads.loops_of(self._opened(request))
 
     def video(self, request: Request) -> Response:
         found = video_of(self._opened(request).path)

@@ -202,6 +202,27 @@ class Versions(Struct, frozen=True, kw_only=True):
     versions: list[Version]
 
 
+class LoopRow(Struct, frozen=True, kw_only=True):
+    """A repetition as a loop: the number of its row in the table, and how good it would be.
+
+    ``slide_m_s`` is null where no foot is planted; ``rank`` 1 is the best of a cluster.
+    """
+
+    number: int
+    rank: int
+    cost: float
+    pose_m: float
+    slide_m_s: float | None
+    turn_deg: float
+    speed_m_s: float
+
+
+class Loops(Struct, frozen=True, kw_only=True):
+    """The repetitions of a recording as loops, those of a cluster together, the best first."""
+
+    loops: list[LoopRow]
+
+
 class Changed(Struct, frozen=True, kw_only=True):
     """Sent to every page when a recording's table changed or a file came."""
 

@@ -229,6 +229,26 @@ export interface Versions {
   versions: Version[];
 }
 
+/**
+ * A repetition as a loop: the number of its row in the table, and how good it would be.
+ *
+ * `slide_m_s` is null where no foot is planted; `rank` 1 is the best of a cluster.
+ */
+export interface LoopRow {
+  number: number;
+  rank: number;
+  cost: number;
+  pose_m: number;
+  slide_m_s: number | null;
+  turn_deg: number;
+  speed_m_s: number;
+}
+
+/** The repetitions of a recording as loops, those of a cluster together, the best first. */
+export interface Loops {
+  loops: LoopRow[];
+}
+
 /** Sent to every page when a recording's table changed or a file came. */
 export interface Changed {
   recording: string;

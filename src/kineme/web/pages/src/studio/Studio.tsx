@@ -19,6 +19,7 @@ import { ExportDialog } from "./dialogs/ExportDialog";
 import { FolderPanel } from "./panels/FolderPanel";
 import { Header } from "./Header";
 import { VersionsDialog } from "./dialogs/VersionsDialog";
+import { LoopsDialog } from "./dialogs/LoopsDialog";
 import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
 import { Video } from "./panels/Video";
@@ -128,6 +129,8 @@ function OpenDialog({ name, close }: DialogProps): JSX.Element | null {
       return <CompareDialog close={close} />;
     case "export":
       return <ExportDialog close={close} />;
+    case "loops":
+      return <LoopsDialog close={close} />;
     case "help":
       return <HelpDialog close={close} />;
     case null:

@@ -7,7 +7,7 @@ import type { Review } from "./review/review";
 import type { Uploads } from "./server/uploads";
 import type { Session } from "./session";
 
-export type DialogName = "versions" | "transfer" | "compare" | "export" | "help";
+export type DialogName = "versions" | "transfer" | "compare" | "export" | "help" | "loops";
 
 /** What of the page is in front. */
 export class Front {

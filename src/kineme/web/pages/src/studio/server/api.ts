@@ -17,6 +17,8 @@ import type {
   FileChoice,
   KnowledgeRequest,
   LabelsRequest,
+  LoopRow,
+  Loops,
   Level,
   Listing,
   Preview,
@@ -118,6 +120,12 @@ export class Api {
   /** Some rows of the table as motion files. */
   clips(id: string, request: ClipsRequest): Promise<Download> {
     return this.download(addressOf("/api/recordings/{id}/clips", { id }), request);
+  }
+
+  /** How good the repetitions would be as loops. */
+  async loops(id: string): Promise<LoopRow[]> {
+    const answer: Loops = await this.get("/api/recordings/{id}/loops", { id });
+    return answer.loops;
   }
 
   shareLabels(request: LabelsRequest): Promise<string[]> {

@@ -8,7 +8,7 @@ import { save } from "../server/save";
 import { type Row, spansToMerge } from "./rows";
 
 export function Actions({ rows }: { rows: Row[] }): JSX.Element {
-  const { session, editor } = useStudio();
+  const { session, editor, front } = useStudio();
   const busy = useSignal(false);
   const clips = async (loops: boolean): Promise<void> => {
     const { edited, api, bulletin } = session;
@@ -107,6 +107,14 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
         onClick={() => void clips(true)}
       >
         Loops…
+      </button>
+      <button
+        type="button"
+        disabled={!session.edited.value || !session.store.recording.value?.motion}
+        title="Which repetitions make good loops: seam, sliding feet, turn and speed"
+        onClick={() => front.show("loops")}
+      >
+        Loops by quality…
       </button>
     </div>
   );

@@ -1,0 +1,140 @@
+/** The repetitions as loops, the best of each cluster first: looked at, and written as files. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+import { useStudio } from "../context";
+import type { LoopRow } from "../../messages";
+import { NO_COLOR } from "../../colors";
+import { nameOf } from "../../segments";
+import { clock } from "../../view";
+import { explain } from "../server/api";
+import { save } from "../server/save";
+import { Dialog } from "./Dialog";
+
+interface Props {
+  close: () => void;
+}
+
+export function LoopsDialog({ close }: Props): JSX.Element {
+  const { session } = useStudio();
+  const { edited, api, bulletin, store } = session;
+  const found = useSignal<LoopRow[] | null>(null);
+  const problem = useSignal("");
+  const chosen = useSignal<ReadonlySet<number>>(new Set());
+  const busy = useSignal(false);
+  const opened = edited.value;
+  useEffect(() => {
+    if (!opened) return;
+    opened
+      .settled() // its rows are those that are shown
+      .then(() => api.loops(opened.id))
+      .then((loops) => {
+        found.value = loops;
+        chosen.value = new Set(loops.filter(({ rank }) => rank === 1).map((each) => each.number));
+      })
+      .catch((error: unknown) => (problem.value = explain(error)));
+  }, [opened, api, found, chosen, problem]);
+  const write = async (): Promise<void> => {
+    busy.value = true;
+    try {
+      const rows = [...chosen.value].sort((a, b) => a - b);
+      save(await api.clips(opened!.id, { rows, loops: true }));
+      bulletin.solved("clips");
+    } catch (error) {
+      bulletin.problem(explain(error), "clips");
+    }
+    busy.value = false;
+  };
+  const segments = store.recording.value?.segmentation.segments ?? [];
+  return (
+    <Dialog title="Repetitions as loops" close={close}>
+      <p class="quiet">
+        The best of each cluster come first: their ends are close to each other, and planted feet
+        stay where they are. Less is better, but for speed.
+      </p>
+      {problem.value && <p role="alert">{problem.value}</p>}
+      {!problem.value && !found.value && <span class="busy" role="status" aria-label="Measuring" />}
+      {found.value?.length === 0 && <p>There are no repetitions in this recording.</p>}
+      {Boolean(found.value?.length) && (
+        <>
+          <p>
+            <button
+              type="button"
+              disabled={!chosen.value.size || busy.value}
+              onClick={() => void write()}
+            >
+              Save {chosen.value.size} as loops
+            </button>
+          </p>
+          <table class="formats loops number">
+            <thead>
+              <tr>
+                <th scope="col">Loop</th>
+                <th scope="col">Rank</th>
+                <th scope="col" title="How far the ends are from each other before blending">
+                  Seam
+                </th>
+                <th scope="col" title="How fast planted feet move in the loop">
+                  Slide
+                </th>
+                <th scope="col" title="In a round">
+                  Turn
+                </th>
+                <th scope="col">Speed</th>
+                <th />
+              </tr>
+            </thead>
+            <tbody>
+              {found.value?.map((each) => {
+                const segment = segments[each.number];
+                if (!segment) return null;
+                const name = `${nameOf(segment)} at ${clock(segment.start_s, 2)}`;
+                return (
+                  <tr key={each.number}>
+                    <td>
+                      <label class="check">
+                        <input
+                          type="checkbox"
+                          checked={chosen.value.has(each.number)}
+                          onChange={() => (chosen.value = toggled(chosen.value, each.number))}
+                        />
+                        <span
+                          class="swatch"
+                          style={{ background: store.colorOf(segment) ?? NO_COLOR }}
+                        />{" "}
+                        {name}
+                      </label>
+                    </td>
+                    <td>{each.rank}</td>
+                    <td>{(100 * each.pose_m).toFixed(1)} cm</td>
+                    <td>{each.slide_m_s === null ? "–" : `${each.slide_m_s.toFixed(2)} m/s`}</td>
+                    <td>{Math.round(each.turn_deg)}°</td>
+                    <td>{each.speed_m_s.toFixed(2)} m/s</td>
+                    <td>
+                      <button
+                        type="button"
+                        aria-label={`Show ${name}`}
+                        onClick={() => {
+                          store.select(segment);
+                          close();
+                        }}
+                      >
+                        Show
+                      </button>
+                    </td>
+                  </tr>
+                );
+              })}
+            </tbody>
+          </table>
+        </>
+      )}
+    </Dialog>
+  );
+}
+
+function toggled(chosen: ReadonlySet<number>, number: number): ReadonlySet<number> {
+  const next = new Set(chosen);
+  if (!next.delete(number)) next.add(number);
+  return next;
+}
