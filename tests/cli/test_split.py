@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +34,24 @@ def test_split_takes_the_segments_it_would_find(kineme, tmp_path: Path) -> None:
     files = sorted(path.name for path in (tmp_path / "clips").glob("*.bvh"))
     assert files == manifest.file.tolist()
     assert {"turn_deg", "x_m", "z_m"} <= set(manifest.columns)
+
+
+def test_the_best_loops_in_place_straight_and_mirrored(kineme, tmp_path: Path) -> None:
+    options = ("--segments", bundled_truth(), "--level", "primitive", "--loop", "--format", "glb")
+    done = kineme("split", bundled_recording(), *options, "--best", 1, "-o", "best", "-q",
+                  "--in-place", "--straight", "--mirror")  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    told = json.loads((tmp_path / "best" / "manifest.json").read_text(encoding="utf-8"))["clips"]
+    assert {clip["rank"] for clip in told} == {1}
+    assert len({clip["cluster"] for clip in told}) == len(told)
+    for clip in told:
+        assert clip["changes"] == ["in place", "straight", "mirror"]
+        assert clip["root"]["turn_deg_s"] == 0
+        motion = package.read(tmp_path / "best" / clip["file"], take=clip["take"])
+        assert np.abs(motion.positions[:, 0, [0, 2]].mean(axis=0)).max() < 1e-5
+    done = kineme("split", bundled_recording(), "--best", 1, "-o", "more", "-q")
+    assert done.returncode == 1
+    assert "best is of loops only: ask for loops (--loop), too" in done.stderr
 
 
 def test_split_takes_coarser_segments(kineme, tmp_path: Path) -> None:

@@ -188,6 +188,18 @@ def test_a_mirrored_clip_plants_the_other_foot(tmp_path: Path, motion, truth) ->
     assert told[1]["changes"] == ["mirror"]
 
 
+def test_clips_without_rotations_are_put_in_place_as_those_with(tmp_path, motion, truth) -> None:
+    bare = Motion(motion.skeleton, motion.positions, motion.fps)
+    options = {"level": "primitive", "cluster": 0, "in_place": True, "straight": True}
+    (path, *_), (other, *_) = (
+        split(each, truth, tmp_path / name, format="csv", **options)
+        for each, name in ((bare, "bare"), (motion, "turned"))
+    )
+    positions, others = (kineme.read(each).positions for each in (path, other))
+    # Without rotations the body faces where its hips lie, which is not quite the same.
+    assert np.abs(positions - others).max() < 0.05
+
+
 def test_straight_loops_do_not_turn(tmp_path: Path, motion, truth) -> None:
     split(motion, truth, tmp_path / "walk", level="primitive", cluster=0, loops=True, straight=True)
     told = manifest(tmp_path / "walk")
