@@ -56,7 +56,7 @@ def sequence(clip: dict[str, Any]) -> dict[str, Any]:
     return {
         "sequence": clip["name"],
         "file": clip["file"],
-        "range_s": [0.0, round(clip["n_frames"] * seconds, 6)],
+        "range_s": [0.0, clip["round_s"] or round(clip["n_frames"] * seconds, 6)],
         "loop": clip["loop"],
         "mirrored": "mirror" in clip["changes"],
         "tags": tags(clip),

@@ -32,6 +32,6 @@ func apply(player, path):
 		var animation = player.get_animation(name)
 		animation.loop = clips[name]["loop"]
 		if animation.loop:
-			animation.length = clips[name]["n_frames"] / clips[name]["fps"]
+			animation.length = clips[name]["round_s"]
 		known.append(name)
 	return known

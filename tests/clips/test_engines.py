@@ -48,7 +48,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("engines") / "loops"
     path = kineme.bundled_recording()
     truth = kineme.read_segments(path.with_suffix(".json"))
-    options = {"loops": True, "best": 1, "in_place": True, "format": "glb"}
+    options = {"loops": True, "best": 1, "in_place": True, "close": True, "format": "glb"}
     split(kineme.read(path), truth, place, level="primitive", **options)
     return place
 
@@ -75,7 +75,7 @@ def test_godot_has_every_clip_and_every_bone(folder: Path, tmp_path: Path) -> No
     for clip in clips:
         there = found["clips"][clip["take"]]
         assert there["loop"]
-        assert there["length"] == pytest.approx(clip["n_frames"] / clip["fps"], abs=1e-4)
+        assert there["length"] == pytest.approx(clip["round_s"], abs=1e-4)
     names = kineme.read(folder / "exercises.glb", take=clips[0]["take"]).skeleton.names
     plain = [name.lower() for name in names]  # Godot spells LeftForeArm as left_fore_arm
     assert sorted(bone.replace("_", "") for bone in found["bones"]) == sorted(
@@ -91,8 +91,7 @@ def test_three_has_every_clip_and_every_bone(folder: Path) -> None:
     clips = clips_of(folder)
     assert found["clips"].keys() == {clip["take"] for clip in clips}
     for clip in clips:
-        seconds = (clip["n_frames"] - 1) / clip["fps"]
-        assert found["clips"][clip["take"]] == pytest.approx(seconds, abs=1e-4)
+        assert found["clips"][clip["take"]] == pytest.approx(clip["round_s"], abs=1e-4)
     names = kineme.read(folder / "exercises.glb", take=clips[0]["take"]).skeleton.names
     assert sorted(found["bones"]) == sorted(names)
 
@@ -105,7 +104,7 @@ def test_the_list_for_motion_matching_has_every_clip(folder: Path, tmp_path: Pat
     clips = clips_of(folder)
     assert [each["sequence"] for each in told["clips"]] == [clip["name"] for clip in clips]
     for each, clip in zip(told["clips"], clips, strict=True):
-        assert each["range_s"] == [0, pytest.approx(clip["n_frames"] / clip["fps"], abs=1e-5)]
+        assert each["range_s"] == [0, clip["round_s"]]
         assert each["loop"]
         assert each["tags"] == [clip["label"]]
     (recording,) = told["recordings"]

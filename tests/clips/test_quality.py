@@ -200,6 +200,24 @@ def test_clips_without_rotations_are_put_in_place_as_those_with(tmp_path, motion
     assert np.abs(positions - others).max() < 0.05
 
 
+@pytest.mark.parametrize("in_place", [False, True])
+def test_a_closed_loop_ends_where_it_begins(tmp_path: Path, motion, truth, in_place) -> None:
+    options = {"level": "primitive", "cluster": 0, "loops": True, "in_place": in_place}
+    opened = split(motion, truth, tmp_path / "open", **options)
+    closed = split(motion, truth, tmp_path / "closed", close=True, **options)
+    told = {clip["file"]: clip for clip in manifest(tmp_path / "closed")}
+    for path, other in zip(closed, opened, strict=True):
+        clip, before, after = told[path.name], kineme.read(other), kineme.read(path)
+        assert after.n_frames == clip["n_frames"] == before.n_frames + 1
+        assert clip["round_s"] == pytest.approx(before.duration, abs=1e-5)
+        assert np.abs(after.positions[:-1] - before.positions).max() < 1e-5
+        turn, x, z = clip["carry"].values()
+        expected = Carry(np.radians(turn), x, z).apply(after.positions[0])
+        assert np.abs(after.positions[-1] - expected).max() < 1e-4
+    with pytest.raises(ParameterError, match="only loops are closed"):
+        split(motion, truth, tmp_path / "none", close=True)
+
+
 def test_straight_loops_do_not_turn(tmp_path: Path, motion, truth) -> None:
     split(motion, truth, tmp_path / "walk", level="primitive", cluster=0, loops=True, straight=True)
     told = manifest(tmp_path / "walk")

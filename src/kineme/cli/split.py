@@ -53,6 +53,9 @@ def split(
     mirror: Annotated[
         bool, option(OUTPUT, "Exchange left and right in each clip.", "--mirror")
     ] = False,
+    close: Annotated[
+        bool, option(OUTPUT, "Repeat the first frame of loops at their end.", "--close")
+    ] = False,
     to_format: Annotated[
         str | None,
         option(
@@ -71,10 +74,7 @@ def split(
     constants: Constants = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
-    """Write each segment of a recording as a file of its own, and a list of them.
-
-    The lists are manifest.csv, and manifest.json for programs.
-    """
+    """Write each segment of a recording as a file of its own, and a list of them."""
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
@@ -101,6 +101,7 @@ def split(
                 in_place=in_place,
                 straight=straight,
                 mirror=mirror,
+                close=close,
             )
             if not quiet:
                 typer.echo(f"{counted(len(clips), 'clip')} in {folder}")

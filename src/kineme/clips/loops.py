@@ -90,6 +90,23 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
     return Motion(motion.skeleton, positions, fps, rotations, provenance), carry
 
 
+def with_first_again(motion: Motion, carry: Carry) -> Motion:
+    """The loop and, after its last frame, its first one carried on, as engines want it."""
+    again, rotations = carry.apply(motion.positions[:1]), motion.rotations
+    if rotations is not None:
+        first = np.array(rotations[:1])
+        roots = np.array(motion.skeleton.parents) < 0
+        first[:, roots] = rot.multiply(carry.rotation, first[:, roots])
+        rotations = np.concatenate([rotations, first])
+    note = "first frame repeated at the end"
+    return replace(
+        motion,
+        positions=np.concatenate([motion.positions, again]),
+        rotations=rotations,
+        provenance=motion.provenance.noted(note),
+    )
+
+
 def carry_of(motion: Motion) -> Carry:
     """What brings the pose half a frame before the first closest to that after the last."""
     if motion.n_frames < 2:

@@ -123,6 +123,7 @@ def _as_json(clip: Clip) -> dict[str, Any]:
         "cluster": row.cluster,
         "label": row.label,
         "loop": carry is not None,
+        "round_s": None if carry is None else (row.stop_frame - row.start_frame) / clip.fps,
         "rank": clip.rank,
         "quality": None if clip.quality is None else _quality(clip.quality),
         "carry": None if carry is None else dict(zip(CARRY, _cells(carry), strict=True)),

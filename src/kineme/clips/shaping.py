@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.clips.loops import Carry, carry_of, loop
+from kineme.clips.loops import Carry, carry_of, loop, with_first_again
 from kineme.clips.quality import LoopQuality, distances, loop_quality, ranks, usual_steps
 from kineme.clips.root_motion import (
     RootMotion,
@@ -48,6 +48,8 @@ class Shape:
         Without turning.
     mirror : bool
         Left and right exchanged.
+    close : bool
+        The first frame of a loop again after its last.
     """
 
     loops: bool = False
@@ -55,11 +57,17 @@ class Shape:
     in_place: bool = False
     straight: bool = False
     mirror: bool = False
+    close: bool = False
 
     @property
     def changes(self) -> tuple[str, ...]:
         """What was done, in the words of the manifest."""
-        given = (("in place", self.in_place), ("straight", self.straight), ("mirror", self.mirror))
+        given = (
+            ("in place", self.in_place),
+            ("straight", self.straight),
+            ("mirror", self.mirror),
+            ("close", self.close),
+        )
         return tuple(name for name, done in given if done)
 
 
@@ -193,6 +201,9 @@ def _shaped(
     if shape.in_place:
         clip, root = without_root_motion(clip, carry)
         carry = Carry(0.0, 0.0, 0.0)
+    poses = _poses(clip)
+    if shape.close and quality is not None:
+        clip = with_first_again(clip, carry)
     return ShapedClip(
         row,
         clip,
@@ -201,7 +212,7 @@ def _shaped(
         _intervals(feet, row) if feet else None,
         quality,
         rank,
-        _poses(clip),
+        poses,
     )
 
 

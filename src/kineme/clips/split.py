@@ -60,6 +60,7 @@ def split(
     in_place: bool = False,
     straight: bool = False,
     mirror: bool = False,
+    close: bool = False,
 ) -> list[Path]:
     """Write each segment as a clip of its own; for each clip the path of its file.
 
@@ -89,6 +90,8 @@ def split(
         Take the turn out, so that the body goes straight on.
     mirror : bool, optional
         Exchange left and right.
+    close : bool, optional
+        Repeat the first frame of each loop at its end, as engines want it.
 
     Raises
     ------
@@ -132,6 +135,7 @@ def split(
         in_place=in_place,
         straight=straight,
         mirror=mirror,
+        close=close,
     )
 
 
@@ -145,6 +149,7 @@ def write_clips(
     in_place: bool = False,
     straight: bool = False,
     mirror: bool = False,
+    close: bool = False,
 ) -> list[Path]:
     """Write segments of several recordings as clips in one folder; for each clip its file.
 
@@ -154,7 +159,7 @@ def write_clips(
         Gone through once, so that one recording at a time needs memory.
     folder : str or PathLike
         To be made; one that is there must be empty.
-    loops, format, best, in_place, straight, mirror
+    loops, format, best, in_place, straight, mirror, close
         As for `split`. Loops are ranked among those of their recording.
 
     Raises
@@ -165,7 +170,7 @@ def write_clips(
         The folder is not empty, or cannot be written.
     """
     target, chosen = Path(folder), _format(format)
-    shape = _shape(loops, best, in_place, straight, mirror)
+    shape = _shape(loops, best, in_place, straight, mirror, close)
     entries: list[Clip] = []
     with atomic_folder(target) as draft:
         for recording, rows in clips:
@@ -193,17 +198,22 @@ def _shape(
     in_place: bool,
     straight: bool,
     mirror: bool,
+    close: bool,
 ) -> Shape:
     """What is to be done to clips, checked."""
-    flags = {"loops": loops, "in_place": in_place, "straight": straight, "mirror": mirror}
-    for name, value in flags.items():
+    flags = (loops, in_place, straight, mirror, close)
+    for name, value in zip(
+        ("loops", "in_place", "straight", "mirror", "close"), flags, strict=True
+    ):
         check_flag(value, name)
     if best is not None:
         if not is_number(best) or best != int(best) or best < 1:
             raise ParameterError(f"best is {best!r:.60}: give a number of loops, 1 at least")
         if not loops:
             raise ParameterError("best is of loops only: ask for loops (--loop), too")
-    return Shape(loops, best, in_place, straight, mirror)
+    if close and not loops:
+        raise ParameterError("only loops are closed: ask for loops (--loop), too")
+    return Shape(loops, best, in_place, straight, mirror, close)
 
 
 def _refuse_poses(shape: Shape, format: str | None) -> None:  # noqa: A002
