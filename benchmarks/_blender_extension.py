@@ -11,7 +11,9 @@ from __future__ import annotations
 import json
 import os
 import sys
+import time
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 TASK = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
@@ -138,6 +140,7 @@ def all_of_it(recording: dict[str, Any]) -> dict[str, Any]:
     while kineme.jump(step=1) == {"FINISHED"}:
         visited.append(scene.frame_current)
     held["jumps"] = visited
+    held["panels"] = [drawn(), drawn(iter(()))]
     kineme.jump(step=-1)
     kineme.preview()
     held["preview"] = [scene.frame_preview_start, scene.frame_preview_end]
@@ -224,7 +227,79 @@ def refused(recording: dict[str, Any]) -> list[str]:
     bpy.context.scene.kineme.effectors = "head=Nose"
     ask(bpy.ops.kineme.segment)
     bpy.context.scene.kineme.effectors = ""
-    return [*said, ended(armature)]
+    return [*said, by_ticks(armature), ended(armature)]
+
+
+class Layout:
+    """A layout of a panel that draws nothing: what it is given must be there in Blender."""
+
+    functions = bpy.types.UILayout.bl_rna.functions
+
+    def __init__(self) -> None:
+        self.shown: list[str] = []
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in self.functions:
+            raise AttributeError(name)
+
+        def call(*given: Any, **options: Any) -> Any:
+            known = self.functions[name].parameters
+            for key, value in options.items():
+                if key == "icon" and value not in known[key].enum_items:
+                    raise ValueError(value)
+                known[key]
+            if name == "prop":
+                given[0].bl_rna.properties[given[1]]
+            if name == "operator":
+                part, _, rest = given[0].partition(".")
+                getattr(getattr(bpy.ops, part), rest).get_rna_type()
+            self.shown += [str(options.get("text", given[-1] if given else name))]
+            return self
+
+        return call
+
+
+def drawn(work: Any = None) -> list[str]:
+    """What the panels show."""
+    panels = sys.modules[f"{MODULE}.panels"]
+    background = sys.modules[f"{MODULE}.background"]
+    background.Work.steps, shown = work, []
+    for panel in (panels.ViewPanel, panels.DopeSheetPanel):
+        layout = Layout()
+        stand = type("Stand", (), {"layout": layout, "draw_table": panel.draw_table})()
+        panel.draw(stand, bpy.context)
+        shown += layout.shown
+    background.Work.steps = None
+    preferences, layout = bpy.context.preferences.addons[MODULE].preferences, Layout()
+    options = {"layout": layout, "python": preferences.python, "bl_rna": preferences.bl_rna}
+    stand = type("Stand", (), options)()
+    type(preferences).draw(stand, bpy.context)
+    return [*shown, *layout.shown]
+
+
+def by_ticks(armature: Any) -> str:
+    """How work ends that ticks of a timer take on, as in a window."""
+    operators = sys.modules[f"{MODULE}.operators"]
+    background = sys.modules[f"{MODULE}.background"]
+    said: list[str] = []
+
+    class Stand(background.InBackground):
+        steps = operators.Segment.steps
+
+        def report(self, _kind: set[str], text: str) -> None:
+            said.append(text)
+
+    stand, seen = Stand(), set()
+    background.Work.steps = stand.steps(bpy.context)
+    tick, other = SimpleNamespace(type="TIMER"), SimpleNamespace(type="MOUSEMOVE")
+    result = stand.modal(bpy.context, other)
+    while result == {"PASS_THROUGH"}:
+        seen.add(background.Work.stage)
+        time.sleep(background.TICK_S)
+        result = stand.modal(bpy.context, tick)
+    fine = result == {"FINISHED"} and "reading the motion" in seen and len(seen) > 2
+    del armature.animation_data.action["kineme_record"]
+    return said[0] if fine else f"{result} {said} {seen}"
 
 
 def ended(armature: Any) -> str:

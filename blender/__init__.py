@@ -20,18 +20,33 @@ def write_catalogues(*_: object) -> None:
     results.write_catalogues()
 
 
+@persistent
+def end_work(*_: object) -> None:
+    """End what is going on before undo or another file takes away what it works on."""
+    Work.end()
+
+
+HANDLERS = (
+    (bpy.app.handlers.save_post, write_catalogues),
+    *((each, end_work) for each in (bpy.app.handlers.undo_pre, bpy.app.handlers.redo_pre)),
+    (bpy.app.handlers.load_pre, end_work),
+)
+
+
 def register() -> None:
     """What Blender calls when the extension is enabled."""
     for each in CLASSES:
         bpy.utils.register_class(each)
     bpy.types.Scene.kineme = bpy.props.PointerProperty(type=panels.Settings)
-    bpy.app.handlers.save_post.append(write_catalogues)
+    for handlers, handler in HANDLERS:
+        handlers.append(handler)
 
 
 def unregister() -> None:
     """What Blender calls when it is disabled."""
     Work.end()
-    bpy.app.handlers.save_post.remove(write_catalogues)
+    for handlers, handler in HANDLERS:
+        handlers.remove(handler)
     del bpy.types.Scene.kineme
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

@@ -71,7 +71,7 @@ class InBackground:
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
-        if Work.steps is None:  # cancelled
+        if Work.steps is None:  # cancelled, or undone
             return self._leave(context, {"CANCELLED"})
         until = time.monotonic() + BUSY_S
         try:

@@ -10,7 +10,8 @@ bundled recording as BVH and as a GLB that kineme wrote. kineme runs as a proces
 Promises, in each version: the table is that of ``kineme.segment`` for the same file, row by row;
 markers, strips, clips, jumps, preview and names are where the table says, to the frame; clips pose
 the armature as the action does; undo and redo, save and open lose nothing; what is missing is said;
-work that is cancelled leaves no process. Joints are within 0.01 mm of kineme's own reading.
+work goes on by ticks of a timer as at once, and leaves no process where it is cancelled; panels
+show what Blender knows. Joints are within 0.01 mm of kineme's own reading.
 """
 
 from __future__ import annotations
@@ -42,7 +43,10 @@ FRAMES = few(None, 1000)
 FIRST = 11
 """Where the BVH is put in the scene, so that no frame of the table is one of the scene."""
 MOST_MM = 0.01
-SAID = ("there is no program", "what is searched for?", "no preview range", "no joint is called")
+SAID = (
+    *("there is no program", "what is searched for?", "no preview range", "no joint is called"),
+    " repetitions",  # of work that ticks of a timer take on
+)
 
 
 def main() -> int:
@@ -150,6 +154,8 @@ def faults(
         "redo": shown["redone"],
         "save and open": shown["opened"],
         "similar": len(shown["similar"]) > 0,
+        "panels": all(text in shown["panels"][0] for text in ("1 × cluster 1", "kineme.save"))
+        and "kineme.cancel" in shown["panels"][1],
     }
     start = first + expected.activities[-2].start_frame  # one back from where the last starts
     checks["preview"] = shown["preview"] == [start, first + expected.cuts()[-1] - 1]
