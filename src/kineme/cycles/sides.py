@@ -56,8 +56,11 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
         rows = used & (cycles.columns["group"] == group)
         for left, right in sides_of(cycles.channels):
             for measure in MEASURES:
-                sides = [cycles.columns[f"{name}.{measure}"][rows] for name in (left, right)]
-                lines.append((group, left, right, measure, *_compared(*sides, measure)))
+                of_left, of_right = (
+                    cycles.columns[f"{name}.{measure}"][rows] for name in (left, right)
+                )
+                compared = _compared(of_left, of_right, measure)
+                lines.append((group, left, right, measure, *compared))
     names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
              "difference", "low", "high", "symmetry_index")  # fmt: skip
     columns = zip(*lines, strict=True) if lines else [()] * len(names)
