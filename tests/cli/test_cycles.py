@@ -26,8 +26,8 @@ def rows_of(path: Path) -> list[dict[str, str]]:
 
 def test_cycles_are_measured_written_and_drawn(kineme_process, take: Path, tmp_path: Path) -> None:
     done = kineme_process(
-        "cycles", "take.bvh", "--segments", "truth.json", "--channels", "knee_l", "-o", "c.csv",
-        "--plot", "c.png", "--exclude", "6",
+        "cycles", "take.bvh", "--segments", "truth.json", "--channels", "knee_*", "-o", "c.csv",
+        "--plot", "c.png", "--exclude", "6", "--sides", "sides.csv",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert "squat" in done.stdout
@@ -38,6 +38,8 @@ def test_cycles_are_measured_written_and_drawn(kineme_process, take: Path, tmp_p
     assert rows[6]["excluded"] == "by hand"
     assert float(rows[6]["knee_l.range"]) == pytest.approx(102, abs=3)
     assert (tmp_path / "c.png").stat().st_size > 5000
+    sides = [row for row in rows_of(tmp_path / "sides.csv") if row["measure"] == "range"]
+    assert {row["right_channel"] for row in sides} == {"knee_r"}
 
 
 def test_several_recordings_are_measured_together(kineme, take: Path, tmp_path: Path) -> None:

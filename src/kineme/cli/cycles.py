@@ -46,7 +46,11 @@ def cycles(
     ] = None,
     compare: Annotated[
         Path | None,
-        option(OUTPUT, "Write the second of two recordings beside the first: .csv or .parquet."),
+        option(OUTPUT, "Write two recordings side by side: .csv or .parquet."),
+    ] = None,
+    sides: Annotated[
+        Path | None,
+        option(OUTPUT, "Write left beside right: .csv or .parquet."),
     ] = None,
     channels: Annotated[
         str | None,
@@ -96,13 +100,13 @@ def cycles(
 
     Borders are moved to equal phase. Several recordings are measured together.
     """
-    from kineme.cycles import write_cycles
+    from kineme.cycles import compare_sides, write_cycles, write_table
     from kineme.cycles.measure import cycles as measured
 
     request = Request.of(preset, reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
-    _check_targets(output, plot, compare)
+    _check_targets(output, plot, compare, sides)
     if compare is not None and len(batch.paths) != 2:
         raise typer.BadParameter("takes two recordings", param_hint="--compare")
     recordings: list[Motion | Signals] = []
@@ -127,8 +131,10 @@ def cycles(
                 _draw(found, plot, ends=ends)
             if compare is not None:
                 _compare(found, compare, ends=ends)
+            if sides is not None:
+                write_table(compare_sides(found, ends=ends), sides)
             if not quiet:
-                _show(found, ends=ends, written=[output, plot, compare])
+                _show(found, ends=ends, written=[output, plot, compare, sides])
     batch.exit()
     failures.exit()
 
@@ -147,7 +153,9 @@ def _analog(
     return [] if signals is None else [signals]
 
 
-def _check_targets(output: Path | None, plot: Path | None, compare: Path | None) -> None:
+def _check_targets(
+    output: Path | None, plot: Path | None, compare: Path | None, sides: Path | None
+) -> None:
     """typer.BadParameter for a file that could not be written, before any work is done."""
     from kineme.cli.options.targets import PICTURES
     from kineme.cycles.export import SUFFIXES
@@ -156,6 +164,7 @@ def _check_targets(output: Path | None, plot: Path | None, compare: Path | None)
         ("--output", output, SUFFIXES),
         ("--plot", plot, PICTURES),
         ("--compare", compare, (".csv", ".parquet")),
+        ("--sides", sides, (".csv", ".parquet")),
     ):
         if path is not None and path.suffix.lower() not in suffixes:
             raise typer.BadParameter(f"{path} must end in {', '.join(suffixes)}", param_hint=name)

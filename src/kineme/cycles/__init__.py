@@ -20,6 +20,7 @@ from kineme.cycles.landmarks import landmarks
 from kineme.cycles.measure import cycles
 from kineme.cycles.picture import plot_curves
 from kineme.cycles.sessions import compare_curves, compare_sessions
+from kineme.cycles.sides import compare_sides
 from kineme.cycles.table import Cycles
 
 __all__ = [
@@ -32,6 +33,7 @@ __all__ = [
     "channels_of",
     "compare_curves",
     "compare_sessions",
+    "compare_sides",
     "cycles",
     "foot_events",
     "gait",

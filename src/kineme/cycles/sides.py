@@ -1,0 +1,96 @@
+"""Left beside right: what the two sides of a body do in the same repetitions.
+
+Sides are channels whose names differ in nothing but ``_l`` and ``_r`` at the end, or ``left`` and
+``right``. Each cycle is its own control: differences are within a cycle, and their bounds by
+Student's t for pairs.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from kineme._checks import check_flag, check_type
+from kineme.cycles.table import CONFIDENCE, Columns, Cycles, Floats
+
+MEASURES = ("range", "min", "max", "mean", "min_at", "max_at")
+"""Statistics that are compared; times of the cycle are of one clock for both sides."""
+_RIGHT = {"left": "right", "Left": "Right", "LEFT": "RIGHT"}
+
+
+def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
+    """What differs between left and right, for each group and each pair of channels.
+
+    Parameters
+    ----------
+    cycles : Cycles
+    ends : bool
+        Whether the first and the last cycle of an activity count as well.
+
+    Returns
+    -------
+    dict of str to array
+        Columns: ``group``, ``left_channel``, ``right_channel``, ``measure``, ``n`` (cycles in
+        which both sides were recorded), ``left``, ``right`` (means), ``difference`` (left less
+        right), ``low`` and ``high`` (its bounds, 95 %), and of ranges ``symmetry_index``: the
+        difference in per cent of the mean of both sides, 0 where they are equal. nan where there
+        are too few cycles.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import compare_sides
+    >>> from kineme.datasets import bundled_truth
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()), channels=["knee_*"])
+    >>> sides = compare_sides(cycles)
+    >>> sides["left_channel"][0].item(), sides["right_channel"][0].item()
+    ('knee_l', 'knee_r')
+    """
+    check_type(cycles, Cycles, "compare_sides", "kineme.cycles(recording, segments) gives them")
+    check_flag(ends, "ends")
+    used = cycles.used(ends=ends)
+    lines: list[tuple[str | float, ...]] = []
+    for group in cycles.groups:
+        rows = used & (cycles.columns["group"] == group)
+        for left, right in sides_of(cycles.channels):
+            for measure in MEASURES:
+                of_left, of_right = (
+                    cycles.columns[f"{name}.{measure}"][rows] for name in (left, right)
+                )
+                compared = _compared(of_left, of_right, measure)
+                lines.append((group, left, right, measure, *compared))
+    names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
+             "difference", "low", "high", "symmetry_index")  # fmt: skip
+    columns = zip(*lines, strict=True) if lines else [()] * len(names)
+    return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
+
+
+def sides_of(channels: tuple[str, ...]) -> list[tuple[str, str]]:
+    """The channels of left sides with those of the right; without those that have no other side."""
+    pairs = ((name, _right_of(name)) for name in channels)
+    return [(left, right) for left, right in pairs if right != left and right in channels]
+
+
+def _right_of(name: str) -> str:
+    turned = re.sub("left", lambda found: _RIGHT.get(found[0], "right"), name, flags=re.IGNORECASE)
+    return turned if turned != name else re.sub("_l$", "_r", name)
+
+
+def _compared(left: Floats, right: Floats, measure: str) -> tuple[float, ...]:
+    """Number, means, difference with bounds, symmetry index."""
+    from scipy.special import stdtrit
+
+    both = np.isfinite(left) & np.isfinite(right)
+    n = int(both.sum())
+    if n == 0:
+        return 0, *[np.nan] * 6
+    apart = left[both] - right[both]
+    of_left, of_right, mean = left[both].mean(), right[both].mean(), apart.mean()
+    half = np.nan
+    if n > 1:
+        half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * apart.std(ddof=1) / np.sqrt(n)
+    total = of_left + of_right
+    index = 200 * mean / total if measure == "range" and total > 0 else np.nan
+    return n, *(float(each) for each in (of_left, of_right, mean, mean - half, mean + half, index))
