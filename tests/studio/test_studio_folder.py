@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import io
+import json
 import zipfile
 
 import numpy as np
+import pytest
 from studio_clients import Studio
 
+import kineme
 from kineme.studio.folder import file_id
+from kineme.studio.overview import brief_of, saved_brief
+from kineme.web.encoding import to_json
 
 
 def test_a_detail_is_shown_before_it_is_made(studio: Studio) -> None:
@@ -49,6 +54,48 @@ def test_checked_recordings_are_written_together_and_known_by_their_names(studio
     assert (studio.folder / "moves.npz").exists()
     assert studio.client.post("/api/knowledge", json=wanted).status_code == 400  # there already
     assert studio.get("/api/state").json()["recordings"][0]["named"] >= 1
+
+
+def test_the_folder_tells_of_tables_without_reading_recordings(studio: Studio) -> None:
+    message = studio.recording()
+    (found,) = studio.get("/api/tables").json()["recordings"]  # as found, saved nowhere
+    rows = message["segmentation"]["segments"]
+    assert found["table"]["start_frame"] == [row["start_frame"] for row in rows]
+    frame = rows[0]["start_frame"]
+    edit = {"level": rows[0]["level"], "frames": [frame], "checked": True}
+    revision = studio.done(message["revision"], "check", **edit)["revision"]
+    said = {"level": rows[0]["level"], "frame": frame, "text": "slips"}
+    studio.done(revision, "comment", **said)
+    table = next(studio.folder.glob("*.segments.json"))
+    assert to_json(saved_brief(table)) == to_json(brief_of(kineme.read_segments(table)))
+    (studio.folder / "take.bvh").write_text("no recording any more")
+    (told,) = studio.get("/api/tables").json()["recordings"]
+    assert (told["table"]["checked"], told["table"]["comments"]) == ([0], 1)
+    assert told["table"]["confidence"] == [row["confidence"] for row in rows]
+
+
+@pytest.mark.parametrize("damage", ["half", "gap", "older"])
+def test_a_table_that_is_not_as_it_was_written_is_read_as_every_table(
+    studio: Studio, damage: str
+) -> None:
+    message = studio.recording()
+    studio.done(message["revision"], "name_segment", level="activity", frame=0, label="walk")
+    table = next(studio.folder.glob("*.segments.json"))
+    content = json.loads(table.read_text())
+    if damage == "half":
+        table.write_text(table.read_text()[:500])
+    elif damage == "gap":
+        content["segments"][0]["stop_frame"] -= 1
+        table.write_text(json.dumps(content))
+    else:
+        content["schema"] = "kineme.segments/1"
+        for row in content["segments"]:
+            row["score"] = row.pop("confidence")
+        table.write_text(json.dumps(content))
+    found = saved_brief(table)
+    assert (found is not None) == (damage == "older")
+    if found is not None:
+        assert found.label[0] == "walk"
 
 
 def test_labels_are_shared_and_clips_are_of_chosen_rows(studio: Studio) -> None:

@@ -9,19 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import lru_cache
 from hashlib import blake2b
 from pathlib import Path
 
-from kineme.errors import KinemeError
 from kineme.formats.listing import files_in, holds_recording
-from kineme.labels import holds_labels, read_segments
-from kineme.segments.editing.annotating import marked
-from kineme.studio.reading import stamp_of
+from kineme.labels import holds_labels
+from kineme.studio.overview import saved_brief
 from kineme.studio.storage.tables import usual_table, usual_tables
-
-MOST_COUNTS = 10_000
-"""Tables whose counts stay in memory."""
 
 
 def file_id(path: Path) -> str:
@@ -84,19 +78,9 @@ class Progress:
 def progress(recording: Path) -> Progress | None:
     """How far a recording is; None where it has no table, or one that cannot be read."""
     path = usual_table(recording)
-    try:
-        return _counts(path, *stamp_of(path)) if path else None
-    except Exception:  # noqa: BLE001 (a table that is damaged in any way costs itself only)
+    table = saved_brief(path) if path else None
+    if table is None:
         return None
-
-
-@lru_cache(MOST_COUNTS)
-def _counts(path: Path, *_: int) -> Progress | None:
-    """Of the file as it was at that time; a file that is no table counts for none."""
-    try:
-        table = read_segments(path, format="json")
-    except KinemeError:
-        return None
-    named = int((table.table.label != "").sum())
-    to_name = int((table.table.kind != "transition").sum())
-    return Progress(len(table), len(marked(table, "checked")), named, to_name)
+    named = sum(label != "" for label in table.label)
+    to_name = sum(kind != "transition" for kind in table.kind)
+    return Progress(len(table.level), len(table.checked), named, to_name)

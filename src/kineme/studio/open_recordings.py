@@ -20,9 +20,18 @@ from kineme.studio.choices import same_again
 from kineme.studio.folder import Folder
 from kineme.studio.loading import one_segment
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
+from kineme.studio.overview import brief_of, saved_brief
 from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.studio.storage.sidecars import keep_options, options_of, read_options, video_message
-from kineme.web.messages import Edited, MatrixHead, Recording
+from kineme.studio.storage.tables import usual_table
+from kineme.web.messages import (
+    BriefTable,
+    Edited,
+    FolderRecording,
+    FolderTables,
+    MatrixHead,
+    Recording,
+)
 from kineme.web.requests import EditRequest
 
 Listener = Callable[[str, int], None]
@@ -162,6 +171,23 @@ class OpenRecordings:
         for name in names:
             with suppress(KinemeError, UnknownError):
                 self.message(name)
+
+    def tables(self) -> FolderTables:
+        """The tables of all recordings, those that were found and not saved among them."""
+        listed = self.folder.recordings().items()
+        return FolderTables(
+            recordings=[
+                FolderRecording(id=name, table=self._brief(name, at)) for name, at in listed
+            ]
+        )
+
+    def _brief(self, name: str, path: Path) -> BriefTable | None:
+        opened = self._open.get(name)
+        at = usual_table(path) if opened is None else opened.table_path
+        found = saved_brief(at) if at else None
+        if found is None and opened is not None and not opened.finding:
+            return brief_of(opened.table)
+        return found
 
     def edit(self, name: str, sent: EditRequest) -> Edited:
         """The recording's table after an edit, as `OpenRecording.edit` makes it."""

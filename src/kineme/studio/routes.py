@@ -42,6 +42,7 @@ from kineme.web.messages import (
     CurveList,
     Edited,
     FileChoice,
+    FolderTables,
     Listing,
     Preview,
     Recording,
@@ -72,6 +73,7 @@ class Api:
         one = "/api/recordings/{id}"
         return [
             route("/api/state", self.state),
+            route("/api/tables", self.tables),
             route("/api/labels", self.labels, LabelsRequest),
             route("/api/knowledge", self.knowledge, KnowledgeRequest),
             route("/api/export/{format}", self.export_checked),
@@ -116,6 +118,9 @@ class Api:
             annotations=annotations,
             export_formats=choices.export_formats(),
         )
+
+    def tables(self, _: Request) -> FolderTables:
+        return self._recordings.tables()
 
     def labels(self, _: Request, sent: LabelsRequest) -> list[str]:
         return share_labels(self._recordings.folder.root, sent.labels)

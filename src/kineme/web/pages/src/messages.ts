@@ -229,6 +229,38 @@ export interface Versions {
   versions: Version[];
 }
 
+/**
+ * What the page of a folder shows of a segment table: its columns, and what people did.
+ *
+ * `checked` are numbers of rows, `comments` counts them.
+ */
+export interface BriefTable {
+  n_frames: number;
+  fps: number;
+  level: Level[];
+  kind: Kind[];
+  start_frame: number[];
+  stop_frame: number[];
+  cluster: number[];
+  activity: number[];
+  label: string[];
+  confidence: (number | null)[];
+  border_confidence: (number | null)[];
+  checked: number[];
+  comments: number;
+}
+
+/** A recording of the folder and its table; null where nobody has segmented it yet. */
+export interface FolderRecording {
+  id: string;
+  table: BriefTable | null;
+}
+
+/** The tables of all recordings of the folder, in the order of the list. */
+export interface FolderTables {
+  recordings: FolderRecording[];
+}
+
 /** Sent to every page when a recording's table changed or a file came. */
 export interface Changed {
   recording: string;

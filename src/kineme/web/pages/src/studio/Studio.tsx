@@ -16,6 +16,8 @@ import { ComparePanel } from "./panels/ComparePanel";
 import { DropZone } from "./panels/DropZone";
 import { EditTools } from "./panels/EditTools";
 import { ExportDialog } from "./dialogs/ExportDialog";
+import { FolderPage } from "./folder/FolderPage";
+import { QueueBar } from "./folder/QueueBar";
 import { FolderPanel } from "./panels/FolderPanel";
 import { Header } from "./Header";
 import { VersionsDialog } from "./dialogs/VersionsDialog";
@@ -84,6 +86,7 @@ export function Studio(): JSX.Element {
         timeline={store.active.value && <Timeline />}
         curves={hasFigure && store.curves.value && <Channels />}
       />
+      <FolderPage />
       <Notices />
       <DropZone />
       <OpenDialog name={dialog} close={close} />
@@ -95,11 +98,18 @@ export function Studio(): JSX.Element {
 function Stage(): JSX.Element {
   const store = useStore();
   const { session } = useStudio();
-  if (store.recording.value?.motion === null) return <Channels ruler />;
+  if (store.recording.value?.motion === null)
+    return (
+      <>
+        <Channels ruler />
+        <QueueBar />
+      </>
+    );
   return (
     <>
       <Viewer />
       <Video />
+      <QueueBar />
       {!store.active.value && (
         <p class="empty quiet">
           {session.opening.value || !session.state.value ? (

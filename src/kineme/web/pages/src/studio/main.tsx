@@ -3,6 +3,7 @@ import { effect } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
 import "./studio.css";
+import "./folder/folder.css";
 import { StoreProvider } from "../context";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";

@@ -44,7 +44,8 @@ export class Session {
   /** The recording that could not be read, and the people in it. */
   readonly unread = signal<Unread | null>(null);
   readonly bulletin: Bulletin;
-  private readonly recordings = signal<EditedRecording[]>([]);
+  /** Those that are open, and those whose edits are on their way. */
+  readonly recordings = signal<EditedRecording[]>([]);
   readonly list = new RecordingList(this.state, this.recordings);
   readonly edited = computed(() => {
     const id = this.store.recording.value?.id;

@@ -15,6 +15,7 @@ import type {
   Edited,
   EditRequest,
   FileChoice,
+  FolderTables,
   KnowledgeRequest,
   LabelsRequest,
   Level,
@@ -53,6 +54,11 @@ export class Api {
 
   state(): Promise<State> {
     return this.get("/api/state", {});
+  }
+
+  /** The tables of all recordings of the folder. */
+  tables(): Promise<FolderTables> {
+    return this.get("/api/tables", {});
   }
 
   recording(id: string): Promise<Recording> {

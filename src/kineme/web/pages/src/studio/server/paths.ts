@@ -16,7 +16,8 @@ export type GetPath =
   | "/api/recordings/{id}/versions"
   | "/api/recordings/{id}/versions/{number}"
   | "/api/recordings/{id}/video"
-  | "/api/state";
+  | "/api/state"
+  | "/api/tables";
 
 /** Where something is sent to. */
 export type PostPath =
