@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import shutil
 import zipfile
 
 import numpy as np
@@ -96,6 +97,28 @@ def test_a_table_that_is_not_as_it_was_written_is_read_as_every_table(
     assert (found is not None) == (damage == "older")
     if found is not None:
         assert found.label[0] == "walk"
+
+
+def test_what_is_called_otherwise_in_one_recording_is_in_all(studio: Studio) -> None:
+    other = studio.folder / "other.bvh"
+    shutil.copy(studio.folder / "take.bvh", other)
+    message = studio.recording()
+    cluster = next(
+        row["cluster"] for row in message["segmentation"]["segments"] if row["cluster"] >= 0
+    )
+    address = f"/api/recordings/{file_id(other)}"
+    edit = {"kind": "name_cluster", "cluster": cluster, "label": "walk"}
+    revision = studio.get(address).json()["revision"]
+    studio.client.post(f"{address}/edits", json={"revision": revision, "edit": edit})
+    sent = {"recording": studio.id, "cluster": cluster, "before": "walk", "label": "stride"}
+    told = studio.client.post("/api/names", json=sent).json()
+    assert told == {"tables": 1, "others": 0, "left": []}
+    assert studio.get(address).json()["segmentation"]["cluster_names"][str(cluster)] == "stride"
+    revision = studio.get(address).json()["revision"]
+    undo = {"revision": revision, "edit": {"kind": "undo"}}
+    undone = studio.client.post(f"{address}/edits", json=undo).json()
+    assert undone["segmentation"]["cluster_names"][str(cluster)] == "walk"
+    assert studio.client.post("/api/names", json={**sent, "before": ""}).status_code == 400
 
 
 def test_labels_are_shared_and_clips_are_of_chosen_rows(studio: Studio) -> None:

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from kineme.formats.listing import files_in, holds_recording
 from kineme.labels import holds_labels
+from kineme.segments.segmentation import Segmentation
 from kineme.studio.overview import saved_brief
 from kineme.studio.storage.tables import usual_table, usual_tables
 
@@ -57,6 +58,10 @@ class Folder:
         tables = {table for path in self.recordings().values() for table in usual_tables(path)}
         found = [path for path in self._listed() if path not in tables and holds_labels(path)]
         return {file_id(path): path for path in found}
+
+    def first_table(self, path: Path) -> Segmentation | None:  # noqa: ARG002 (of a library)
+        """The table of a recording for which nobody has saved one, where it is known."""
+        return None
 
     def _listed(self) -> list[Path]:
         try:

@@ -16,6 +16,7 @@ from msgspec import UNSET, Struct
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.formats import sketch
+from kineme.segments.segmentation import Segmentation
 from kineme.studio.choices import same_again
 from kineme.studio.folder import Folder
 from kineme.studio.loading import one_segment
@@ -94,7 +95,10 @@ class OpenRecordings:
         others = [other for other in list(self._open.values()) if other.path != path]
         tables = {other.table_path for other in others}
         revision = 1 if before is None else before.revision + 1
-        opened = self._open[name] = OpenRecording(name, path, self._cache, tables, revision)
+        initial = self.folder.first_table(path)
+        opened = self._open[name] = OpenRecording(
+            name, path, self._cache, tables, revision, initial
+        )
         if opened.finding:
             self._in_background(lambda: self._find(opened))
         return opened
@@ -187,7 +191,23 @@ class OpenRecordings:
         found = saved_brief(at) if at else None
         if found is None and opened is not None and not opened.finding:
             return brief_of(opened.table)
-        return found
+        initial = self.folder.first_table(path) if found is None else None
+        return found if initial is None else brief_of(initial)
+
+    def renew(self) -> None:
+        """Show what is known of open recordings now where nobody has saved a table."""
+        for name, opened in list(self._open.items()):
+            initial = self.folder.first_table(opened.path)
+            if initial is not None and opened.renew(initial):
+                self._changed(name, opened.revision)
+
+    def take(self, name: str, make: Callable[[Segmentation], Segmentation]) -> bool:
+        """Save what becomes of a recording's table, as `OpenRecording.take`."""
+        opened = self.get(name)
+        is_other = opened.take(make)
+        if is_other:
+            self._changed(name, opened.revision)
+        return is_other
 
     def edit(self, name: str, sent: EditRequest) -> Edited:
         """The recording's table after an edit, as `OpenRecording.edit` makes it."""

@@ -21,6 +21,7 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
+from kineme.studio.everywhere import call_everywhere
 from kineme.studio.folder import file_id, progress
 from kineme.studio.http.bodies import (
     LIMIT,
@@ -37,6 +38,7 @@ from kineme.studio.http.events import Hub
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels, video_of
+from kineme.web.library_messages import CallEverywhere, TablesChanged
 from kineme.web.messages import (
     Comparison,
     CurveList,
@@ -74,6 +76,7 @@ class Api:
         return [
             route("/api/state", self.state),
             route("/api/tables", self.tables),
+            route("/api/names", self.names, CallEverywhere),
             route("/api/labels", self.labels, LabelsRequest),
             route("/api/knowledge", self.knowledge, KnowledgeRequest),
             route("/api/export/{format}", self.export_checked),
@@ -121,6 +124,9 @@ class Api:
 
     def tables(self, _: Request) -> FolderTables:
         return self._recordings.tables()
+
+    def names(self, _: Request, sent: CallEverywhere) -> TablesChanged:
+        return call_everywhere(self._recordings, sent)
 
     def labels(self, _: Request, sent: LabelsRequest) -> list[str]:
         return share_labels(self._recordings.folder.root, sent.labels)

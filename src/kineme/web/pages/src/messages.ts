@@ -591,13 +591,18 @@ export interface LibraryCluster {
   unsure: number;
 }
 
-/** A library: its recordings, its clusters, and what could not be read, with the reason. */
+/**
+ * A library: its recordings, its clusters, and what could not be read, with the reason.
+ *
+ * `undo` is the last edit of its clusters, in words, where that can be taken back.
+ */
 export interface LibraryState {
   folder: string;
   hours: number;
   recordings: LibraryRecording[];
   clusters: LibraryCluster[];
   failed: Record<string, string>;
+  undo: string;
 }
 
 /**
@@ -681,7 +686,40 @@ export interface PartCluster {
   recordings: string[];
 }
 
-export type LibraryEdit = CallCluster | JoinClusters | PartCluster;
+/** The last edit of the clusters of the library is taken back. */
+export interface UndoEdit {
+  kind: "undo";
+}
+
+export type LibraryEdit = CallCluster | JoinClusters | PartCluster | UndoEdit;
+
+/**
+ * Saved tables take numbers and names of clusters from the library.
+ *
+ * Clusters that have another name keep it, unless `names`: then they take it, too.
+ */
+export interface TablesRequest {
+  names: boolean;
+}
+
+/**
+ * What a cluster of one recording is called now holds for it in all recordings.
+ *
+ * In a library for the cluster of it; else for what is called `before` elsewhere.
+ */
+export interface CallEverywhere {
+  recording: string;
+  cluster: number;
+  before: string;
+  label: string;
+}
+
+/** How many tables were changed, how many clusters keep another name, and what failed, why. */
+export interface TablesChanged {
+  tables: number;
+  others: number;
+  left: string[];
+}
 
 /** A row of which nothing is known. */
 export const bareSegment: Segment = {

@@ -17,6 +17,7 @@ import { DropZone } from "./panels/DropZone";
 import { EditTools } from "./panels/EditTools";
 import { ExportDialog } from "./dialogs/ExportDialog";
 import { FolderPage } from "./folder/FolderPage";
+import { OfferBar } from "./folder/OfferBar";
 import { QueueBar } from "./folder/QueueBar";
 import { FolderPanel } from "./panels/FolderPanel";
 import { Header } from "./Header";
@@ -87,6 +88,7 @@ export function Studio(): JSX.Element {
         curves={hasFigure && store.curves.value && <Channels />}
       />
       <FolderPage />
+      <OfferBar />
       <Notices />
       <DropZone />
       <OpenDialog name={dialog} close={close} />

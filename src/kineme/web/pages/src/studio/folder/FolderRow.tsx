@@ -9,12 +9,7 @@ import { secondsOf, type Column, type Row } from "./rows";
 const PLACES = 2; // of the least sure ones
 const CELLS: Record<Column, (row: Row) => JSX.Element | string> = {
   name: (row) => <Name row={row} />,
-  strip: ({ table }) =>
-    table ? (
-      <span class="strip" style={{ background: stripOf(table) }} />
-    ) : (
-      <span class="quiet">not segmented yet</span>
-    ),
+  strip: (row) => <Strip row={row} />,
   length: ({ table }) => (table ? clock(secondsOf(table), 0) : ""),
   rate: ({ table }) => (table ? `${Number(table.fps.toFixed(2))} Hz` : ""),
   segments: ({ tally }) => String(tally?.all ?? ""),
@@ -71,6 +66,12 @@ function Name({ row: { listing } }: { row: Row }): JSX.Element {
       {listing.name} {opening && <span class="busy" />}
     </button>
   );
+}
+
+function Strip({ row: { table } }: { row: Row }): JSX.Element {
+  const { review } = useStudio();
+  if (table) return <span class="gradient" style={{ background: stripOf(table) }} />;
+  return <span class="quiet">{review.folder.ready.value ? "not segmented yet" : ""}</span>;
 }
 
 function Least({ row: { listing, table } }: { row: Row }): JSX.Element {

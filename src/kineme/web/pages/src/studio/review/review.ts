@@ -4,6 +4,7 @@ import type { Segment } from "../../messages";
 import type { Editor } from "../editing/editor";
 import { Folder } from "../folder/folder";
 import { FolderQueue } from "../folder/folderQueue";
+import { NameOffer } from "../folder/offer";
 import type { Session } from "../session";
 import { doubtsOf, type Doubt } from "./doubts";
 
@@ -12,6 +13,7 @@ export class Review {
   readonly everywhere = signal(false);
   readonly folder: Folder;
   readonly queue: FolderQueue;
+  readonly offer: NameOffer;
   readonly doubts = computed<Doubt[]>(() => {
     const table = this.session.store.recording.value?.segmentation;
     return table ? doubtsOf(table) : [];
@@ -30,6 +32,7 @@ export class Review {
   ) {
     this.folder = new Folder(session);
     this.queue = new FolderQueue(this.folder);
+    this.offer = new NameOffer(session);
   }
 
   /** Goes through all recordings from now on, the least sure place of them first; or no more. */

@@ -7,6 +7,7 @@
  */
 
 import type {
+  CallEverywhere,
   Changed,
   ClipsRequest,
   CompareRequest,
@@ -25,6 +26,7 @@ import type {
   PreviewRequest,
   Recording,
   State,
+  TablesChanged,
   Version,
   Versions,
   VideoRequest,
@@ -124,6 +126,11 @@ export class Api {
   /** Some rows of the table as motion files. */
   clips(id: string, request: ClipsRequest): Promise<Download> {
     return this.download(addressOf("/api/recordings/{id}/clips", { id }), request);
+  }
+
+  /** What a cluster is called holds in all recordings: by the library, or by the name it had. */
+  callEverywhere(request: CallEverywhere, ofLibrary: boolean): Promise<TablesChanged> {
+    return this.post(ofLibrary ? "/api/library/everywhere" : "/api/names", {}, request);
   }
 
   shareLabels(request: LabelsRequest): Promise<string[]> {
