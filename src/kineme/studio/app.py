@@ -55,9 +55,9 @@ def create_app(
 ) -> Guard:
     """The studio of some recordings, as an ASGI application.
 
-    Where there is a ``library``, its page is shown when neither a recording nor the folder is named.
-    ``static`` has the built pages, ``limit`` is in bytes of an upload; pages of the development server may ask in
-    ``development``.
+    Where there is a ``library``, its page is shown when neither a recording nor the folder is
+    named. ``static`` has the built pages, ``limit`` is in bytes of an upload; pages of the
+    development server may ask in ``development``.
     """
 
     def page(request: Request) -> Response:

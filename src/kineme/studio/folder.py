@@ -16,7 +16,7 @@ from kineme.formats.listing import files_in, holds_recording
 from kineme.labels import holds_labels
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.overview import saved_brief
-from kineme.studio.storage.tables import usual_table, usual_tables
+from kineme.studio.storage.tables import SUFFIX, usual_table, usual_tables
 
 
 def file_id(path: Path) -> str:
@@ -42,7 +42,8 @@ class Folder:
         """The recordings by id, in the order of their names, or as given."""
         if self._files is not None:
             return {file_id(path): path for path in self._files if path.is_file()}
-        return {file_id(path): path for path in self._listed() if holds_recording(path)}
+        listed = (path for path in self._listed() if not path.name.endswith(SUFFIX))
+        return {file_id(path): path for path in listed if holds_recording(path)}
 
     def knowledge_bases(self) -> dict[str, Path]:
         """The knowledge bases by id."""
@@ -53,9 +54,13 @@ class Folder:
 
         return {file_id(path): path for path in archives if holds_knowledge(path)}
 
-    def annotations(self) -> dict[str, Path]:
-        """The label files by id, without the tables that the studio itself saves."""
-        tables = {table for path in self.recordings().values() for table in usual_tables(path)}
+    def annotations(self, recordings: Iterable[Path] | None = None) -> dict[str, Path]:
+        """The label files by id, without the tables that the studio itself saves.
+
+        ``recordings`` are those of the folder, where they have been listed already.
+        """
+        listed = self.recordings().values() if recordings is None else recordings
+        tables = {table for path in listed for table in usual_tables(path)}
         found = [path for path in self._listed() if path not in tables and holds_labels(path)]
         return {file_id(path): path for path in found}
 

@@ -103,16 +103,17 @@ class Api:
 
     def state(self, _: Request) -> State:
         folder = self._recordings.folder
+        recordings = folder.recordings()
         bases, annotations = (
             [FileChoice(id=name, name=path.name) for name, path in files.items()]
-            for files in (folder.knowledge_bases(), folder.annotations())
+            for files in (folder.knowledge_bases(), folder.annotations(recordings.values()))
         )
         return State(
             version=__version__,
             folder=str(folder.root.absolute()),
             of_library=folder.of_library,
             suffixes=recording_suffixes(),
-            recordings=[_listing(name, path) for name, path in folder.recordings().items()],
+            recordings=[_listing(name, path) for name, path in recordings.items()],
             presets=choices.presets(),
             default_preset=DEFAULT,
             details=choices.details(),

@@ -19,6 +19,7 @@ import { ExportDialog } from "./dialogs/ExportDialog";
 import { FolderPage } from "./folder/FolderPage";
 import { OfferBar } from "./folder/OfferBar";
 import { QueueBar } from "./folder/QueueBar";
+import { useStageTurn } from "./folder/stageTurn";
 import { FolderPanel } from "./panels/FolderPanel";
 import { Header } from "./Header";
 import { VersionsDialog } from "./dialogs/VersionsDialog";
@@ -100,6 +101,7 @@ export function Studio(): JSX.Element {
 function Stage(): JSX.Element {
   const store = useStore();
   const { session } = useStudio();
+  const turn = useStageTurn();
   if (store.recording.value?.motion === null)
     return (
       <>
@@ -109,7 +111,7 @@ function Stage(): JSX.Element {
     );
   return (
     <>
-      <Viewer />
+      {turn.value && <Viewer />}
       <Video />
       <QueueBar />
       {!store.active.value && (

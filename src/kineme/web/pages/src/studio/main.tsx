@@ -16,7 +16,7 @@ import { Review } from "./review/review";
 import { Session } from "./session";
 import { exposeStudio } from "./snapshot";
 import { Studio } from "./Studio";
-import { tokenInAddress } from "./server/address";
+import { openInAddress, tokenInAddress } from "./server/address";
 import { announceTab } from "./editing/unsent";
 import { Uploads } from "./server/uploads";
 
@@ -53,6 +53,7 @@ function start(): void {
     </StoreProvider>,
     document.getElementById("page")!,
   );
+  if (!openInAddress().length) void review.folder.refresh(); // beside the list, not after it
   void session.start(announceTab());
 }
 

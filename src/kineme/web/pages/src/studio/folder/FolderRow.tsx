@@ -59,6 +59,7 @@ function Name({ row: { listing } }: { row: Row }): JSX.Element {
     <button
       type="button"
       class="plain name"
+      aria-label={`Open ${listing.name}`}
       title={`Open ${listing.name}`}
       aria-busy={opening}
       onClick={() => void session.open(listing.id).then(() => (front.folder.value = null))}

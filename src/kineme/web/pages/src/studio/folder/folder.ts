@@ -4,7 +4,7 @@
  */
 import { batch, computed, effect, signal, untracked } from "@preact/signals";
 import type { Listing, Segments } from "../../messages";
-import { explain } from "../server/api";
+import { explain, type Refused, Unreachable } from "../server/api";
 import type { Session } from "../session";
 import { tableOf, tallyOf, type Tally } from "./briefTables";
 
@@ -49,6 +49,8 @@ export class Folder {
   /** Tables of recordings that are open here, or were since the server told of the others. */
   private readonly ofPage = signal<ReadonlyMap<string, Segments>>(new Map());
   private asked: Promise<void> | null = null;
+  /** Whether nobody answered the last time. */
+  private missed = false;
 
   constructor(readonly session: Session) {
     effect(() => {
@@ -60,8 +62,9 @@ export class Folder {
         this.ofPage.value = new Map([...ofPage, ...open]);
     });
     effect(() => {
-      if (session.state.value && untracked(() => this.ready.value && this.isBehind()))
-        untracked(() => void this.refresh());
+      const { value: state } = session.state;
+      const behind = untracked(() => (this.ready.value ? this.isBehind() : this.missed));
+      if (state && behind) untracked(() => void this.refresh());
     });
   }
 
@@ -116,9 +119,11 @@ export class Folder {
         this.ofServer.value = new Map(ofServer);
         this.ready.value = true;
       });
+      this.missed = false;
       session.bulletin.solved("tables");
     } catch (error) {
-      session.bulletin.problem(explain(error), "tables");
+      this.missed = error instanceof Unreachable || (error as Refused).status === 403;
+      if (!this.missed) session.bulletin.problem(explain(error), "tables"); // else it is told
     }
   }
 }
