@@ -4,14 +4,14 @@
  */
 import { computed, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect, useMemo, useRef } from "preact/hooks";
+import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { isForPlayer } from "../../focus";
 import { sizeStyle } from "../../layout/sizes";
 import { useStudio } from "../context";
 import type { Status } from "../recordingList";
 import { FolderProgress } from "./FolderProgress";
 import { FolderRow } from "./FolderRow";
-import { COLUMNS, ordered, rowOf, type Column } from "./rows";
+import { COLUMNS, gridOf, ordered, rowOf, type Column } from "./rows";
 import { shownColumns, showColumn } from "./shownColumns";
 
 const BELOW =
@@ -57,7 +57,8 @@ function Page(): JSX.Element {
   }, [folder, height]);
   useOver();
   const columns = COLUMNS.filter(({ id }) => shownColumns.value.includes(id));
-  const grid = { "--columns": columns.map(({ width }) => width).join(" ") };
+  const [widths, least] = gridOf(columns);
+  const grid = { "--columns": widths, "--least": `${least}px` };
   const from = Math.max(Math.floor(top.value / HEIGHT) - MORE, 0);
   const to = Math.ceil((top.value + height.value) / HEIGHT) + MORE;
   const isOpen = session.store.opened.value.length > 0;
@@ -174,7 +175,7 @@ function useOver(): void {
     if (!first.current) front.folder.value = null;
     first.current = false;
   });
-  useEffect(() => {
+  useLayoutEffect(() => {
     const below = [...document.querySelectorAll<HTMLElement>(BELOW)];
     for (const each of below) each.inert = true;
     const onKey = (event: KeyboardEvent): void => {

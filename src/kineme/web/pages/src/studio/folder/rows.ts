@@ -12,29 +12,42 @@ export type Column =
 export const COLUMNS: readonly {
   id: Column;
   title: string;
-  width: string;
+  /** Pixels, and its share of what is left. */
+  least: number;
+  share?: number;
   help: string;
 }[] = [
-  { id: "name", title: "Recording", width: "minmax(170px, 1.4fr)", help: "Its file" },
+  { id: "name", title: "Recording", least: 170, share: 1.4, help: "Its file" },
   {
     id: "strip",
     title: "Segments in time",
-    width: "minmax(120px, 3fr)",
+    least: 120,
+    share: 3,
     help: "Its activities, in the colours of their clusters",
   },
-  { id: "length", title: "Length", width: "64px", help: "Minutes and seconds" },
-  { id: "rate", title: "Rate", width: "64px", help: "Frames per second" },
-  { id: "segments", title: "Segments", width: "70px", help: "Activities and primitives" },
-  { id: "checked", title: "Checked", width: "92px", help: "Segments that somebody checked" },
+  { id: "length", title: "Length", least: 64, help: "Minutes and seconds" },
+  { id: "rate", title: "Rate", least: 64, help: "Frames per second" },
+  { id: "segments", title: "Segments", least: 70, help: "Activities and primitives" },
+  { id: "checked", title: "Checked", least: 92, help: "Segments that somebody checked" },
   {
     id: "least",
     title: "Lowest confidence",
-    width: "200px",
+    least: 200,
     help: "The places of lowest confidence that nobody has checked",
   },
-  { id: "notes", title: "Notes", width: "54px", help: "Comments on its segments" },
-  { id: "status", title: "Status", width: "78px", help: "New, corrected, labelled or checked" },
+  { id: "notes", title: "Notes", least: 54, help: "Comments on its segments" },
+  { id: "status", title: "Status", least: 78, help: "New, corrected, labelled or checked" },
 ];
+
+const GAP = 10; // pixels between columns
+
+/** Columns of these as a grid has them, and the pixels that they need. */
+export function gridOf(columns: readonly (typeof COLUMNS)[number][]): [string, number] {
+  const widths = columns.map(({ least, share }) =>
+    share ? `minmax(${least}px, ${share}fr)` : `${least}px`,
+  );
+  return [widths.join(" "), columns.reduce((sum, { least }) => sum + least + GAP, GAP)];
+}
 
 export interface Row extends Member {
   status: Status;
