@@ -96,14 +96,15 @@ export class Session {
     }
   }
 
-  /** Shows a recording, alone or beside those shown. */
-  async open(id: string, { beside = false } = {}): Promise<void> {
+  /** Shows a recording, alone or beside those shown; `shown` is called before its figure comes. */
+  async open(id: string, { beside = false, shown = (): void => undefined } = {}): Promise<void> {
     const { store } = this;
     if (this.opening.value === id) return;
     const index = store.opened.value.findIndex((each) => each.recording.value.id === id);
     if (index >= 0) {
       store.show(index);
       if (!beside) this.closeOthers(id);
+      shown();
       return;
     }
     this.opening.value = id;
@@ -114,6 +115,7 @@ export class Session {
       if (!beside) store.playhead.value = 0;
       store.add(opened);
       if (!beside) this.closeOthers(id);
+      shown();
       this.bulletin.solved("open");
       void this.refresh();
       await loadMotion(opened);

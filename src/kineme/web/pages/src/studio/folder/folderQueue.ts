@@ -43,8 +43,8 @@ export class FolderQueue {
     this.passPresent();
     const [next, ...after] = this.upcoming();
     if (next) {
-      this.ready(after);
       await this.go(next);
+      this.ready(after);
     } else {
       this.looking.value = null;
       folder.session.bulletin.tell("Every segment of every recording is checked.");
@@ -54,9 +54,13 @@ export class FolderQueue {
   /** Opens the recording of a place, and shows it. */
   async go(place: Place): Promise<void> {
     const { session } = this.folder;
-    const { store } = session;
     this.looking.value = place;
-    if (store.recording.value?.id !== place.id) await session.open(place.id);
+    if (session.store.recording.value?.id === place.id) this.show(place);
+    else await session.open(place.id, { shown: () => this.show(place) });
+  }
+
+  private show(place: Place): void {
+    const { store } = this.folder.session;
     const table = store.recording.value;
     if (table?.id !== place.id || this.looking.value !== place) return; // not the last one chosen
     store.playing.value = false;
