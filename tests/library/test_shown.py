@@ -147,3 +147,100 @@ def test_hits_are_named_alone_in_the_tables_beside_their_recordings(client, fold
     named = {hit["name"] for hit in search(client, WALK).json()["hits"][:2]}
     assert named == {"limps"}
     assert [cluster.label for cluster in Library(folder).clusters()] == before
+
+
+def shown(client: TestClient, name: str) -> dict[str, Any]:
+    """A recording as the studio opens it."""
+    listed = client.get("/api/library").json()["recordings"]
+    (found,) = [each["id"] for each in listed if each["recording"] == name]
+    return client.get(f"/api/recordings/{found}").json()
+
+
+def clusters_of(message: dict[str, Any]) -> list[int]:
+    return [row["cluster"] for row in message["segmentation"]["segments"]]
+
+
+def in_library(folder: Path, name: str) -> list[int]:
+    table = Library(folder).table("segments").to_pylist()
+    return [row["cluster"] for row in table if row["recording"] == name]
+
+
+def test_recordings_have_the_clusters_and_names_of_the_library(client, folder):
+    told = client.get("/api/library").json()
+    first, second = [c["cluster"] for c in told["clusters"] if c["vocabulary"] == "bodies"][:2]
+    walk = shown(client, "walk.bvh")
+    assert clusters_of(walk) == in_library(folder, "walk.bvh")
+    assert walk["saved"] == ""
+    edit = {"kind": "name", "cluster": clusters_of(walk)[0], "name": "stroll"}
+    client.post("/api/library/edits", json=edit)
+    again = shown(client, "walk.bvh")
+    assert again["revision"] > walk["revision"]
+    assert again["segmentation"]["cluster_names"][str(clusters_of(walk)[0])] == "stroll"
+    tables = client.get("/api/tables").json()["recordings"]
+    assert {each["id"] for each in tables if each["table"]} == {each["id"] for each in tables}
+
+    before = in_library(folder, "walk.bvh"), in_library(folder, "jacks.bvh")
+    merge = {"kind": "merge", "cluster": first, "others": [second]}
+    assert "merged into" in client.post("/api/library/edits", json=merge).json()["undo"]
+    assert second not in clusters_of(shown(client, "walk.bvh"))
+    undone = client.post("/api/library/edits", json={"kind": "undo"}).json()
+    assert "stroll" in undone["undo"]
+    assert (in_library(folder, "walk.bvh"), in_library(folder, "jacks.bvh")) == before
+    assert clusters_of(shown(client, "walk.bvh")) == before[0]
+    Library(folder).name(first, "said elsewhere")
+    assert client.get("/api/library").json()["undo"] == ""
+    refused = client.post("/api/library/edits", json={"kind": "undo"})
+    assert refused.status_code == 400
+
+
+def correct(client: TestClient, message: dict[str, Any], kind: str, **edit: Any) -> dict[str, Any]:
+    sent = {"revision": message["revision"], "edit": {"kind": kind, **edit}}
+    return client.post(f"/api/recordings/{message['id']}/edits", json=sent).json()
+
+
+@pytest.mark.usefixtures("without_tables")
+def test_saved_tables_take_numbers_and_names_when_they_are_told_to(client, folder):
+    walk = shown(client, "walk.bvh")
+    rows = walk["segmentation"]["segments"]
+    cluster = next(each["cluster"] for each in rows if each["cluster"] >= 0)
+    members = [each for each in rows if each["cluster"] == cluster]
+    alone = {"level": members[0]["level"], "frame": members[0]["start_frame"], "label": "limp"}
+    correct(client, walk, "name_segment", **alone)
+    edit = {"kind": "name", "cluster": cluster, "name": "stroll"}
+    client.post("/api/library/edits", json=edit)
+    assert "stroll" not in labels_of(shown(client, "walk.bvh"))
+    others = {row["cluster"] for row in rows} - {cluster, -1}
+    client.post(
+        "/api/library/edits", json={"kind": "merge", "cluster": cluster, "others": [*others][:1]}
+    )
+    brought = client.post("/api/library/tables", json={"names": False}).json()
+    assert brought == {"tables": 1, "others": 0, "left": []}
+    after = shown(client, "walk.bvh")
+    assert clusters_of(after) == in_library(folder, "walk.bvh")
+    assert labels_of(after)[rows.index(members[0])] == "limp"
+    assert labels_of(after).count("stroll") >= len(members) - 1
+    again = client.post("/api/library/tables", json={"names": False}).json()
+    assert again == {"tables": 0, "others": 0, "left": []}
+    back = correct(client, after, "undo")
+    assert "stroll" not in [row["label"] for row in back["segmentation"]["segments"]]
+
+
+@pytest.mark.usefixtures("without_tables")
+def test_a_name_of_one_recording_is_given_to_all_and_others_are_kept(client, folder):
+    walk = shown(client, "walk.bvh")
+    jacks = shown(client, "jacks.bvh")
+    (cluster, *_) = sorted({*clusters_of(walk)} & {*clusters_of(jacks)} - {-1})
+    walk = correct(client, walk, "name_cluster", cluster=cluster, label="mine") | {"id": walk["id"]}
+    sent = {"recording": jacks["id"], "cluster": cluster, "before": "", "label": "ours"}
+    told = client.post("/api/library/everywhere", json=sent).json()
+    assert told == {"tables": 0, "others": 1, "left": []}
+    assert Library(folder).numbers("ours") == [cluster]
+    names = shown(client, "jacks.bvh")["segmentation"]["cluster_names"]
+    assert names[str(cluster)] == "ours"
+    assert shown(client, "walk.bvh")["segmentation"]["cluster_names"][str(cluster)] == "mine"
+    assert client.post("/api/library/tables", json={"names": True}).json()["tables"] == 1
+    assert shown(client, "walk.bvh")["segmentation"]["cluster_names"][str(cluster)] == "ours"
+
+
+def labels_of(message: dict[str, Any]) -> list[str]:
+    return [row["label"] for row in message["segmentation"]["segments"]]

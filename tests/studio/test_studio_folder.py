@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import io
+import json
+import shutil
 import zipfile
 
 import numpy as np
+import pytest
 from studio_clients import Studio
 
+import kineme
 from kineme.studio.folder import file_id
+from kineme.studio.overview import brief_of, saved_brief
+from kineme.web.encoding import to_json
 
 
 def test_a_detail_is_shown_before_it_is_made(studio: Studio) -> None:
@@ -49,6 +55,70 @@ def test_checked_recordings_are_written_together_and_known_by_their_names(studio
     assert (studio.folder / "moves.npz").exists()
     assert studio.client.post("/api/knowledge", json=wanted).status_code == 400  # there already
     assert studio.get("/api/state").json()["recordings"][0]["named"] >= 1
+
+
+def test_the_folder_tells_of_tables_without_reading_recordings(studio: Studio) -> None:
+    message = studio.recording()
+    (found,) = studio.get("/api/tables").json()["recordings"]  # as found, saved nowhere
+    rows = message["segmentation"]["segments"]
+    assert found["table"]["start_frame"] == [row["start_frame"] for row in rows]
+    frame = rows[0]["start_frame"]
+    edit = {"level": rows[0]["level"], "frames": [frame], "checked": True}
+    revision = studio.done(message["revision"], "check", **edit)["revision"]
+    said = {"level": rows[0]["level"], "frame": frame, "text": "slips"}
+    studio.done(revision, "comment", **said)
+    table = next(studio.folder.glob("*.segments.json"))
+    assert to_json(saved_brief(table)) == to_json(brief_of(kineme.read_segments(table)))
+    (studio.folder / "take.bvh").write_text("no recording any more")
+    (told,) = studio.get("/api/tables").json()["recordings"]
+    assert (told["table"]["checked"], told["table"]["comments"]) == ([0], 1)
+    assert told["table"]["confidence"] == [row["confidence"] for row in rows]
+
+
+@pytest.mark.parametrize("damage", ["half", "gap", "older"])
+def test_a_table_that_is_not_as_it_was_written_is_read_as_every_table(
+    studio: Studio, damage: str
+) -> None:
+    message = studio.recording()
+    studio.done(message["revision"], "name_segment", level="activity", frame=0, label="walk")
+    table = next(studio.folder.glob("*.segments.json"))
+    content = json.loads(table.read_text())
+    if damage == "half":
+        table.write_text(table.read_text()[:500])
+    elif damage == "gap":
+        content["segments"][0]["stop_frame"] -= 1
+        table.write_text(json.dumps(content))
+    else:
+        content["schema"] = "kineme.segments/1"
+        for row in content["segments"]:
+            row["score"] = row.pop("confidence")
+        table.write_text(json.dumps(content))
+    found = saved_brief(table)
+    assert (found is not None) == (damage == "older")
+    if found is not None:
+        assert found.label[0] == "walk"
+
+
+def test_what_is_called_otherwise_in_one_recording_is_in_all(studio: Studio) -> None:
+    other = studio.folder / "other.bvh"
+    shutil.copy(studio.folder / "take.bvh", other)
+    message = studio.recording()
+    cluster = next(
+        row["cluster"] for row in message["segmentation"]["segments"] if row["cluster"] >= 0
+    )
+    address = f"/api/recordings/{file_id(other)}"
+    edit = {"kind": "name_cluster", "cluster": cluster, "label": "walk"}
+    revision = studio.get(address).json()["revision"]
+    studio.client.post(f"{address}/edits", json={"revision": revision, "edit": edit})
+    sent = {"recording": studio.id, "cluster": cluster, "before": "walk", "label": "stride"}
+    told = studio.client.post("/api/names", json=sent).json()
+    assert told == {"tables": 1, "others": 0, "left": []}
+    assert studio.get(address).json()["segmentation"]["cluster_names"][str(cluster)] == "stride"
+    revision = studio.get(address).json()["revision"]
+    undo = {"revision": revision, "edit": {"kind": "undo"}}
+    undone = studio.client.post(f"{address}/edits", json=undo).json()
+    assert undone["segmentation"]["cluster_names"][str(cluster)] == "walk"
+    assert studio.client.post("/api/names", json={**sent, "before": ""}).status_code == 400
 
 
 def test_labels_are_shared_and_clips_are_of_chosen_rows(studio: Studio) -> None:

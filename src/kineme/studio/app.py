@@ -55,14 +55,15 @@ def create_app(
 ) -> Guard:
     """The studio of some recordings, as an ASGI application.
 
-    Where there is a ``library``, its page is shown when no recording is named. ``static`` has the
-    built pages, ``limit`` is in bytes of an upload; pages of the development server may ask in
-    ``development``.
+    Where there is a ``library``, its page is shown when neither a recording nor the folder is
+    named. ``static`` has the built pages, ``limit`` is in bytes of an upload; pages of the
+    development server may ask in ``development``.
     """
 
     def page(request: Request) -> Response:
         names = request.query_params.getlist("open")
-        path = static / (PAGE if library is None or names else LIBRARY_PAGE)
+        folder = "folder" in request.query_params
+        path = static / (PAGE if library is None or names or folder else LIBRARY_PAGE)
         if not path.is_file():
             return _failure("this page has not been built: npm run build", 404)
         answer = FileResponse(path)

@@ -9,19 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import lru_cache
 from hashlib import blake2b
 from pathlib import Path
 
-from kineme.errors import KinemeError
 from kineme.formats.listing import files_in, holds_recording
-from kineme.labels import holds_labels, read_segments
-from kineme.segments.editing.annotating import marked
-from kineme.studio.reading import stamp_of
-from kineme.studio.storage.tables import usual_table, usual_tables
-
-MOST_COUNTS = 10_000
-"""Tables whose counts stay in memory."""
+from kineme.labels import holds_labels
+from kineme.segments.segmentation import Segmentation
+from kineme.studio.overview import saved_brief
+from kineme.studio.storage.tables import SUFFIX, usual_table, usual_tables
 
 
 def file_id(path: Path) -> str:
@@ -47,7 +42,8 @@ class Folder:
         """The recordings by id, in the order of their names, or as given."""
         if self._files is not None:
             return {file_id(path): path for path in self._files if path.is_file()}
-        return {file_id(path): path for path in self._listed() if holds_recording(path)}
+        listed = (path for path in self._listed() if not path.name.endswith(SUFFIX))
+        return {file_id(path): path for path in listed if holds_recording(path)}
 
     def knowledge_bases(self) -> dict[str, Path]:
         """The knowledge bases by id."""
@@ -58,11 +54,19 @@ class Folder:
 
         return {file_id(path): path for path in archives if holds_knowledge(path)}
 
-    def annotations(self) -> dict[str, Path]:
-        """The label files by id, without the tables that the studio itself saves."""
-        tables = {table for path in self.recordings().values() for table in usual_tables(path)}
+    def annotations(self, recordings: Iterable[Path] | None = None) -> dict[str, Path]:
+        """The label files by id, without the tables that the studio itself saves.
+
+        ``recordings`` are those of the folder, where they have been listed already.
+        """
+        listed = self.recordings().values() if recordings is None else recordings
+        tables = {table for path in listed for table in usual_tables(path)}
         found = [path for path in self._listed() if path not in tables and holds_labels(path)]
         return {file_id(path): path for path in found}
+
+    def first_table(self, path: Path) -> Segmentation | None:  # noqa: ARG002 (of a library)
+        """The table of a recording for which nobody has saved one, where it is known."""
+        return None
 
     def _listed(self) -> list[Path]:
         try:
@@ -84,19 +88,9 @@ class Progress:
 def progress(recording: Path) -> Progress | None:
     """How far a recording is; None where it has no table, or one that cannot be read."""
     path = usual_table(recording)
-    try:
-        return _counts(path, *stamp_of(path)) if path else None
-    except Exception:  # noqa: BLE001 (a table that is damaged in any way costs itself only)
+    table = saved_brief(path) if path else None
+    if table is None:
         return None
-
-
-@lru_cache(MOST_COUNTS)
-def _counts(path: Path, *_: int) -> Progress | None:
-    """Of the file as it was at that time; a file that is no table counts for none."""
-    try:
-        table = read_segments(path, format="json")
-    except KinemeError:
-        return None
-    named = int((table.table.label != "").sum())
-    to_name = int((table.table.kind != "transition").sum())
-    return Progress(len(table), len(marked(table, "checked")), named, to_name)
+    named = sum(label != "" for label in table.label)
+    to_name = sum(kind != "transition" for kind in table.kind)
+    return Progress(len(table.level), len(table.checked), named, to_name)

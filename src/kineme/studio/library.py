@@ -20,21 +20,27 @@ from typing import Literal, TypeVar
 from msgspec import UNSET, structs
 from threadpoolctl import threadpool_limits
 
+from kineme._counts import counted
 from kineme._threads import map_threads
 from kineme.errors import KinemeError, ParameterError
 from kineme.labels import read_segments
 from kineme.library import Example, Library
+from kineme.library.edits import read_edits
 from kineme.library.searching import Named
 from kineme.library.storage.layout import EDITS, HEAD
 from kineme.library.storage.places import is_remote
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 from kineme.studio.folder import Folder, file_id, progress
+from kineme.studio.library_history import LibraryHistory
+from kineme.studio.library_tables import LibraryTables, as_in_library, in_library
+from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.reading import ReadingOptions, stamp_of
 from kineme.studio.storage.tables import usual_table
 from kineme.web.library_messages import (
     CallCluster,
+    CallEverywhere,
     CallHits,
     JoinClusters,
     LibraryCluster,
@@ -44,8 +50,11 @@ from kineme.web.library_messages import (
     LibraryRecording,
     LibraryState,
     NamedHits,
+    PartCluster,
     SearchRequest,
     Span,
+    TablesChanged,
+    UndoEdit,
 )
 from kineme.web.requests import EditRequest, NameSegment
 
@@ -69,6 +78,8 @@ class ShownLibrary:
         self._searches = Searches()
         self._stamp = self._changed()
         self._library = Library(folder)
+        self._history = LibraryHistory(folder)
+        self._tables: LibraryTables | None = None
 
     def library(self) -> Library:
         """The library as it is on the disk now."""
@@ -76,7 +87,17 @@ class ShownLibrary:
             stamp = self._changed()
             if stamp != self._stamp:
                 self._library, self._stamp = Library(self._folder), stamp
+                self._tables = None
             return self._library
+
+    def table_of(self, path: Path) -> Segmentation | None:
+        """The table of a recording as the library has it; None where it has none."""
+        library = self.library()
+        with self._lock:
+            if self._tables is None:
+                self._tables = LibraryTables(library)
+            tables = self._tables
+        return tables.of(path)
 
     def options(self) -> ReadingOptions:
         """How its recordings are read."""
@@ -109,20 +130,57 @@ class ShownLibrary:
             ],
             clusters=_clusters(library),
             failed=library.failed,
+            undo=self._history.last(),
         )
 
     def edit(self, edit: LibraryEdit) -> LibraryState:
         """The library after an edit, which is on the disk."""
         library = self.library()
         with self._lock:
-            if isinstance(edit, CallCluster):
-                library.name(edit.cluster, edit.name.strip())
-            elif isinstance(edit, JoinClusters):
-                library.merge(edit.cluster, *edit.others)
+            before = self._history.present()
+            if isinstance(edit, UndoEdit):
+                self._history.undo()
+                self._library = Library(self._folder)
             else:
-                library.split(edit.cluster, edit.recordings)
-            self._stamp = self._changed()
+                self._history.add(_made(library, edit), before)
+            self._stamp, self._tables = self._changed(), None
         return self.state()
+
+    def update_tables(self, recordings: OpenRecordings, *, names: bool) -> TablesChanged:
+        """Give saved tables the numbers and names of the library, each as one step of undo.
+
+        Clusters that have another name keep it, unless ``names``.
+        """
+        changed, kept, left = 0, 0, []
+        edits = read_edits(self._folder)
+        for path in self.files():
+            of_library = self.table_of(path) if usual_table(path) else None
+            if of_library is None:
+                continue
+            others = 0
+
+            def make(table: Segmentation, of_library: Segmentation = of_library) -> Segmentation:
+                nonlocal others
+                after, others = as_in_library(table, of_library, edits, replace_names=names)
+                return after
+
+            try:
+                changed += recordings.take(file_id(path), make)
+                kept += others
+            except (KinemeError, UnknownError, ConflictError) as error:
+                left.append(f"{path.name}: {error}")
+        return TablesChanged(tables=changed, others=kept, left=left)
+
+    def call_everywhere(self, sent: CallEverywhere, recordings: OpenRecordings) -> TablesChanged:
+        """Name the cluster of the library that one of a recording is, there and in all tables."""
+        opened = recordings.get(sent.recording)
+        of_library = self.table_of(opened.path)
+        place = in_library(opened.table, of_library).get(sent.cluster) if of_library else None
+        if place is None:
+            raise ParameterError(f"cluster {sent.cluster} is none of the library")
+        self.edit(CallCluster(cluster=place, name=sent.label))
+        recordings.renew()
+        return self.update_tables(recordings, names=False)
 
     def search(self, sent: SearchRequest) -> LibraryHits:
         """What is like the examples; SupersededError where a newer search was asked for."""
@@ -160,6 +218,10 @@ class LibraryFolder(Folder):
     def __init__(self, shown: ShownLibrary):
         super().__init__(_above(shown.files()), [])
         self._shown = shown
+
+    def first_table(self, path: Path) -> Segmentation | None:
+        """The table of a recording as the library has it."""
+        return self._shown.table_of(path)
 
     def recordings(self) -> dict[str, Path]:
         """The recordings by id, whose files are there."""
@@ -265,6 +327,18 @@ def name_hits(
         except (KinemeError, UnknownError) as error:
             failures.append(f"{where}: {error}")
     return NamedHits(named=named, left=failures)
+
+
+def _made(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> str:
+    """Make an edit of the clusters of a library; what it was, in words."""
+    if isinstance(edit, CallCluster):
+        library.name(edit.cluster, edit.name.strip())
+        return f"cluster {edit.cluster} is called “{edit.name.strip()}”"
+    if isinstance(edit, JoinClusters):
+        library.merge(edit.cluster, *edit.others)
+        return f"{counted(len(edit.others), 'cluster')} merged into {edit.cluster}"
+    into = library.split(edit.cluster, edit.recordings)
+    return f"cluster {into} split from {edit.cluster}"
 
 
 def _above(files: list[Path]) -> Path:

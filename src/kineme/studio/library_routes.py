@@ -20,6 +20,7 @@ from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.reading import Stamp, stamp_of
 from kineme.web.display import display_motion
 from kineme.web.library_messages import (
+    CallEverywhere,
     CallHits,
     LibraryEdit,
     LibraryFigure,
@@ -27,6 +28,8 @@ from kineme.web.library_messages import (
     LibraryState,
     NamedHits,
     SearchRequest,
+    TablesChanged,
+    TablesRequest,
 )
 
 MOST_IN_MEMORY = 4
@@ -47,6 +50,8 @@ class LibraryApi:
         return [
             route("/api/library", self.state),
             route("/api/library/edits", self.edit, LibraryEdit),
+            route("/api/library/tables", self.tables, TablesRequest),
+            route("/api/library/everywhere", self.everywhere, CallEverywhere),
             route("/api/library/search", self.search, SearchRequest),
             route("/api/library/names", self.names, CallHits),
             route("/api/library/figure", self.figure),
@@ -56,7 +61,15 @@ class LibraryApi:
         return self._shown.state()
 
     def edit(self, _: Request, sent: LibraryEdit) -> LibraryState:
-        return self._shown.edit(sent)
+        state = self._shown.edit(sent)
+        self._recordings.renew()
+        return state
+
+    def tables(self, _: Request, sent: TablesRequest) -> TablesChanged:
+        return self._shown.update_tables(self._recordings, names=sent.names)
+
+    def everywhere(self, _: Request, sent: CallEverywhere) -> TablesChanged:
+        return self._shown.call_everywhere(sent, self._recordings)
 
     def search(self, _: Request, sent: SearchRequest) -> LibraryHits:
         return self._shown.search(sent)

@@ -57,11 +57,17 @@ class OpenRecording:
     """A recording with its table, which edits change; ReadError where it cannot be read.
 
     ``others`` are files that hold the tables of other recordings; ``revision`` is that of the table
-    to begin with.
+    to begin with. ``initial`` is the table where none is saved, if somebody has found one.
     """
 
     def __init__(
-        self, name: str, path: Path, cache: RecordingCache, others: set[Path], revision: int
+        self,
+        name: str,
+        path: Path,
+        cache: RecordingCache,
+        others: set[Path],
+        revision: int,
+        initial: Segmentation | None = None,
     ):
         self.id, self.path = name, path
         self.loaded = LoadedRecording(path, cache)
@@ -69,6 +75,8 @@ class OpenRecording:
         self._lock = threading.RLock()
         self._file, table, self._notes = saved_table(path, self.loaded.fits, others)
         self._first: FirstSegments | None = None  # while they are being found
+        if table is None and initial is not None and self.loaded.fits(initial):
+            table = initial
         if table is None:
             first = FirstSegments(self.loaded.first_table)
             if self.loaded.is_long or not first.are_soon():
@@ -159,15 +167,37 @@ class OpenRecording:
                 reason = f"the table has changed: this edit is of revision {revision}"
                 raise ConflictError(f"{reason}, now it is {self.revision}", self._edited([]))
             change, notes = self._after(edit, files, name or uuid.uuid4().hex)
-            reason = f"another program changed {self._file.path.name}: open it again"
             if self._file.changed():
-                raise ConflictError(reason, self._edited([]))
-            try:
-                self._journal.write(change, self._file.write, revision=self.revision + 1, name=name)
-            except ChangedOnDiskError:
-                raise ConflictError(reason, self._edited([])) from None
-            self._table, self.revision = change.table, self.revision + 1
+                raise self._changed_elsewhere()
+            self._write(change, name)
             return self._edited(notes)
+
+    def renew(self, initial: Segmentation) -> bool:
+        """Show another table where nobody has saved one; whether it is another."""
+        with self._lock:
+            same = self._table == initial or not self.loaded.fits(initial)
+            if same or self.finding or self._file.exists or self._file.changed():
+                return False
+            self._table, self._journal = initial, Journal(self._file.path, initial)
+            self.revision += 1
+            return True
+
+    def take(self, make: Callable[[Segmentation], Segmentation]) -> bool:
+        """Save what becomes of the table, the one before kept; whether it is another.
+
+        As for an edit: it is on the disk then, and undo takes it back. ConflictError where another
+        program has changed the file, KinemeError where it cannot be made or saved.
+        """
+        self.find()
+        with self._lock:
+            table = make(self._table)
+            if table == self._table:
+                return False
+            if self._file.changed():
+                raise self._changed_elsewhere()
+            ids = self._journal.ids.after(self._table, table, uuid.uuid4().hex, replaced=True)
+            self._write(self._journal.changed(table, None, replaced=True, ids=ids))
+            return True
 
     def preview(self, request: PreviewRequest) -> Preview:
         """What segmenting again would make of the table, which stays as it is."""
@@ -221,6 +251,18 @@ class OpenRecording:
         ids = self._journal.ids.after(self._table, outcome.table, name, replaced=replaced)
         change = self._journal.changed(outcome.table, edit, replaced=replaced, ids=ids)
         return change, outcome.notes
+
+    def _write(self, change: Change, name: str = "") -> None:
+        """Have a change on the disk, and go on with its table."""
+        try:
+            self._journal.write(change, self._file.write, revision=self.revision + 1, name=name)
+        except ChangedOnDiskError:
+            raise self._changed_elsewhere() from None
+        self._table, self.revision = change.table, self.revision + 1
+
+    def _changed_elsewhere(self) -> ConflictError:
+        reason = f"another program changed {self._file.path.name}: open it again"
+        return ConflictError(reason, self._edited([]))
 
     def _version(self, number: int) -> Segmentation:
         if number not in self._journal.versions():

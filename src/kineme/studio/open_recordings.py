@@ -16,13 +16,23 @@ from msgspec import UNSET, Struct
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.formats import sketch
+from kineme.segments.segmentation import Segmentation
 from kineme.studio.choices import same_again
 from kineme.studio.folder import Folder
 from kineme.studio.loading import one_segment
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
+from kineme.studio.overview import brief_of, saved_brief
 from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.studio.storage.sidecars import keep_options, options_of, read_options, video_message
-from kineme.web.messages import Edited, MatrixHead, Recording
+from kineme.studio.storage.tables import usual_table
+from kineme.web.messages import (
+    BriefTable,
+    Edited,
+    FolderRecording,
+    FolderTables,
+    MatrixHead,
+    Recording,
+)
 from kineme.web.requests import EditRequest
 
 Listener = Callable[[str, int], None]
@@ -85,7 +95,10 @@ class OpenRecordings:
         others = [other for other in list(self._open.values()) if other.path != path]
         tables = {other.table_path for other in others}
         revision = 1 if before is None else before.revision + 1
-        opened = self._open[name] = OpenRecording(name, path, self._cache, tables, revision)
+        initial = self.folder.first_table(path)
+        opened = self._open[name] = OpenRecording(
+            name, path, self._cache, tables, revision, initial
+        )
         if opened.finding:
             self._in_background(lambda: self._find(opened))
         return opened
@@ -162,6 +175,39 @@ class OpenRecordings:
         for name in names:
             with suppress(KinemeError, UnknownError):
                 self.message(name)
+
+    def tables(self) -> FolderTables:
+        """The tables of all recordings, those that were found and not saved among them."""
+        listed = self.folder.recordings().items()
+        return FolderTables(
+            recordings=[
+                FolderRecording(id=name, table=self._brief(name, at)) for name, at in listed
+            ]
+        )
+
+    def _brief(self, name: str, path: Path) -> BriefTable | None:
+        opened = self._open.get(name)
+        at = usual_table(path) if opened is None else opened.table_path
+        found = saved_brief(at) if at else None
+        if found is None and opened is not None and not opened.finding:
+            return brief_of(opened.table)
+        initial = self.folder.first_table(path) if found is None else None
+        return found if initial is None else brief_of(initial)
+
+    def renew(self) -> None:
+        """Show what is known of open recordings now where nobody has saved a table."""
+        for name, opened in list(self._open.items()):
+            initial = self.folder.first_table(opened.path)
+            if initial is not None and opened.renew(initial):
+                self._changed(name, opened.revision)
+
+    def take(self, name: str, make: Callable[[Segmentation], Segmentation]) -> bool:
+        """Save what becomes of a recording's table, as `OpenRecording.take`."""
+        opened = self.get(name)
+        is_other = opened.take(make)
+        if is_other:
+            self._changed(name, opened.revision)
+        return is_other
 
     def edit(self, name: str, sent: EditRequest) -> Edited:
         """The recording's table after an edit, as `OpenRecording.edit` makes it."""

@@ -21,6 +21,7 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
+from kineme.studio.everywhere import call_everywhere
 from kineme.studio.folder import file_id, progress
 from kineme.studio.http.bodies import (
     LIMIT,
@@ -37,11 +38,13 @@ from kineme.studio.http.events import Hub
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels, video_of
+from kineme.web.library_messages import CallEverywhere, TablesChanged
 from kineme.web.messages import (
     Comparison,
     CurveList,
     Edited,
     FileChoice,
+    FolderTables,
     Listing,
     Loops,
     Preview,
@@ -73,6 +76,8 @@ class Api:
         one = "/api/recordings/{id}"
         return [
             route("/api/state", self.state),
+            route("/api/tables", self.tables),
+            route("/api/names", self.names, CallEverywhere),
             route("/api/labels", self.labels, LabelsRequest),
             route("/api/knowledge", self.knowledge, KnowledgeRequest),
             route("/api/export/{format}", self.export_checked),
@@ -100,16 +105,17 @@ class Api:
 
     def state(self, _: Request) -> State:
         folder = self._recordings.folder
+        recordings = folder.recordings()
         bases, annotations = (
             [FileChoice(id=name, name=path.name) for name, path in files.items()]
-            for files in (folder.knowledge_bases(), folder.annotations())
+            for files in (folder.knowledge_bases(), folder.annotations(recordings.values()))
         )
         return State(
             version=__version__,
             folder=str(folder.root.absolute()),
             of_library=folder.of_library,
             suffixes=recording_suffixes(),
-            recordings=[_listing(name, path) for name, path in folder.recordings().items()],
+            recordings=[_listing(name, path) for name, path in recordings.items()],
             presets=choices.presets(),
             default_preset=DEFAULT,
             details=choices.details(),
@@ -118,6 +124,12 @@ class Api:
             annotations=annotations,
             export_formats=choices.export_formats(),
         )
+
+    def tables(self, _: Request) -> FolderTables:
+        return self._recordings.tables()
+
+    def names(self, _: Request, sent: CallEverywhere) -> TablesChanged:
+        return call_everywhere(self._recordings, sent)
 
     def labels(self, _: Request, sent: LabelsRequest) -> list[str]:
         return share_labels(self._recordings.folder.root, sent.labels)

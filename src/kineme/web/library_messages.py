@@ -47,13 +47,17 @@ class LibraryCluster(Struct, frozen=True, kw_only=True):
 
 
 class LibraryState(Struct, frozen=True, kw_only=True):
-    """A library: its recordings, its clusters, and what could not be read, with the reason."""
+    """A library: its recordings, its clusters, and what could not be read, with the reason.
+
+    ``undo`` is the last edit of its clusters, in words, where that can be taken back.
+    """
 
     folder: str
     hours: float
     recordings: list[LibraryRecording]
     clusters: list[LibraryCluster]
     failed: dict[str, str]
+    undo: str
 
 
 class LibraryHit(Struct, frozen=True, kw_only=True):
@@ -142,4 +146,37 @@ class PartCluster(EditBase, frozen=True, kw_only=True, tag="split"):
     recordings: list[Path]
 
 
-LibraryEdit = CallCluster | JoinClusters | PartCluster
+class UndoEdit(EditBase, frozen=True, kw_only=True, tag="undo"):
+    """The last edit of the clusters of the library is taken back."""
+
+
+LibraryEdit = CallCluster | JoinClusters | PartCluster | UndoEdit
+
+
+class TablesRequest(Request, frozen=True, kw_only=True):
+    """Saved tables take numbers and names of clusters from the library.
+
+    Clusters that have another name keep it, unless ``names``: then they take it, too.
+    """
+
+    names: bool
+
+
+class CallEverywhere(Request, frozen=True, kw_only=True):
+    """What a cluster of one recording is called now holds for it in all recordings.
+
+    In a library for the cluster of it; else for what is called ``before`` elsewhere.
+    """
+
+    recording: Text
+    cluster: Integer
+    before: Text
+    label: Text
+
+
+class TablesChanged(Struct, frozen=True, kw_only=True):
+    """How many tables were changed, how many clusters keep another name, and what failed, why."""
+
+    tables: int
+    others: int
+    left: list[str]

@@ -13,7 +13,7 @@ from typing import Any
 from msgspec import Struct
 
 from kineme.segments.annotation import Annotation
-from kineme.segments.table import Level, Segment
+from kineme.segments.table import Kind, Level, Segment
 from kineme.web.requests import Edit
 
 
@@ -221,6 +221,40 @@ class Loops(Struct, frozen=True, kw_only=True):
     """The repetitions of a recording as loops, those of a cluster together, the best first."""
 
     loops: list[LoopRow]
+
+
+class BriefTable(Struct, frozen=True, kw_only=True):
+    """What the page of a folder shows of a segment table: its columns, and what people did.
+
+    ``checked`` are numbers of rows, ``comments`` counts them.
+    """
+
+    n_frames: int
+    fps: float
+    level: list[Level]
+    kind: list[Kind]
+    start_frame: list[int]
+    stop_frame: list[int]
+    cluster: list[int]
+    activity: list[int]
+    label: list[str]
+    confidence: list[float | None]
+    border_confidence: list[float | None]
+    checked: list[int]
+    comments: int
+
+
+class FolderRecording(Struct, frozen=True, kw_only=True):
+    """A recording of the folder and its table; null where nobody has segmented it yet."""
+
+    id: str
+    table: BriefTable | None
+
+
+class FolderTables(Struct, frozen=True, kw_only=True):
+    """The tables of all recordings of the folder, in the order of the list."""
+
+    recordings: list[FolderRecording]
 
 
 class Changed(Struct, frozen=True, kw_only=True):

@@ -19,10 +19,10 @@ export interface Confidence {
   why: string;
 }
 
-/** Something that can be wrong with a segment: the confidence that… */
+/** Something that can be wrong with a segment, and the confidence that it is right. */
 interface Part {
   value: number;
-  that: string;
+  of: "start" | "cluster" | "count";
 }
 
 /** The confidence of each segment of a table. */
@@ -30,7 +30,7 @@ export function confidenceOf(table: Segments): ReadonlyMap<Segment, Confidence> 
   let found = confidences.get(table);
   if (!found) {
     const around = new Around(table);
-    found = new Map(table.segments.map((segment) => [segment, ofOne(segment, around)]));
+    found = new Map(table.segments.map((segment) => [segment, new OfOne(segment, around)]));
     confidences.set(table, found);
   }
   return found;
@@ -62,42 +62,58 @@ class Around {
   }
 }
 
-function ofOne(segment: Segment, around: Around): Confidence {
-  const parts = partsOf(segment, around);
-  if (!parts.length)
-    return { value: null, short: "", text: "", why: reasonOfNone(segment, around) };
-  const value = parts.reduce((all, part) => all * part.value, 1);
-  if (!around.probable) {
-    const short = value.toFixed(2);
-    const why = `Its confidence is ${short}, a share and no probability.`;
-    return { value, short, text: `confidence ${short}`, why };
+/** Its words are made when they are read: of the thousands of a folder, few are. */
+class OfOne implements Confidence {
+  readonly value: number | null;
+  private readonly parts: readonly Part[];
+
+  constructor(
+    private readonly segment: Segment,
+    private readonly around: Around,
+  ) {
+    this.parts = partsOf(segment, around);
+    this.value = this.parts.length ? this.parts.reduce((all, part) => all * part.value, 1) : null;
   }
-  const short = `${Math.round(100 * value)} %`;
-  const text = `confidence ${short}`;
-  const { that } = parts.reduce((least, part) => (part.value < least.value ? part : least));
-  const why =
-    parts.length === 1
+
+  get short(): string {
+    if (this.value === null) return "";
+    return this.around.probable ? `${Math.round(100 * this.value)} %` : this.value.toFixed(2);
+  }
+
+  get text(): string {
+    return this.value === null ? "" : `confidence ${this.short}`;
+  }
+
+  get why(): string {
+    const { segment, around, parts, short } = this;
+    if (!parts.length) return reasonOfNone(segment, around);
+    if (!around.probable) return `Its confidence is ${short}, a share and no probability.`;
+    const least = parts.reduce((least, part) => (part.value < least.value ? part : least));
+    const that = claimOf(least, segment, around);
+    return parts.length === 1
       ? `The confidence ${that} is ${short}.`
       : `The confidence that all of this is right is ${short}; the lowest is ${that}.`;
-  return { value, short, text, why };
+  }
+}
+
+/** What a part says, after "the confidence". */
+function claimOf({ of }: Part, segment: Segment, around: Around): string {
+  if (of === "start") return `that a segment starts at ${clock(segment.start_s, 2)}`;
+  if (of === "cluster") return `that this is ${nameOf(segment)}`;
+  const times = around.counts.get(segment.activity)?.times ?? 1;
+  return `that this is done ${times === 1 ? "once" : `${times} times`}`;
 }
 
 function partsOf(segment: Segment, around: Around): Part[] {
-  const { level, start_frame, start_s, confidence, border_confidence: border } = segment;
+  const { level, start_frame, confidence, border_confidence: border } = segment;
   const apart = level === "primitive" && around.starts.size > 0;
   const parts: Part[] = [];
   if (start_frame > 0 && border !== null && !(apart && around.starts.has(start_frame)))
-    parts.push({ value: border, that: `that a segment starts at ${clock(start_s, 2)}` });
+    parts.push({ value: border, of: "start" });
   if (confidence !== null && !(apart && around.probable))
-    parts.push({ value: confidence, that: `that this is ${nameOf(segment)}` });
+    parts.push({ value: confidence, of: "cluster" });
   const counted = level === "activity" && around.probable && around.counts.get(segment.activity);
-  if (counted) {
-    const { times, value } = counted;
-    parts.push({
-      value,
-      that: `that this is done ${times === 1 ? "once" : `${times} times`}`,
-    });
-  }
+  if (counted) parts.push({ value: counted.value, of: "count" });
   return parts;
 }
 

@@ -249,6 +249,38 @@ export interface Loops {
   loops: LoopRow[];
 }
 
+/**
+ * What the page of a folder shows of a segment table: its columns, and what people did.
+ *
+ * `checked` are numbers of rows, `comments` counts them.
+ */
+export interface BriefTable {
+  n_frames: number;
+  fps: number;
+  level: Level[];
+  kind: Kind[];
+  start_frame: number[];
+  stop_frame: number[];
+  cluster: number[];
+  activity: number[];
+  label: string[];
+  confidence: (number | null)[];
+  border_confidence: (number | null)[];
+  checked: number[];
+  comments: number;
+}
+
+/** A recording of the folder and its table; null where nobody has segmented it yet. */
+export interface FolderRecording {
+  id: string;
+  table: BriefTable | null;
+}
+
+/** The tables of all recordings of the folder, in the order of the list. */
+export interface FolderTables {
+  recordings: FolderRecording[];
+}
+
 /** Sent to every page when a recording's table changed or a file came. */
 export interface Changed {
   recording: string;
@@ -579,13 +611,18 @@ export interface LibraryCluster {
   unsure: number;
 }
 
-/** A library: its recordings, its clusters, and what could not be read, with the reason. */
+/**
+ * A library: its recordings, its clusters, and what could not be read, with the reason.
+ *
+ * `undo` is the last edit of its clusters, in words, where that can be taken back.
+ */
 export interface LibraryState {
   folder: string;
   hours: number;
   recordings: LibraryRecording[];
   clusters: LibraryCluster[];
   failed: Record<string, string>;
+  undo: string;
 }
 
 /**
@@ -669,7 +706,40 @@ export interface PartCluster {
   recordings: string[];
 }
 
-export type LibraryEdit = CallCluster | JoinClusters | PartCluster;
+/** The last edit of the clusters of the library is taken back. */
+export interface UndoEdit {
+  kind: "undo";
+}
+
+export type LibraryEdit = CallCluster | JoinClusters | PartCluster | UndoEdit;
+
+/**
+ * Saved tables take numbers and names of clusters from the library.
+ *
+ * Clusters that have another name keep it, unless `names`: then they take it, too.
+ */
+export interface TablesRequest {
+  names: boolean;
+}
+
+/**
+ * What a cluster of one recording is called now holds for it in all recordings.
+ *
+ * In a library for the cluster of it; else for what is called `before` elsewhere.
+ */
+export interface CallEverywhere {
+  recording: string;
+  cluster: number;
+  before: string;
+  label: string;
+}
+
+/** How many tables were changed, how many clusters keep another name, and what failed, why. */
+export interface TablesChanged {
+  tables: number;
+  others: number;
+  left: string[];
+}
 
 /** A row of which nothing is known. */
 export const bareSegment: Segment = {

@@ -16,6 +16,10 @@ import { ComparePanel } from "./panels/ComparePanel";
 import { DropZone } from "./panels/DropZone";
 import { EditTools } from "./panels/EditTools";
 import { ExportDialog } from "./dialogs/ExportDialog";
+import { FolderPage } from "./folder/FolderPage";
+import { OfferBar } from "./folder/OfferBar";
+import { QueueBar } from "./folder/QueueBar";
+import { useStageTurn } from "./folder/stageTurn";
 import { FolderPanel } from "./panels/FolderPanel";
 import { Header } from "./Header";
 import { VersionsDialog } from "./dialogs/VersionsDialog";
@@ -85,6 +89,8 @@ export function Studio(): JSX.Element {
         timeline={store.active.value && <Timeline />}
         curves={hasFigure && store.curves.value && <Channels />}
       />
+      <FolderPage />
+      <OfferBar />
       <Notices />
       <DropZone />
       <OpenDialog name={dialog} close={close} />
@@ -96,11 +102,19 @@ export function Studio(): JSX.Element {
 function Stage(): JSX.Element {
   const store = useStore();
   const { session } = useStudio();
-  if (store.recording.value?.motion === null) return <Channels ruler />;
+  const turn = useStageTurn();
+  if (store.recording.value?.motion === null)
+    return (
+      <>
+        <Channels ruler />
+        <QueueBar />
+      </>
+    );
   return (
     <>
-      <Viewer />
+      {turn.value && <Viewer />}
       <Video />
+      <QueueBar />
       {!store.active.value && (
         <p class="empty quiet">
           {session.opening.value || !session.state.value ? (

@@ -13,6 +13,8 @@ export type DialogName = "versions" | "transfer" | "compare" | "export" | "help"
 export class Front {
   readonly dialog: Signal<DialogName | null> = signal(null);
   readonly tab = signal("segment");
+  /** Whether the page of the folder lies over that of a recording; null: where none is open. */
+  readonly folder = signal<boolean | null>(null);
 
   show(dialog: DialogName): void {
     this.dialog.value = dialog;

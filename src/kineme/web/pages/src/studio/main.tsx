@@ -3,6 +3,7 @@ import { effect } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
 import "./studio.css";
+import "./folder/folder.css";
 import { StoreProvider } from "../context";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
@@ -16,7 +17,7 @@ import { Review } from "./review/review";
 import { Session } from "./session";
 import { exposeStudio } from "./snapshot";
 import { Studio } from "./Studio";
-import { tokenInAddress } from "./server/address";
+import { openInAddress, tokenInAddress } from "./server/address";
 import { announceTab } from "./editing/unsent";
 import { Uploads } from "./server/uploads";
 
@@ -55,6 +56,7 @@ function start(): void {
     </StoreProvider>,
     document.getElementById("page")!,
   );
+  if (!openInAddress().length) void review.folder.refresh(); // beside the list, not after it
   void session.start(announceTab());
 }
 

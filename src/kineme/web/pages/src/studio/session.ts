@@ -44,7 +44,8 @@ export class Session {
   /** The recording that could not be read, and the people in it. */
   readonly unread = signal<Unread | null>(null);
   readonly bulletin: Bulletin;
-  private readonly recordings = signal<EditedRecording[]>([]);
+  /** Those that are open, and those whose edits are on their way. */
+  readonly recordings = signal<EditedRecording[]>([]);
   readonly list = new RecordingList(this.state, this.recordings);
   readonly edited = computed(() => {
     const id = this.store.recording.value?.id;
@@ -95,14 +96,15 @@ export class Session {
     }
   }
 
-  /** Shows a recording, alone or beside those shown. */
-  async open(id: string, { beside = false } = {}): Promise<void> {
+  /** Shows a recording, alone or beside those shown; `shown` is called before its figure comes. */
+  async open(id: string, { beside = false, shown = (): void => undefined } = {}): Promise<void> {
     const { store } = this;
     if (this.opening.value === id) return;
     const index = store.opened.value.findIndex((each) => each.recording.value.id === id);
     if (index >= 0) {
       store.show(index);
       if (!beside) this.closeOthers(id);
+      shown();
       return;
     }
     this.opening.value = id;
@@ -113,6 +115,7 @@ export class Session {
       if (!beside) store.playhead.value = 0;
       store.add(opened);
       if (!beside) this.closeOthers(id);
+      shown();
       this.bulletin.solved("open");
       void this.refresh();
       await loadMotion(opened);

@@ -31,6 +31,7 @@ export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
           </select>
         </label>
         <span class="quiet">A name is kept at once, and stays through every build.</span>
+        <Tables page={page} />
       </div>
       {!clusters.length && <p class="quiet">Nothing repeats itself in these recordings.</p>}
       <ul class="cards">
@@ -43,6 +44,41 @@ export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
           Show more of {clusters.length}
         </button>
       )}
+    </>
+  );
+}
+
+/** Undo, and the way of numbers and names into tables that people have corrected. */
+function Tables({ page }: { page: LibraryPage }): JSX.Element {
+  const { undo = "", recordings = [] } = page.state.value ?? {};
+  const { text, others } = page.tablesNews.value;
+  const saved = recordings.filter(({ status }) => status === "corrected" || status === "checked");
+  return (
+    <>
+      <button
+        type="button"
+        disabled={!undo}
+        title={undo ? `Take back: ${undo}` : "Nothing to take back"}
+        onClick={() => void page.edit({ kind: "undo" })}
+      >
+        ↶ Undo
+      </button>
+      {saved.length > 0 && (
+        <button
+          type="button"
+          title="Recordings that nobody has corrected have them anyway. Segments stay; undo is in each recording."
+          onClick={() => void page.updateTables(false)}
+        >
+          Numbers and names to {saved.length} corrected{" "}
+          {saved.length === 1 ? "recording" : "recordings"}
+        </button>
+      )}
+      {others > 0 && (
+        <button type="button" onClick={() => void page.updateTables(true)}>
+          Replace {others} other {others === 1 ? "name" : "names"}, too
+        </button>
+      )}
+      <span role="status">{text}</span>
     </>
   );
 }
@@ -105,7 +141,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
       {dialog.value === "merge" && (
         <ChoiceDialog
           title={`Merge into ${called}`}
-          say="Those chosen become part of it, in every recording; their own names and numbers go. This cannot be undone."
+          say="Those chosen become part of it, in every recording; their own names and numbers go."
           action="Merge"
           close={close}
           choices={others.map((other) => ({
@@ -119,7 +155,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
       {dialog.value === "split" && (
         <ChoiceDialog
           title={`Split ${called}`}
-          say="What it has in the recordings chosen, some but not all, becomes a cluster of its own. This cannot be undone."
+          say="What it has in the recordings chosen, some but not all, becomes a cluster of its own."
           action="Split"
           most={n - 1}
           close={close}

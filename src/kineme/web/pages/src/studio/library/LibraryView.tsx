@@ -2,6 +2,7 @@
 import type { JSX } from "preact";
 import { Tabs } from "../../layout/Tabs";
 import { theme, toggleTheme } from "../../theme";
+import { folderAddress } from "../server/address";
 import { IconButton } from "../../transport/icons";
 import { ClusterCards } from "./ClusterCards";
 import type { LibraryPage } from "./libraryPage";
@@ -23,6 +24,7 @@ export function LibraryView({ page }: { page: LibraryPage }): JSX.Element {
         <span class="folder quiet" title={state?.folder}>
           {state?.folder.split(/[\\/]/).at(-1)}
         </span>
+        <a href={folderAddress(page.api.token)}>All recordings</a>
         <span class="spacer" />
         {state && (
           <span class="quiet number sizes">

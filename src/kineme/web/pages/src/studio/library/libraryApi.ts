@@ -8,6 +8,8 @@ import type {
   NamedHits,
   SearchRequest,
   Span,
+  TablesChanged,
+  TablesRequest,
 } from "../../messages";
 import { Api } from "../server/api";
 
@@ -18,6 +20,11 @@ export class LibraryApi extends Api {
 
   editLibrary(edit: LibraryEdit): Promise<LibraryState> {
     return this.post("/api/library/edits", {}, edit);
+  }
+
+  /** Saved tables take the numbers and names of the library. */
+  updateTables(sent: TablesRequest): Promise<TablesChanged> {
+    return this.post("/api/library/tables", {}, sent);
   }
 
   nameHits(sent: CallHits): Promise<NamedHits> {

@@ -22,6 +22,8 @@ export class LibraryPage {
   readonly question = signal<Question | null>(null);
   readonly searching = signal(false);
   readonly naming = signal(false);
+  /** What became of saved tables, and how many clusters in them keep another name. */
+  readonly tablesNews = signal({ text: "", others: 0 });
   /** What became of names given to hits. */
   readonly news = signal("");
   readonly hits = signal<LibraryHit[]>([]);
@@ -65,6 +67,19 @@ export class LibraryPage {
     if (made) this.relabel();
     else this.problem.value = `Not saved: ${this.problem.value}`;
     return made;
+  }
+
+  /** Saved tables take numbers and names of the library; those of another name, if `names`. */
+  async updateTables(names: boolean): Promise<void> {
+    await this.trying(async () => {
+      const { tables, others, left } = await this.api.updateTables({ names });
+      const kept = others ? ` ${others} clusters in them keep another name.` : "";
+      const lost = left.length ? ` Not changed: ${left.join("; ")}.` : "";
+      this.tablesNews.value = {
+        text: `${tables} saved ${tables === 1 ? "table has" : "tables have"} other numbers or names now.${kept}${lost}`,
+        others,
+      };
+    });
   }
 
   /** Names what was confirmed, each segment alone; the news says what could not be named. */

@@ -8,7 +8,7 @@ const SIGNS: Record<Status, string> = { new: "", corrected: "âœŽ", labelled: "â—
 const TAIL = 12; // letters at the end of a name that are always seen
 
 export function FolderPanel(): JSX.Element {
-  const { session, uploads } = useStudio();
+  const { session, uploads, front } = useStudio();
   const { search, status } = session.list;
   const all = session.state.value?.recordings ?? [];
   const found = session.list.listed.value;
@@ -18,6 +18,15 @@ export function FolderPanel(): JSX.Element {
       <div class="panel-head">
         <h2>Recordings</h2>
         <span class="spacer" />
+        {all.length > 1 && (
+          <button
+            type="button"
+            title="All recordings with their segments, and how far each is"
+            onClick={() => (front.folder.value = true)}
+          >
+            Folder
+          </button>
+        )}
         <label
           class="button"
           title="Add files to the folder; dropping them on the page does the same"
@@ -88,7 +97,7 @@ export function FolderPanel(): JSX.Element {
 }
 
 function Row({ listing }: { listing: Listing }): JSX.Element {
-  const { session } = useStudio();
+  const { session, front } = useStudio();
   const { id, name } = listing;
   const { store } = session;
   const open = store.opened.value.find((each) => each.recording.value.id === id)?.recording.value;
@@ -113,7 +122,10 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
         aria-current={current ? "true" : undefined}
         aria-busy={opening}
         title={`${name}: ${facts.join(", ")}`}
-        onClick={() => void session.open(id, { beside: shown })}
+        onClick={() => {
+          front.folder.value = null;
+          void session.open(id, { beside: shown });
+        }}
       >
         <MiddleShortened name={name} />
         {opening ? <span class="busy" /> : <span aria-hidden="true">{SIGNS[status]}</span>}

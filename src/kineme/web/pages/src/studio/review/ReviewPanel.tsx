@@ -1,10 +1,11 @@
 /** What to look at next, why, and how far one is. */
-import type { JSX } from "preact";
+import type { ComponentChildren, JSX } from "preact";
 import { useStudio } from "../context";
-import { NO_COLOR } from "../../colors";
+import { clusterColor, NO_COLOR } from "../../colors";
 import type { Level } from "../../messages";
 import { nameOf } from "../../segments";
 import { clock } from "../../view";
+import { FolderProgress } from "../folder/FolderProgress";
 import { progressOf } from "./doubts";
 
 const MOST = 100; // rows; the rest comes when these are checked
@@ -16,8 +17,23 @@ export function ReviewPanel(): JSX.Element {
   if (!table) return <p class="hint quiet">Open a recording to look through its segments.</p>;
   const doubts = review.doubts.value;
   const present = review.present.value;
+  const several = (session.state.value?.recordings.length ?? 0) > 1;
+  const scope = several && (
+    <label class="field">
+      Look through{" "}
+      <select
+        value={review.everywhere.value ? "folder" : "recording"}
+        onChange={(event) => void review.goEverywhere(event.currentTarget.value === "folder")}
+      >
+        <option value="recording">this recording</option>
+        <option value="folder">all recordings of the folder</option>
+      </select>
+    </label>
+  );
+  if (review.everywhere.value) return <FolderReview scope={scope} />;
   return (
     <div class="review-panel">
+      {scope}
       <Progress level="activity" title="Activities" of={progressOf(table, "activity")} />
       <Progress level="primitive" title="Primitives" of={progressOf(table, "primitive")} />
       <p class="actions">
@@ -64,6 +80,47 @@ export function ReviewPanel(): JSX.Element {
         })}
       </ol>
       {doubts.length > MOST && <p class="quiet note">and {doubts.length - MOST} more</p>}
+    </div>
+  );
+}
+
+/** The same of all recordings; what is under the figure has why, and goes on. */
+function FolderReview({ scope }: { scope: ComponentChildren }): JSX.Element {
+  const { review } = useStudio();
+  const { folder, queue } = review;
+  const { value: places } = queue.places;
+  const without = folder.without.value.length;
+  return (
+    <div class="review-panel">
+      {scope}
+      <FolderProgress tally={folder.tally.value} />
+      <ol class="doubts">
+        {places.slice(0, MOST).map((place) => {
+          const { id, recording, doubt } = place;
+          const { segment, short, why } = doubt;
+          return (
+            <li key={`${id} ${segment.level} ${segment.start_frame}`}>
+              <button
+                type="button"
+                class="plain"
+                aria-current={place === queue.looking.value ? "true" : undefined}
+                title={why}
+                onClick={() => void queue.go(place)}
+              >
+                <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
+                <span class="name">
+                  {nameOf(segment)} <span class="quiet">{segment.level}</span>
+                </span>
+                <span class="number quiet">{clock(segment.start_s, 2)}</span>
+                <span class="number">{short || "–"}</span>
+                <span class="of quiet">{recording}</span>
+              </button>
+            </li>
+          );
+        })}
+      </ol>
+      {places.length > MOST && <p class="quiet note">and {places.length - MOST} more</p>}
+      {without > 0 && <p class="quiet note">{without} recordings are not segmented yet</p>}
     </div>
   );
 }

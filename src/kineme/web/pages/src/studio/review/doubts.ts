@@ -13,7 +13,7 @@ export function doubtsOf(table: Segments): Doubt[] {
   const confidences = confidenceOf(table);
   return table.segments
     .filter((_, row) => !checked.has(row))
-    .map((segment) => ({ segment, ...confidences.get(segment)! }))
+    .map((segment) => new OfOne(segment, confidences.get(segment)!))
     .sort((a, b) => (a.value ?? 2) - (b.value ?? 2) || before(a.segment, b.segment));
 }
 
@@ -21,6 +21,30 @@ export function doubtsOf(table: Segments): Doubt[] {
 export function progressOf(table: Segments, level: Level): [checked: number, all: number] {
   const checked = table.checked.filter((row) => table.segments[row]?.level === level);
   return [checked.length, table.segments.filter((row) => row.level === level).length];
+}
+
+/** A doubt whose words are those of the confidence, made when they are read. */
+class OfOne implements Doubt {
+  readonly value: number | null;
+
+  constructor(
+    readonly segment: Segment,
+    private readonly confidence: Confidence,
+  ) {
+    this.value = confidence.value;
+  }
+
+  get short(): string {
+    return this.confidence.short;
+  }
+
+  get text(): string {
+    return this.confidence.text;
+  }
+
+  get why(): string {
+    return this.confidence.why;
+  }
 }
 
 function before(a: Segment, b: Segment): number {

@@ -2,10 +2,18 @@
 import { computed, signal } from "@preact/signals";
 import type { Segment } from "../../messages";
 import type { Editor } from "../editing/editor";
+import { Folder } from "../folder/folder";
+import { FolderQueue } from "../folder/folderQueue";
+import { NameOffer } from "../folder/offer";
 import type { Session } from "../session";
 import { doubtsOf, type Doubt } from "./doubts";
 
 export class Review {
+  /** Whether J goes through all recordings of the folder. */
+  readonly everywhere = signal(false);
+  readonly folder: Folder;
+  readonly queue: FolderQueue;
+  readonly offer: NameOffer;
   readonly doubts = computed<Doubt[]>(() => {
     const table = this.session.store.recording.value?.segmentation;
     return table ? doubtsOf(table) : [];
@@ -21,10 +29,25 @@ export class Review {
   constructor(
     private readonly session: Session,
     private readonly editor: Editor,
-  ) {}
+  ) {
+    this.folder = new Folder(session);
+    this.queue = new FolderQueue(this.folder);
+    this.offer = new NameOffer(session);
+  }
+
+  /** Goes through all recordings from now on, the least sure place of them first; or no more. */
+  async goEverywhere(everywhere: boolean): Promise<void> {
+    this.everywhere.value = everywhere;
+    if (everywhere) await this.queue.next();
+    else this.queue.looking.value = null;
+  }
 
   /** Goes to the segment of lowest confidence that has not been looked at. */
   next(): void {
+    const { everywhere, session } = this;
+    if (everywhere.value) return void this.queue.next();
+    const several = (session.state.value?.recordings.length ?? 0) > 1;
+    if (!session.store.recording.value && several) return void this.goEverywhere(true);
     const { value: doubts } = this.doubts;
     const { present } = this;
     if (present.value) this.passed.value.add(keyOf(present.value.segment));

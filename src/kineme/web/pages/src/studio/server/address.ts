@@ -28,6 +28,11 @@ export function pageAddress(token: string, open?: string, at_s = 0): string {
   return search({ token, ...(open && { open }), ...(at_s && { at: at_s.toFixed(3) }) });
 }
 
+/** The address of the page that shows the recordings of a library as a folder. */
+export function folderAddress(token: string): string {
+  return search({ token, folder: 1 });
+}
+
 /** The token in this page's address. */
 export function tokenInAddress(): string {
   return inAddress().get("token") ?? "";

@@ -7,6 +7,7 @@
  */
 
 import type {
+  CallEverywhere,
   Changed,
   ClipsRequest,
   CompareRequest,
@@ -15,6 +16,7 @@ import type {
   Edited,
   EditRequest,
   FileChoice,
+  FolderTables,
   KnowledgeRequest,
   LabelsRequest,
   LoopRow,
@@ -26,6 +28,7 @@ import type {
   PreviewRequest,
   Recording,
   State,
+  TablesChanged,
   Version,
   Versions,
   VideoRequest,
@@ -55,6 +58,11 @@ export class Api {
 
   state(): Promise<State> {
     return this.get("/api/state", {});
+  }
+
+  /** The tables of all recordings of the folder. */
+  tables(): Promise<FolderTables> {
+    return this.get("/api/tables", {});
   }
 
   recording(id: string): Promise<Recording> {
@@ -126,6 +134,11 @@ export class Api {
   async loops(id: string): Promise<LoopRow[]> {
     const answer: Loops = await this.get("/api/recordings/{id}/loops", { id });
     return answer.loops;
+  }
+
+  /** What a cluster is called holds in all recordings: by the library, or by the name it had. */
+  callEverywhere(request: CallEverywhere, ofLibrary: boolean): Promise<TablesChanged> {
+    return this.post(ofLibrary ? "/api/library/everywhere" : "/api/names", {}, request);
   }
 
   shareLabels(request: LabelsRequest): Promise<string[]> {

@@ -17,15 +17,19 @@ export type GetPath =
   | "/api/recordings/{id}/versions"
   | "/api/recordings/{id}/versions/{number}"
   | "/api/recordings/{id}/video"
-  | "/api/state";
+  | "/api/state"
+  | "/api/tables";
 
 /** Where something is sent to. */
 export type PostPath =
   | "/api/knowledge"
   | "/api/labels"
   | "/api/library/edits"
+  | "/api/library/everywhere"
   | "/api/library/names"
   | "/api/library/search"
+  | "/api/library/tables"
+  | "/api/names"
   | "/api/recordings"
   | "/api/recordings/{id}/clips"
   | "/api/recordings/{id}/compare"

@@ -1,0 +1,217 @@
+/**
+ * All recordings of the folder, a row each. Only the rows that are seen are there, so that five
+ * hundred scroll like ten.
+ */
+import { computed, useSignal, useSignalEffect } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
+import { isForPlayer } from "../../focus";
+import { sizeStyle } from "../../layout/sizes";
+import { useStudio } from "../context";
+import type { Status } from "../recordingList";
+import { FolderProgress } from "./FolderProgress";
+import { FolderRow } from "./FolderRow";
+import { COLUMNS, gridOf, ordered, rowOf, type Column } from "./rows";
+import { shownColumns, showColumn } from "./shownColumns";
+
+const BELOW =
+  ".place-viewer, .place-matrix, .place-side, .place-transport, .place-timeline, .place-curves";
+const HEIGHT = 30; // pixels of a row
+const MORE = 6; // rows drawn above and below what is seen
+
+export function FolderPage(): JSX.Element | null {
+  const { session, front } = useStudio();
+  const several = (session.state.value?.recordings.length ?? 0) > 1;
+  const none = !session.store.opened.value.length && !session.opening.value;
+  if (!(front.folder.value ?? (several && none))) return null;
+  return <Page />;
+}
+
+function Page(): JSX.Element {
+  const { session, review, front } = useStudio();
+  const { folder } = review;
+  const { list } = session;
+  const order = useSignal<[Column, boolean]>(["name", false]);
+  const top = useSignal(0);
+  const height = useSignal(600);
+  const place = useRef<HTMLDivElement>(null);
+  const rows = useMemo(
+    () =>
+      computed(() => {
+        const text = list.search.value.trim().toLowerCase();
+        const all = folder.members.value.map((each) => rowOf(each, list.statusOf(each.listing)));
+        const found = all.filter(
+          ({ listing, status }) =>
+            listing.name.toLowerCase().includes(text) &&
+            (!list.status.value || status === list.status.value),
+        );
+        return ordered(found, ...order.value);
+      }),
+    [folder, list, order],
+  );
+  useEffect(() => {
+    void folder.refresh();
+    const sized = new ResizeObserver(() => (height.value = place.current?.clientHeight ?? 600));
+    if (place.current) sized.observe(place.current);
+    return () => sized.disconnect();
+  }, [folder, height]);
+  useOver();
+  const columns = COLUMNS.filter(({ id }) => shownColumns.value.includes(id));
+  const [widths, least] = gridOf(columns);
+  const grid = { "--columns": widths, "--least": `${least}px` };
+  const from = Math.max(Math.floor(top.value / HEIGHT) - MORE, 0);
+  const to = Math.ceil((top.value + height.value) / HEIGHT) + MORE;
+  const isOpen = session.store.opened.value.length > 0;
+  return (
+    <section class="folder-page" aria-label="Folder" style={{ ...sizeStyle(), ...grid }}>
+      <div class="folder-tools">
+        <h2>{session.state.value?.folder.split(/[\\/]/).at(-1)}</h2>
+        <FolderProgress tally={folder.tally.value} />
+        <span class="spacer" />
+        <Find />
+        <button
+          type="button"
+          class="primary"
+          title="Through all recordings, what has the lowest confidence first (J)"
+          onClick={() => void review.goEverywhere(true)}
+        >
+          Review all recordings
+        </button>
+        {isOpen && (
+          <button type="button" onClick={() => (front.folder.value = null)}>
+            Back to the recording
+          </button>
+        )}
+      </div>
+      <div class="folder-tools">
+        <input
+          type="search"
+          placeholder="Filter by name"
+          aria-label="Filter the recordings by name"
+          value={list.search.value}
+          onInput={(event) => (list.search.value = event.currentTarget.value)}
+        />
+        <select
+          aria-label="Recordings that are"
+          value={list.status.value}
+          onChange={(event) => (list.status.value = event.currentTarget.value as Status | "")}
+        >
+          <option value="">all</option>
+          <option value="new">new</option>
+          <option value="corrected">corrected</option>
+          <option value="labelled">labelled</option>
+          <option value="checked">checked</option>
+        </select>
+        <span class="quiet number" role="status">
+          {rows.value.length} of {folder.members.value.length} recordings
+        </span>
+        <details class="column-choice">
+          <summary>Columns</summary>
+          <fieldset>
+            {COLUMNS.slice(1).map(({ id, title, help }) => (
+              <label key={id} title={help}>
+                <input
+                  type="checkbox"
+                  checked={shownColumns.value.includes(id)}
+                  onChange={(event) => showColumn(id, event.currentTarget.checked)}
+                />{" "}
+                {title}
+              </label>
+            ))}
+          </fieldset>
+        </details>
+      </div>
+      <div
+        ref={place}
+        class="folder-rows"
+        role="table"
+        aria-label="Recordings of the folder"
+        aria-rowcount={rows.value.length + 1}
+        tabIndex={0}
+        onScroll={(event) => (top.value = event.currentTarget.scrollTop)}
+      >
+        <div role="row" class="folder-row folder-head" aria-rowindex={1}>
+          {columns.map(({ id, title, help }) => {
+            const [by, reverse] = order.value;
+            const sorted = by === id ? (reverse ? "descending" : "ascending") : "none";
+            return (
+              <span key={id} role="columnheader" aria-sort={sorted}>
+                <button
+                  type="button"
+                  class="plain"
+                  title={`${help}; order by it`}
+                  onClick={() => (order.value = [id, by === id && !reverse])}
+                >
+                  {title}
+                  {by === id && (reverse ? " ▾" : " ▴")}
+                </button>
+              </span>
+            );
+          })}
+        </div>
+        <div role="rowgroup" style={{ height: `${rows.value.length * HEIGHT}px` }}>
+          {rows.value.slice(from, to).map((row, i) => (
+            <FolderRow
+              key={row.listing.id}
+              row={row}
+              at={from + i}
+              top={(from + i) * HEIGHT}
+              columns={columns.map(({ id }) => id)}
+            />
+          ))}
+        </div>
+      </div>
+    </section>
+  );
+}
+
+/** What lies below takes no keys: nothing is edited that is not seen. It goes where one goes. */
+function useOver(): void {
+  const { session, review, front } = useStudio();
+  const { store } = session;
+  const first = useRef(true);
+  useSignalEffect(() => {
+    void [store.recording.value?.id, review.queue.looking.value];
+    if (!first.current) front.folder.value = null;
+    first.current = false;
+  });
+  useLayoutEffect(() => {
+    const below = [...document.querySelectorAll<HTMLElement>(BELOW)];
+    for (const each of below) each.inert = true;
+    const onKey = (event: KeyboardEvent): void => {
+      if (!store.recording.peek() || document.querySelector("dialog[open]")) return;
+      event.stopPropagation();
+      if (event.key === "Escape") front.folder.value = null;
+      if (event.key === "j" && isForPlayer(event)) void review.goEverywhere(true);
+    };
+    addEventListener("keydown", onKey, { capture: true });
+    return () => {
+      for (const each of below) each.inert = false;
+      removeEventListener("keydown", onKey, { capture: true });
+    };
+  }, [store, review, front]);
+}
+
+/** Segments for the recordings that have none, and how far that is. */
+function Find(): JSX.Element | null {
+  const { review } = useStudio();
+  const { folder } = review;
+  const { value: finding } = folder.finding;
+  const { length: n } = folder.without.value;
+  if (finding)
+    return (
+      <span class="quiet number" role="status">
+        <span class="busy" /> segmenting {finding.done + 1} of {finding.all}…
+      </span>
+    );
+  if (!n || !folder.ready.value) return null;
+  return (
+    <button
+      type="button"
+      title="Find the segments of the recordings that have none yet; they are saved once you edit them"
+      onClick={() => void folder.find()}
+    >
+      Segment {n} {n === 1 ? "recording" : "recordings"}
+    </button>
+  );
+}

@@ -1,0 +1,33 @@
+/** A name of a cluster, for all recordings: said by what others are known, given in one action. */
+import type { JSX } from "preact";
+import { useStudio } from "../context";
+
+export function OfferBar(): JSX.Element | null {
+  const { review } = useStudio();
+  const { offer } = review;
+  const { value: present } = offer.present;
+  if (!present) return null;
+  const { cluster, before, label } = present;
+  return (
+    <div class="offer-bar" role="status">
+      <p>
+        Cluster {cluster} is “{label}” here.{" "}
+        {offer.isLibrary()
+          ? "The library knows it in other recordings, too."
+          : `In other recordings it is known by its name, “${before}”.`}
+      </p>
+      <button type="button" class="primary" onClick={() => void offer.take()}>
+        “{label}” in all recordings
+      </button>
+      <button
+        type="button"
+        class="icon"
+        title="Here only"
+        aria-label="Here only"
+        onClick={() => (offer.present.value = null)}
+      >
+        ×
+      </button>
+    </div>
+  );
+}

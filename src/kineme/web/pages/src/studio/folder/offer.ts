@@ -1,0 +1,75 @@
+/** What a cluster of one recording is called now, offered for all recordings of the folder. */
+import { effect, signal, untracked } from "@preact/signals";
+import { explain } from "../server/api";
+import type { Session } from "../session";
+
+export interface Offer {
+  recording: string;
+  cluster: number;
+  before: string;
+  label: string;
+}
+
+type Names = Readonly<Record<string, string>>;
+
+export class NameOffer {
+  /** null where there is nothing to offer. */
+  readonly present = signal<Offer | null>(null);
+  private last: { id: string; names: Names } | null = null;
+
+  constructor(private readonly session: Session) {
+    effect(() => {
+      const { id, segmentation, finding } = session.edited.value?.confirmed.value ?? {};
+      if (!id || !segmentation || finding) return;
+      const names = segmentation.cluster_names;
+      const last = this.last?.id === id ? this.last.names : names;
+      this.last = { id, names };
+      const other = otherName(last, names);
+      untracked(() => {
+        if (this.present.value?.recording !== id) this.present.value = null;
+        if (other) this.present.value = this.isUseful(other) ? { recording: id, ...other } : null;
+      });
+    });
+  }
+
+  /** Gives the name to all recordings; undo is in each of them. */
+  async take(): Promise<void> {
+    const { api, bulletin, state } = this.session;
+    const offer = this.present.value;
+    if (!offer) return;
+    this.present.value = null;
+    try {
+      const { tables, others, left } = await api.callEverywhere(offer, this.isLibrary());
+      const kept = others ? ` ${others} clusters there keep another name.` : "";
+      const lost = left.length ? ` Not changed: ${left.join("; ")}.` : "";
+      bulletin.tell(
+        `“${offer.label}” in ${tables} saved ${tables === 1 ? "table" : "tables"} more.${kept}${lost}`,
+      );
+      if (state.value) await this.session.refresh();
+    } catch (error) {
+      bulletin.problem(explain(error));
+    }
+  }
+
+  isLibrary(): boolean {
+    return this.session.state.value?.of_library ?? false;
+  }
+
+  private isUseful({ before, label }: { before: string; label: string }): boolean {
+    const several = (this.session.state.value?.recordings.length ?? 0) > 1;
+    return several && label !== "" && (this.isLibrary() || before !== "");
+  }
+}
+
+/** The one cluster whose name is another now; null where none is, or several are. */
+function otherName(last: Names, names: Names): Omit<Offer, "recording"> | null {
+  const all = new Set([...Object.keys(last), ...Object.keys(names)]);
+  const changed = [...all].filter((cluster) => (last[cluster] ?? "") !== (names[cluster] ?? ""));
+  const [cluster] = changed;
+  if (cluster === undefined || changed.length > 1) return null;
+  return {
+    cluster: Number(cluster),
+    before: last[cluster] ?? "",
+    label: names[cluster] ?? "",
+  };
+}

@@ -1,0 +1,55 @@
+/** Tables of a folder in brief, for tests. */
+import type { BriefTable, Listing, Segments } from "../../src/messages";
+
+/** Two activities; the second starts where it does with this confidence. */
+export function brief(border: number, checked: number[] = []): BriefTable {
+  return {
+    n_frames: 100,
+    fps: 10,
+    level: ["activity", "activity"],
+    kind: ["activity", "activity"],
+    start_frame: [0, 40],
+    stop_frame: [40, 100],
+    cluster: [0, 1],
+    activity: [0, 1],
+    label: ["", "hop"],
+    confidence: [1, 1],
+    border_confidence: [null, border],
+    checked,
+    comments: 0,
+  };
+}
+
+export function listing(id: string, table: BriefTable | null): Listing {
+  const n = table?.level.length ?? 0;
+  const checked = table?.checked.length ?? 0;
+  return {
+    id,
+    name: `${id}.bvh`,
+    bytes: 1,
+    corrected: table !== null,
+    segments: n,
+    checked,
+    named: table?.label.filter(Boolean).length ?? 0,
+    to_name: n,
+  };
+}
+
+/** A table as a server would tell it. */
+export function briefOf({ n_frames, fps, segments, checked, comments }: Segments): BriefTable {
+  return {
+    n_frames,
+    fps,
+    level: segments.map(({ level }) => level),
+    kind: segments.map(({ kind }) => kind),
+    start_frame: segments.map(({ start_frame }) => start_frame),
+    stop_frame: segments.map(({ stop_frame }) => stop_frame),
+    cluster: segments.map(({ cluster }) => cluster),
+    activity: segments.map(({ activity }) => activity),
+    label: segments.map(({ label }) => label),
+    confidence: segments.map(({ confidence }) => confidence),
+    border_confidence: segments.map(({ border_confidence }) => border_confidence),
+    checked,
+    comments: comments.length,
+  };
+}

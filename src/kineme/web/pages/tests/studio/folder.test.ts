@@ -1,0 +1,32 @@
+import { expect, it } from "vitest";
+import type { BriefTable, Segments } from "../../src/messages";
+import { leastOf, stripOf, tableOf, tallyOf } from "../../src/studio/folder/briefTables";
+import { ordered, rowOf } from "../../src/studio/folder/rows";
+import { brief, listing } from "./briefs";
+
+it("tells of a table what its row shows", () => {
+  const table = tableOf(brief(0.3, [0]));
+  expect(tallyOf(table)).toEqual({ all: 2, checked: 1, doubtful: 1 });
+  expect(leastOf(table)).toBeCloseTo(0.3);
+  expect(stripOf(table)).toBe(
+    "linear-gradient(to right, #332288 0.00% 40.00%, #DDCC77 40.00% 100.00%)",
+  );
+});
+
+it("orders recordings by a column; those without a table come last", () => {
+  const member = (id: string, table: BriefTable | null) => ({
+    listing: listing(id, table),
+    table: table && (tableOf(table) as Segments | null),
+    comments: 0,
+  });
+  const rows = [
+    rowOf(member("a", brief(0.9)), "corrected"),
+    rowOf(member("b", null), "new"),
+    rowOf(member("c", brief(0.2)), "corrected"),
+  ];
+  const names = (reverse: boolean): string =>
+    ordered(rows, "least", reverse)
+      .map(({ listing: { id } }) => id)
+      .join("");
+  expect([names(false), names(true)]).toEqual(["cab", "acb"]);
+});
