@@ -127,6 +127,16 @@ def moves_a_border(screen: Screen) -> None:
     state(screen, f"!({moved})", "Control+z")
 
 
+def brings_a_border(screen: Screen) -> None:
+    for key in "[]":
+        to_a_segment(screen)
+        start = screen.state["frame"]
+        state(screen, f"k.frame === {start + 2}", "ArrowRight", "ArrowRight")
+        here = f"k.segments.some((row) => row.start_frame === {start + 2})"
+        state(screen, here, key)
+        state(screen, f"!({here})", "Control+z")
+
+
 def to_a_segment(screen: Screen) -> None:
     """To the fifth primitive, whichever level what came before has left."""
     state(screen, "k.frame === 0", "0", "Home")
@@ -209,6 +219,7 @@ CHECKS: dict[str, Check] = {
     "S": edits("ArrowRight", "ArrowRight", "s", more=1),
     "M": edits("m", more=-1),
     "Delete": edits("Delete", more=-1),
+    "[, ]": brings_a_border,
     "Alt + ← →": moves_a_border,
     "A": changes_level,
     "N": names("n"),

@@ -34,6 +34,7 @@ def test_each_documented_key_does_what_the_help_says_whatever_was_clicked(new_ta
     assert page.locator(".keys th").all_inner_texts() == list(CHECKS)
     page.keyboard.press("Escape")
     before = screen.state["segments"]
+    page.get_by_text("Advanced").click()
     controls = page.locator(CONTROLS)
     n, known = controls.count(), list(CHECKS.items())
     for turn in range(max(n, len(known))):
@@ -68,6 +69,7 @@ def test_who_tabs_keeps_the_keys_of_a_control_and_sees_the_focus(page):
 
 def test_the_wheel_over_a_number_and_letters_in_a_field_change_nothing_else(page):
     screen = Screen(page)
+    page.get_by_text("Advanced").click()
     field = page.locator(".parameter input[type=number]").first
     value = field.input_value()
     field.click()

@@ -43,6 +43,7 @@ def test_what_makes_a_preview_the_table_is_in_sight(page, size):
         for name in ("Apply", "Discard"):
             in_sight(page.get_by_role("button", name=name))
     in_sight(page.get_by_text("would be lost"))
+    page.get_by_text("Advanced").click()
     page.locator(".parameter input[type=range]").last.focus()  # below what is in sight at first
     in_sight(page.locator(".parameter input[type=range]").last)
     page.get_by_role("button", name="Apply").click()

@@ -80,6 +80,7 @@ def test_a_segment_has_one_confidence_in_queue_panel_and_table(page):
     chosen = page.locator(".table-rows [aria-selected=true]")
     cell = chosen.locator("[role=gridcell]").last
     until(page, lambda: cell.inner_text() == shown, f"table: {shown}")
+    page.get_by_role("button", name="More").click()
     page.get_by_label("Confidence below").fill(str(int(shown[:-2]) / 100 - 0.01))
     page.get_by_text("0 segments").wait_for()
 

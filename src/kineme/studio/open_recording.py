@@ -43,6 +43,7 @@ Found = tuple[Segmentation, list[str]]
 SOON = 3.0
 """Seconds that a page waits for segments; the first ones of all take longer, to compile."""
 STILL_FINDING = "the segments are still being found: try again once they are"
+CHANGED = "the table was changed elsewhere meanwhile: look at it as it is now, and edit it again"
 
 
 class ConflictError(Exception):
@@ -164,8 +165,7 @@ class OpenRecording:
             if self._journal.knows(name):
                 return self._edited([])
             if revision != self.revision:
-                reason = f"the table has changed: this edit is of revision {revision}"
-                raise ConflictError(f"{reason}, now it is {self.revision}", self._edited([]))
+                raise ConflictError(CHANGED, self._edited([]))
             change, notes = self._after(edit, files, name or uuid.uuid4().hex)
             if self._file.changed():
                 raise self._changed_elsewhere()

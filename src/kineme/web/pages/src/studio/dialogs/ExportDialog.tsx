@@ -13,7 +13,7 @@ interface Props {
 }
 
 const CHOICES: readonly (readonly [Level | "", string])[] = [
-  ["", "both levels, or the activities in formats of one"],
+  ["", "activities and primitives (activities alone where a format has one level)"],
   ["activity", "activities"],
   ["primitive", "primitives"],
 ];

@@ -53,7 +53,7 @@ export function TransferDialog({ close }: Props): JSX.Element {
             </select>
           </label>
           <label class="field">
-            <span>Largest difference, body sizes</span>
+            <span>Largest distance at which two movements are the same</span>
             <input
               type="number"
               min="0.01"

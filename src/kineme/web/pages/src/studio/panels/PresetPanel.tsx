@@ -2,7 +2,7 @@
  * Preset and the few parameters that matter. A change shows what it would find below what is
  * there; a button makes it the table, and says what becomes of corrections and names.
  */
-import { useSignal } from "@preact/signals";
+import { signal, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useCallback, useEffect, useRef } from "preact/hooks";
 import { useStudio } from "../context";
@@ -12,6 +12,9 @@ import { DetailSlider } from "../../layout/DetailSlider";
 import type { Choice } from "../editing/beside";
 import { ParameterSlider } from "./ParameterSlider";
 import { Proposed } from "./Proposed";
+
+/** Whether the constants are shown, beside preset and detail: of all recordings. */
+const advanced = signal(false);
 
 const PAUSE = 120; // milliseconds without a change before the server is asked
 
@@ -26,7 +29,6 @@ export function PresetPanel(): JSX.Element | null {
   return (
     <Presets
       key={edited.id}
-
       edited={edited}
       presets={signals ? state.presets.map(ofSignals) : state.presets}
       fallback={state.default_preset}
@@ -115,14 +117,21 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
           ))}
         </select>
         <DetailSlider />
-        {choice.parameters.map((parameter) => (
-          <ParameterSlider
-            key={`${preset}.${parameter.name}`}
-            parameter={parameter}
-            value={values[parameter.name] ?? parameter.value}
-            change={(value) => change(parameter, value)}
-          />
-        ))}
+        <details
+          class="advanced"
+          open={advanced.value}
+          onToggle={(event) => (advanced.value = event.currentTarget.open)}
+        >
+          <summary>Advanced</summary>
+          {choice.parameters.map((parameter) => (
+            <ParameterSlider
+              key={`${preset}.${parameter.name}`}
+              parameter={parameter}
+              value={values[parameter.name] ?? parameter.value}
+              change={(value) => change(parameter, value)}
+            />
+          ))}
+        </details>
       </div>
       {proposal && (
         <Proposed

@@ -36,78 +36,75 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
   const segments = rows.map(({ segment }) => segment);
   return (
     <div class="table-actions">
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          const edits = segments.map(({ level, start_frame: frame }): ByHand => {
-            return { kind: "name_segment", level, frame, label: name.value.trim() };
-          });
-          editor.together(edits, `named “${name.value.trim()}”`);
-        }}
-      >
-        <input
-          type="text"
-          aria-label="Name for all chosen"
-          placeholder="name"
-          disabled={!rows.length}
-          value={name.value}
-          onInput={(event) => (name.value = event.currentTarget.value)}
-        />
-        <button type="submit" disabled={!rows.length}>
-          Name {rows.length || ""}
-        </button>
-      </form>
-      <button
-        type="button"
-        disabled={!merges.length}
-        title="Neighbours become one segment"
-        onClick={() =>
-          editor.together(
-            merges.map(({ level, start, stop }) => {
-              return { kind: "merge", level, start_frame: start, stop_frame: stop };
-            }),
-            "merged",
-          )
-        }
-      >
-        Merge
-      </button>
-      <button
-        type="button"
-        disabled={!rows.length}
-        onClick={() => editor.check(segments, !checked)}
-      >
-        {checked ? "Uncheck" : "Check"}
-      </button>
-      <button
-        type="button"
-        disabled={!divisible}
-        title="The chosen ones become a cluster of their own"
-        onClick={() =>
-          editor.splitCluster(
-            cluster,
-            segments.map(({ start_frame }) => start_frame),
-          )
-        }
-      >
-        New cluster
-      </button>
-      <button
-        type="button"
-        disabled={!rows.length || busy.value}
-        title="The chosen segments as motion files"
-        onClick={() => void clips(false)}
-      >
-        Clips…
-      </button>
-      <button
-        type="button"
-        disabled={!rows.length || busy.value}
-        title="The same, each made to close, so that it can be repeated without a jerk"
-        onClick={() => void clips(true)}
-      >
-        Loops…
-      </button>
+      {rows.length > 0 && (
+        <>
+          <form
+            onSubmit={(event) => {
+              event.preventDefault();
+              const edits = segments.map(({ level, start_frame: frame }): ByHand => {
+                return { kind: "name_segment", level, frame, label: name.value.trim() };
+              });
+              editor.together(edits, `named “${name.value.trim()}”`);
+            }}
+          >
+            <input
+              type="text"
+              aria-label="Name for all chosen"
+              placeholder="name"
+              value={name.value}
+              onInput={(event) => (name.value = event.currentTarget.value)}
+            />
+            <button type="submit">Name {rows.length}</button>
+          </form>
+          <button
+            type="button"
+            disabled={!merges.length}
+            title="Neighbours become one segment"
+            onClick={() =>
+              editor.together(
+                merges.map(({ level, start, stop }) => {
+                  return { kind: "merge", level, start_frame: start, stop_frame: stop };
+                }),
+                "merged",
+              )
+            }
+          >
+            Merge
+          </button>
+          <button type="button" onClick={() => editor.check(segments, !checked)}>
+            {checked ? "Uncheck" : "Check"}
+          </button>
+          <button
+            type="button"
+            disabled={!divisible}
+            title="The chosen ones become a cluster of their own"
+            onClick={() =>
+              editor.splitCluster(
+                cluster,
+                segments.map(({ start_frame }) => start_frame),
+              )
+            }
+          >
+            New cluster
+          </button>
+          <button
+            type="button"
+            disabled={busy.value}
+            title="The chosen segments as motion files"
+            onClick={() => void clips(false)}
+          >
+            Clips…
+          </button>
+          <button
+            type="button"
+            disabled={busy.value}
+            title="The same, each made to close, so that it can be repeated without a jerk"
+            onClick={() => void clips(true)}
+          >
+            Loops…
+          </button>
+        </>
+      )}
       <button
         type="button"
         disabled={!session.edited.value || !session.store.recording.value?.motion}
@@ -116,6 +113,9 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
       >
         Loops by quality…
       </button>
+      {rows.length === 0 && (
+        <span class="quiet note">Choose rows to name, merge, check, write.</span>
+      )}
     </div>
   );
 }

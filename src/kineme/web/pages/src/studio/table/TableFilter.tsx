@@ -1,34 +1,61 @@
 /** What the table of segments is narrowed to. */
-import type { Signal } from "@preact/signals";
+import { signal, type Signal } from "@preact/signals";
 import type { JSX } from "preact";
 import type { Level } from "../../messages";
-import type { Filter } from "./rows";
+import { EVERYTHING, type Filter } from "./rows";
+
+/** Whether more is shown than name and level. */
+const open = signal(false);
 
 export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element {
   const change = (part: Partial<Filter>): void =>
     void (filter.value = { ...filter.value, ...part });
-  const number = (text: string, otherwise: number): number => {
-    const value = Number.parseFloat(text);
-    return Number.isFinite(value) ? value : otherwise;
-  };
+  const { text, level, ...rest } = filter.value;
+  const narrowed = Object.entries(rest).some(
+    ([what, value]) => value !== EVERYTHING[what as keyof typeof rest],
+  );
   return (
     <div class="table-filter">
       <input
         type="search"
         placeholder="Name or cluster"
         aria-label="Only segments with this in their name"
-        value={filter.value.text}
+        value={text}
         onInput={(event) => change({ text: event.currentTarget.value })}
       />
       <select
         aria-label="Level"
-        value={filter.value.level}
+        value={level}
         onChange={(event) => change({ level: event.currentTarget.value as Level | "" })}
       >
         <option value="">both levels</option>
         <option value="activity">activities</option>
         <option value="primitive">primitives</option>
       </select>
+      <button
+        type="button"
+        aria-expanded={open.value}
+        aria-pressed={narrowed}
+        title="Kind, checked or not, length, confidence"
+        onClick={() => (open.value = !open.value)}
+      >
+        More
+      </button>
+      {open.value && <MoreFilters filter={filter} />}
+    </div>
+  );
+}
+
+function MoreFilters({ filter }: { filter: Signal<Filter> }): JSX.Element {
+  const change = (part: Partial<Filter>): void =>
+    void (filter.value = { ...filter.value, ...part });
+  const number = (text: string, otherwise: number): number => {
+    const value = Number.parseFloat(text);
+    return Number.isFinite(value) ? value : otherwise;
+  };
+  const { shortest, longest, confidenceBelow } = filter.value;
+  return (
+    <div class="more-filters">
       <select
         aria-label="Kind of segment"
         value={filter.value.kind}
@@ -54,6 +81,7 @@ export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element
           step="0.1"
           placeholder="from s"
           aria-label="Shortest, seconds"
+          defaultValue={shortest || ""}
           onInput={(event) => change({ shortest: number(event.currentTarget.value, 0) })}
         />
         <input
@@ -62,6 +90,7 @@ export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element
           step="0.1"
           placeholder="to s"
           aria-label="Longest, seconds"
+          defaultValue={Number.isFinite(longest) ? longest : ""}
           onInput={(event) => change({ longest: number(event.currentTarget.value, Infinity) })}
         />
         <input
@@ -71,6 +100,7 @@ export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element
           step="0.05"
           placeholder="confidence <"
           aria-label="Confidence below"
+          defaultValue={Number.isFinite(confidenceBelow) ? confidenceBelow : ""}
           onInput={(event) =>
             change({ confidenceBelow: number(event.currentTarget.value, Infinity) })
           }
