@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
+from sklearn.metrics import cohen_kappa_score
 
 import naive
 from kineme.errors import ParameterError
@@ -19,6 +20,7 @@ from kineme.evaluation import (
     Truth,
     border_ratio,
     border_score,
+    cohen_kappa,
     covering,
     cut_ratio,
     evaluate,
@@ -89,6 +91,14 @@ def test_shares_lie_between_0_and_1(pair):
     assert -1 <= scores["rand_index"] <= 1
 
 
+@given(pairs())
+def test_kappa_is_that_of_scikit_learn(pair):
+    compared = of(*pair)
+    if len({*compared.truth.tolist(), *compared.mapped.tolist()}) > 1:
+        expected = cohen_kappa_score(compared.truth, compared.mapped)
+        assert cohen_kappa(compared) == pytest.approx(expected)
+
+
 @given(truths())
 def test_the_truth_itself_scores_1(truth):
     found = truth.labelling()
@@ -97,6 +107,7 @@ def test_the_truth_itself_scores_1(truth):
     scores = evaluate(truth, found)
     assert scores["rand_index"] == pytest.approx(1)
     assert scores["mutual_information"] == pytest.approx(1)
+    assert scores["cohen_kappa"] == pytest.approx(1)
     assert scores["cluster_ratio"] == 1
 
 
