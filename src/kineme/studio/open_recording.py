@@ -164,8 +164,8 @@ class OpenRecording:
             if self._journal.knows(name):
                 return self._edited([])
             if revision != self.revision:
-                reason = f"the table has changed: this edit is of revision {revision}"
-                raise ConflictError(f"{reason}, now it is {self.revision}", self._edited([]))
+                reason = "the table was changed elsewhere since this page showed it"
+                raise ConflictError(reason, self._edited([]))
             change, notes = self._after(edit, files, name or uuid.uuid4().hex)
             if self._file.changed():
                 raise self._changed_elsewhere()
