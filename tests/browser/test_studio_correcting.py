@@ -224,6 +224,7 @@ def test_a_result_is_compared_with_an_annotation(page, server, take):
     page.get_by_role("button", name="truth.csv", exact=True).click()
     scores = page.locator(".scores")
     until(page, lambda: scores.locator("tr").count() > 2, "a table of scores")
+    assert "Cohen's kappa" in scores.inner_text()
     screen.changed(before, "lanes")
     page.get_by_role("button", name="Stop comparing").click()
     scores.wait_for(state="detached")

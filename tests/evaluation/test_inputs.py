@@ -6,7 +6,7 @@ import pytest
 
 from kineme.errors import ReadError
 from kineme.evaluation import TRANSITION
-from kineme.evaluation.inputs import agreement, read_result, read_truth
+from kineme.evaluation.inputs import agreement, differences, read_result, read_truth
 from kineme.segments.segmentation import Segmentation
 
 
@@ -90,3 +90,12 @@ def test_labelled_intervals_are_clusters_by_their_names(tmp_path) -> None:
     assert not agreement(Segmentation.from_columns(
         {"level": ["activity"], "kind": ["transition"], "start_frame": [0], "stop_frame": [60]},
         n_frames=60, fps=10.0), found)  # fmt: skip
+
+
+def test_where_two_people_differ_is_told_but_not_what_borders_leave_open(tmp_path) -> None:
+    first, second = tmp_path / "ann.csv", tmp_path / "bob.csv"
+    first.write_text("start_s,stop_s,label\n0,2,a\n2,4,b\n4,6,a\n")
+    second.write_text("start_s,stop_s,label\n0,2.2,a\n2.2,4,b\n4,5,a\n5,6,b\n")
+    ann, bob = (read_result(path, fps=10) for path in (first, second))
+    assert differences(ann, bob) == [(5.0, 6.0)]
+    assert differences(ann, ann) == []

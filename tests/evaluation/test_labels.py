@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
+from sklearn.metrics import cohen_kappa_score
 
 import naive
 from kineme.errors import ParameterError
@@ -19,6 +20,7 @@ from kineme.evaluation import (
     Truth,
     border_ratio,
     border_score,
+    cohen_kappa,
     covering,
     cut_ratio,
     evaluate,
@@ -89,6 +91,14 @@ def test_shares_lie_between_0_and_1(pair):
     assert -1 <= scores["rand_index"] <= 1
 
 
+@given(pairs())
+def test_kappa_is_that_of_scikit_learn(pair):
+    compared = of(*pair)
+    if len({*compared.truth.tolist(), *compared.mapped.tolist()}) > 1:
+        expected = cohen_kappa_score(compared.truth, compared.mapped)
+        assert cohen_kappa(compared) == pytest.approx(expected)
+
+
 @given(truths())
 def test_the_truth_itself_scores_1(truth):
     found = truth.labelling()
@@ -97,6 +107,7 @@ def test_the_truth_itself_scores_1(truth):
     scores = evaluate(truth, found)
     assert scores["rand_index"] == pytest.approx(1)
     assert scores["mutual_information"] == pytest.approx(1)
+    assert scores["cohen_kappa"] == pytest.approx(1)
     assert scores["cluster_ratio"] == 1
 
 
@@ -115,7 +126,8 @@ def test_names_of_clusters_do_not_matter(pair, names):
     new = dict(zip(["1", "2", "3", TRANSITION], [*names, TRANSITION], strict=True))
     renamed = Labelling(found.borders, tuple(new[label] for label in found.labels), found.fps)
     ours, theirs = evaluate(truth, found), evaluate(truth, renamed)
-    for name in ("edit", "f1@10", "f1@25", "f1@50"):  # of equal mappings either may be taken
+    # Of mappings with as many frames right any is taken, which these tell apart.
+    for name in ("cohen_kappa", "edit", "f1@10", "f1@25", "f1@50"):
         del ours[name], theirs[name]
     assert theirs == pytest.approx(ours, nan_ok=True)
 
@@ -181,7 +193,8 @@ def test_labels_without_gaps_score_as_a_truth_of_exact_borders(labels, data):
     truth = Truth.from_labelling(Labelling.from_frames(labels, fps=10.0), tolerance_s=0.5)
     exact = of(truth, Labelling.from_frames(clusters, fps=10.0))
     for name, score in scores().items():
-        if name not in ("edit", "f1@10", "f1@25", "f1@50"):  # of equal mappings any is taken
+        # Of mappings with as many frames right any is taken, which these tell apart.
+        if name not in ("cohen_kappa", "edit", "f1@10", "f1@25", "f1@50"):
             ours, theirs = (value_of(score.function(one)) for one in (plain, exact))
             assert ours == pytest.approx(theirs, nan_ok=True), name
 

@@ -78,6 +78,7 @@ def test_every_call_reports_every_score(results):
     wanted = {
         *("strict", "tolerant", "majority", "majority_agreed"),
         *("mof", "one_to_one", "one_to_one_agreed", "rand_index", "mutual_information"),
+        "cohen_kappa",
         *("edit", "f1@10", "f1@25", "f1@50"),
         *("border_precision", "border_recall", "border_f1", "covering"),
         *("border_ratio", "cut_ratio", "cluster_ratio"),

@@ -252,6 +252,8 @@ def test_another_result_beside_the_one_shown(studio, folder: Path) -> None:
     rows = said["segmentation"]["segments"]
     assert [(row["start_frame"], row["label"]) for row in rows] == [(0, "walk"), (120, "hop")]
     assert 0 <= said["scores"]["one_to_one"] <= 1
+    assert said["meanings"].keys() == said["scores"].keys()
+    assert all(0 <= start < stop <= 4 for start, stop in said["differences"])
     elan = studio.client.post(compare, json={"annotation": files["said.eaf"]})
     assert elan.status_code == 200
     long = studio.client.post(compare, json={"annotation": files["other.csv"]})

@@ -16,6 +16,7 @@ from kineme.evaluation.borders import (
 )
 from kineme.evaluation.comparison import Comparison, Spans, compare, labelling_of
 from kineme.evaluation.frames import (
+    cohen_kappa,
     frames_right,
     mutual_information,
     one_to_one_accuracy,
@@ -52,6 +53,7 @@ __all__ = [
     "border_ratio",
     "border_score",
     "cluster_ratio",
+    "cohen_kappa",
     "compare",
     "count_errors",
     "covering",

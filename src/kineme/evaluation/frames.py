@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from sklearn.metrics import adjusted_rand_score, normalized_mutual_info_score
 
-from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.comparison import Comparison, contingency
 from kineme.evaluation.score import Ratio, Score
 
 
@@ -74,13 +74,50 @@ def mutual_information(compared: Comparison) -> float:
     return float(normalized_mutual_info_score(compared.truth, compared.found))
 
 
+def cohen_kappa(compared: Comparison) -> float:
+    """Cohen's kappa: how far frames are right beyond what chance would give.
+
+    Chance gives each side's classes the shares of frames that they have, wherever these lie. A
+    cluster goes by the class that it stands for. Source: Cohen, A coefficient of agreement for
+    nominal scales, 1960.
+
+    Parameters
+    ----------
+    compared : Comparison
+        Of a result, or of a second person, and the truth.
+
+    Returns
+    -------
+    float
+        1 is equal, 0 is chance, below is worse; also 1 where both sides are one and the same class.
+
+    Examples
+    --------
+    >>> cohen_kappa(Comparison([0, 0, 0, 1], [4, 4, 7, 7], fps=1))
+    0.5
+    >>> cohen_kappa(Comparison([0, 0, 1, 1], [4, 4, 4, 4], fps=1))
+    0.0
+    """
+    found, true, frames = contingency(compared.mapped, compared.truth)
+    row, column = np.nonzero(found[:, None] == true)
+    shares = frames / frames.sum()
+    right = shares[row, column].sum()
+    by_chance = (shares.sum(axis=1)[row] * shares.sum(axis=0)[column]).sum()
+    return float((right - by_chance) / (1 - by_chance)) if by_chance < 1 else 1.0
+
+
 SCORES = (
     Score("mof", "MoF", "share of all frames that are right", "frames", frames_right),
     Score("one_to_one", "one to one", "share of frames that are right, the mean over recordings",
           "frames", one_to_one_accuracy),
-    Score("one_to_one_agreed", "one to one, agreed", "the same of frames on which people agree",
+    Score("one_to_one_agreed", "one to one, agreed",
+          "share of frames right, of those on which people agree",
           "frames", lambda compared: one_to_one_accuracy(compared.agreed)),
-    Score("rand_index", "ARI", "adjusted Rand index of frames", "frames", rand_index),
-    Score("mutual_information", "NMI", "normalised mutual information of frames", "frames",
+    Score("rand_index", "ARI", "adjusted Rand index: pairs of frames together in both, 0 is chance",
+          "frames", rand_index),
+    Score("mutual_information", "NMI",
+          "normalised mutual information: how much one side tells of the other", "frames",
           mutual_information),
+    Score("cohen_kappa", "Cohen's kappa", "frames right beyond chance: 1 is equal, 0 is chance",
+          "frames", cohen_kappa),
 )  # fmt: skip

@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.evaluation.comparison import labelling_of
-from kineme.evaluation.score import evaluate_segmentation
-from kineme.evaluation.truth import TRANSITION, Truth
+from kineme.evaluation.comparison import Comparison, labelling_of, runs
+from kineme.evaluation.score import comparison_of, evaluate_segmentation, results_of, value_of
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 from kineme.labels.clock_times import by_clock
 from kineme.labels.files import read_content
 from kineme.labels.spans import Labels, as_segmentation
@@ -89,12 +89,44 @@ def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
     >>> agreement(truth, truth)["border_f1"]
     1.0
     """
-    if not (truth.activities.kind == "activity").any():
-        return {}
-    n_frames, fps = comparison(found)
-    actions = truth_of(truth, n_frames=n_frames, fps=fps)
-    scores = evaluate_segmentation(actions, found)
+    compared = _beside(truth, found)
+    results = {} if compared is None else results_of(compared)
+    scores = {name: value_of(result) for name, result in results.items()}
     return {name: value for name, value in scores.items() if isfinite(value)}
+
+
+def differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, float]]:
+    """Spans in seconds, in order, in which two segmentations of a recording differ.
+
+    Those no longer than the tolerance of borders are none; nor is what the truth calls a
+    transition.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> truth = kineme.read_segments(bundled_truth())
+    >>> differences(truth, truth)
+    []
+    """
+    compared = _beside(truth, found)
+    if compared is None:
+        return []
+    least = compared.spans.actions.tolerance_s * compared.fps
+    wrong = (compared.truth != compared.mapped) & (compared.truth != UNLABELLED)
+    return [
+        (run.start / compared.fps, run.stop / compared.fps)
+        for run in runs(wrong)
+        if run.label and run.stop - run.start > least
+    ]
+
+
+def _beside(truth: Segmentation, found: Segmentation) -> Comparison | None:
+    """Both at the rate of comparison; None where the truth has no activity."""
+    if not (truth.activities.kind == "activity").any():
+        return None
+    n_frames, fps = comparison(found)
+    return comparison_of(truth_of(truth, n_frames=n_frames, fps=fps), found)
 
 
 def comparison(found: Segmentation) -> tuple[int, float]:

@@ -91,10 +91,11 @@ def _closed_spans(truth: Truth) -> tuple[Ints, Ints, NDArray[np.bool_]]:
 SCORES = (
     Score("strict", "strict", "share of the truth that is covered", "published protocols",
           one_of(strict_and_tolerant, 0)),
-    Score("tolerant", "tolerant", "the same without the uncertain spans", "published protocols",
-          one_of(strict_and_tolerant, 1)),
-    Score("majority", "majority", "share of frames right, clusters going by their majority",
+    Score("tolerant", "tolerant", "strict, without the spans in which borders are uncertain",
+          "published protocols", one_of(strict_and_tolerant, 1)),
+    Score("majority", "majority",
+          "share of frames right, a cluster being what most of its frames are",
           "published protocols", one_of(majority_accuracy, 0)),
-    Score("majority_agreed", "majority, agreed", "the same of frames on which people agree",
+    Score("majority_agreed", "majority, agreed", "majority, of frames on which people agree",
           "published protocols", one_of(majority_accuracy, 1)),
 )  # fmt: skip

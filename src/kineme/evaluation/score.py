@@ -245,11 +245,23 @@ def evaluate_segmentation(
     >>> evaluate_segmentation(truth, labels)["one_to_one"]
     1.0
     """
+    compared = comparison_of(truth, found, positions=positions, features=features)
+    return {name: value_of(result) for name, result in results_of(compared).items()}
+
+
+def comparison_of(
+    truth: Truth,
+    found: Segmentation,
+    *,
+    positions: ArrayLike | None = None,
+    features: ArrayLike | None = None,
+) -> Comparison:
+    """A segmentation beside a truth; which of its clusters count, `evaluate_segmentation` says."""
     rows = found.activities
     activities = labelling_of(rows, fps=found.fps)
     primitives = labelling_of(found.primitives, fps=found.fps) if len(found.primitives) else None
     grouped = bool(np.any((rows.cluster >= 0) | (rows.label != "")))
-    return evaluate(
+    return Comparison.of(
         truth,
         activities if grouped or primitives is None else primitives,
         activities=activities,

@@ -49,6 +49,7 @@ from kineme.web.messages import (
     Loops,
     Preview,
     Recording,
+    ScoreMeaning,
     State,
     Versions,
 )
@@ -220,7 +221,8 @@ class Api:
         return self._opened(request).version(*_numbers(request, "number"))
 
     def compare(self, request: Request, sent: CompareRequest) -> Comparison:
-        from kineme.evaluation.inputs import agreement
+        from kineme.evaluation import scores
+        from kineme.evaluation.inputs import agreement, differences
         from kineme.labels.collections import labels_for
         from kineme.web.page_data import segments_message
 
@@ -237,8 +239,17 @@ class Api:
             )
         else:
             raise ParameterError("compare with a preset or with an annotation: name one of them")
-        scores = agreement(other, table)  # the other is taken for the truth
-        return Comparison(name=title, segmentation=segments_message(other), scores=scores)
+        found = agreement(other, table)  # the other is taken for the truth
+        return Comparison(
+            name=title,
+            segmentation=segments_message(other),
+            scores=found,
+            meanings={
+                name: ScoreMeaning(title=scores()[name].title, help=scores()[name].help)
+                for name in found
+            },
+            differences=differences(other, table),
+        )
 
     def export(self, request: Request) -> Response:
         from kineme.studio import downloads

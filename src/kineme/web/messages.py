@@ -161,12 +161,25 @@ class Conflict(Edited, frozen=True, kw_only=True):
     error: str
 
 
+class ScoreMeaning(Struct, frozen=True, kw_only=True):
+    """What people call a score, and what it measures."""
+
+    title: str
+    help: str
+
+
 class Comparison(Struct, frozen=True, kw_only=True):
-    """The other result, and how well the shown one agrees with it."""
+    """The other result, and how well the shown one agrees with it.
+
+    ``meanings`` are those of the scores; ``differences`` are spans in seconds, in order, in which
+    the two say different things.
+    """
 
     name: str
     segmentation: Segments
     scores: dict[str, float]
+    meanings: dict[str, ScoreMeaning] = {}
+    differences: list[tuple[float, float]] = []
 
 
 class Preview(Struct, frozen=True, kw_only=True):

@@ -191,11 +191,24 @@ export interface Conflict {
   error: string;
 }
 
-/** The other result, and how well the shown one agrees with it. */
+/** What people call a score, and what it measures. */
+export interface ScoreMeaning {
+  title: string;
+  help: string;
+}
+
+/**
+ * The other result, and how well the shown one agrees with it.
+ *
+ * `meanings` are those of the scores; `differences` are spans in seconds, in order, in which
+ * the two say different things.
+ */
 export interface Comparison {
   name: string;
   segmentation: Segments;
   scores: Record<string, number>;
+  meanings?: Record<string, ScoreMeaning>;
+  differences?: [number, number][];
 }
 
 /**

@@ -24,20 +24,25 @@ export function CompareDialog({ close }: Props): JSX.Element {
     <Dialog title="Compare with another result" close={close}>
       <p class="quiet">Its segments are laid below the shown ones, with how well they agree.</p>
       <h2>What a preset finds</h2>
-      <div class="choices">
-        {presets.map(({ name, help }) => (
-          <button
-            key={name}
-            type="button"
-            title={help}
-            disabled={busy.value !== ""}
-            onClick={() => void compare(name, { preset: name })}
-          >
-            {name}
-            {busy.value === name && <span class="busy" />}
-          </button>
-        ))}
-      </div>
+      <table class="methods">
+        <tbody>
+          {presets.map(({ name, help }) => (
+            <tr key={name}>
+              <td>
+                <button
+                  type="button"
+                  disabled={busy.value !== ""}
+                  onClick={() => void compare(name, { preset: name })}
+                >
+                  {name}
+                  {busy.value === name && <span class="busy" />}
+                </button>
+              </td>
+              <td class="quiet">{help}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
       <h2>A label file of the folder</h2>
       <div class="choices">
         {annotations.map(({ id, name }) => (

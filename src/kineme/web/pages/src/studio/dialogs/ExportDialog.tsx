@@ -13,9 +13,9 @@ interface Props {
 }
 
 const CHOICES: readonly (readonly [Level | "", string])[] = [
-  ["", "activities and primitives (activities alone where a format has one level)"],
-  ["activity", "activities"],
-  ["primitive", "primitives"],
+  ["", "activities and primitives; activities alone where a format holds one lane"],
+  ["activity", "activities alone"],
+  ["primitive", "primitives alone"],
 ];
 
 export function ExportDialog({ close }: Props): JSX.Element {

@@ -39,8 +39,8 @@ export function TransferDialog({ close }: Props): JSX.Element {
       ) : (
         <form onSubmit={transfer}>
           <p class="quiet">
-            Each primitive without a name takes that of the most similar one in the knowledge base,
-            if it is similar enough.
+            A knowledge base is a file of movements that have names. Each primitive without a name
+            takes that of the most similar one in it, if it is similar enough.
           </p>
           <label class="field">
             <span>Knowledge base</span>

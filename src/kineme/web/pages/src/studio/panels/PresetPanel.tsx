@@ -104,7 +104,6 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
         <select
           aria-label="Preset"
           value={preset}
-          title={choice.help}
           onChange={(event) => {
             const next = presets.find((each) => each.name === event.currentTarget.value)!;
             again({ preset: next.name, values: defaults(next), detail: 1 }, 0);
@@ -116,6 +115,7 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
             </option>
           ))}
         </select>
+        <p class="preset-help quiet">{choice.help}</p>
         <DetailSlider />
         <details
           class="advanced"
