@@ -127,6 +127,7 @@ def test_other_parameters_are_a_preview_until_they_are_applied(page, take):
     page.get_by_label("Preset", exact=True).select_option("voegele2014")
     screen.previewed()
     assert screen.state["segments"] == before
+    page.get_by_text("Advanced").click()
     slider = page.get_by_role("slider", name="Window").or_(page.get_by_role("slider").first)
     box = box_of(slider.first)
     page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + box["height"] / 2)

@@ -101,7 +101,7 @@ def test_a_mapping_is_one_to_one_and_no_single_exchange_betters_it(compared) -> 
 def test_scores_do_not_depend_on_the_numbers_of_clusters(compared) -> None:
     renamed = Comparison(compared.truth, 17 - 3 * compared.found, compared.fps)
     for name, score in scores().items():
-        if name in ("edit", "f1@10", "f1@25", "f1@50"):
+        if name in ("edit", "f1@10", "f1@25", "f1@50", "cohen_kappa"):
             continue  # of two equally good mappings either may be taken
         mine, theirs = value_of(score.function(compared)), value_of(score.function(renamed))
         assert mine == pytest.approx(theirs, nan_ok=True), name

@@ -13,7 +13,7 @@ interface Props {
 }
 
 const CHOICES: readonly (readonly [Level | "", string])[] = [
-  ["", "activities and primitives; activities alone where a format holds one lane"],
+  ["", "activities and primitives, if it holds both"],
   ["activity", "activities alone"],
   ["primitive", "primitives alone"],
 ];

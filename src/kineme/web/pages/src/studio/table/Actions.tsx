@@ -8,7 +8,7 @@ import { save } from "../server/save";
 import { type Row, spansToMerge } from "./rows";
 
 export function Actions({ rows }: { rows: Row[] }): JSX.Element {
-  const { session, editor, front } = useStudio();
+  const { session, editor } = useStudio();
   const busy = useSignal(false);
   const clips = async (loops: boolean): Promise<void> => {
     const { edited, api, bulletin } = session;
@@ -36,86 +36,86 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
   const segments = rows.map(({ segment }) => segment);
   return (
     <div class="table-actions">
-      {rows.length > 0 && (
-        <>
-          <form
-            onSubmit={(event) => {
-              event.preventDefault();
-              const edits = segments.map(({ level, start_frame: frame }): ByHand => {
-                return { kind: "name_segment", level, frame, label: name.value.trim() };
-              });
-              editor.together(edits, `named “${name.value.trim()}”`);
-            }}
-          >
-            <input
-              type="text"
-              aria-label="Name for all chosen"
-              placeholder="name"
-              value={name.value}
-              onInput={(event) => (name.value = event.currentTarget.value)}
-            />
-            <button type="submit">Name {rows.length}</button>
-          </form>
-          <button
-            type="button"
-            disabled={!merges.length}
-            title="Neighbours become one segment"
-            onClick={() =>
-              editor.together(
-                merges.map(({ level, start, stop }) => {
-                  return { kind: "merge", level, start_frame: start, stop_frame: stop };
-                }),
-                "merged",
-              )
-            }
-          >
-            Merge
-          </button>
-          <button type="button" onClick={() => editor.check(segments, !checked)}>
-            {checked ? "Uncheck" : "Check"}
-          </button>
-          <button
-            type="button"
-            disabled={!divisible}
-            title="The chosen ones become a cluster of their own"
-            onClick={() =>
-              editor.splitCluster(
-                cluster,
-                segments.map(({ start_frame }) => start_frame),
-              )
-            }
-          >
-            New cluster
-          </button>
-          <button
-            type="button"
-            disabled={busy.value}
-            title="The chosen segments as motion files"
-            onClick={() => void clips(false)}
-          >
-            Clips…
-          </button>
-          <button
-            type="button"
-            disabled={busy.value}
-            title="The same, each made to close, so that it can be repeated without a jerk"
-            onClick={() => void clips(true)}
-          >
-            Loops…
-          </button>
-        </>
-      )}
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          const edits = segments.map(({ level, start_frame: frame }): ByHand => {
+            return { kind: "name_segment", level, frame, label: name.value.trim() };
+          });
+          editor.together(edits, `named “${name.value.trim()}”`);
+        }}
+      >
+        <input
+          type="text"
+          aria-label="Name for all chosen"
+          placeholder="name"
+          value={name.value}
+          onInput={(event) => (name.value = event.currentTarget.value)}
+        />
+        <button type="submit">Name {rows.length}</button>
+      </form>
       <button
         type="button"
-        disabled={!session.edited.value || !session.store.recording.value?.motion}
-        title="Which repetitions make good loops: seam, sliding feet, turn and speed"
-        onClick={() => front.show("loops")}
+        disabled={!merges.length}
+        title="Neighbours become one segment"
+        onClick={() =>
+          editor.together(
+            merges.map(({ level, start, stop }) => {
+              return { kind: "merge", level, start_frame: start, stop_frame: stop };
+            }),
+            "merged",
+          )
+        }
       >
-        Loops by quality…
+        Merge
       </button>
-      {rows.length === 0 && (
-        <span class="quiet note">Choose rows to name, merge, check, write.</span>
-      )}
+      <button type="button" onClick={() => editor.check(segments, !checked)}>
+        {checked ? "Uncheck" : "Check"}
+      </button>
+      <button
+        type="button"
+        disabled={!divisible}
+        title="The chosen ones become a cluster of their own"
+        onClick={() =>
+          editor.splitCluster(
+            cluster,
+            segments.map(({ start_frame }) => start_frame),
+          )
+        }
+      >
+        New cluster
+      </button>
+      <button
+        type="button"
+        disabled={busy.value}
+        title="The chosen segments as motion files"
+        onClick={() => void clips(false)}
+      >
+        Clips…
+      </button>
+      <button
+        type="button"
+        disabled={busy.value}
+        title="The same, each made to close, so that it can be repeated without a jerk"
+        onClick={() => void clips(true)}
+      >
+        Loops…
+      </button>
     </div>
+  );
+}
+
+/** A way to the list of loops, which needs no rows. */
+export function LoopsButton(): JSX.Element {
+  const { session, front } = useStudio();
+  return (
+    <button
+      type="button"
+      disabled={!session.edited.value || !session.store.recording.value?.motion}
+      title="Which repetitions make good loops: seam, sliding feet, turn and speed"
+      onClick={() => front.show("loops")}
+    >
+      Loops by quality…
+    </button>
   );
 }

@@ -10,7 +10,7 @@ import { NO_COLOR } from "../../colors";
 import { durationOf, nameOf } from "../../segments";
 import { clock } from "../../view";
 import { between, EVERYTHING, type Filter, type Order, type Row, rowsOf } from "./rows";
-import { Actions } from "./Actions";
+import { Actions, LoopsButton } from "./Actions";
 import { TableFilter } from "./TableFilter";
 
 const HEIGHT = 26; // pixels of a row
@@ -83,7 +83,7 @@ export function SegmentTable(): JSX.Element {
   return (
     <div class="segment-table">
       <TableFilter filter={filter} />
-      <Actions rows={many} />
+      {many.length > 0 && <Actions rows={many} />}
       <div class="table-head" role="presentation">
         {COLUMNS.map(([id, title]) => (
           <button
@@ -128,9 +128,16 @@ export function SegmentTable(): JSX.Element {
           ))}
         </div>
       </div>
-      <p class="quiet note" role="status">
-        {rows.value.length} segments{many.length > 0 && `, ${many.length} chosen`}
-      </p>
+      <div class="table-foot">
+        <p
+          class="quiet note"
+          role="status"
+          title="Click rows, with Shift or Ctrl several, to name, merge, check or write them"
+        >
+          {rows.value.length} segments{many.length > 0 && `, ${many.length} chosen`}
+        </p>
+        <LoopsButton />
+      </div>
     </div>
   );
 }
