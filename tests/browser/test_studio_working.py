@@ -47,6 +47,7 @@ def test_a_label_of_the_folder_is_given_with_its_key_and_a_comment_stays(page, t
     comment.fill("the left foot slips")
     comment.press("Control+Enter")
     table = take.with_suffix(".segments.json")
+    screen.saved()
     until(page, lambda: "the left foot slips" in table.read_text(), "the comment is on the disk")
     screen.saved()
     page.reload()
