@@ -7,6 +7,7 @@ its file does not change.
 
 from __future__ import annotations
 
+from collections.abc import Container, Sequence
 from functools import lru_cache
 from itertools import groupby, pairwise
 from pathlib import Path
@@ -15,11 +16,11 @@ import msgspec
 
 from kineme.errors import KinemeError
 from kineme.labels import json_table, read_segments
-from kineme.segments.annotation import NO_ANNOTATION, Annotation
+from kineme.segments.annotation import NO_ANNOTATION, Annotation, Span
 from kineme.segments.editing import comments
-from kineme.segments.editing.annotating import marked, span_of
+from kineme.segments.editing.annotating import marked
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Kind, Level
+from kineme.segments.table import Kind, Level, Segment
 from kineme.studio.reading import stamp_of
 from kineme.web.messages import BriefTable
 
@@ -37,22 +38,7 @@ def saved_brief(path: Path) -> BriefTable | None:
 
 def brief_of(table: Segmentation) -> BriefTable:
     """A table in brief."""
-    rows, checked = list(table), marked(table, "checked")
-    return BriefTable(
-        n_frames=table.n_frames,
-        fps=table.fps,
-        level=[row.level for row in rows],
-        kind=[row.kind for row in rows],
-        start_frame=[row.start_frame for row in rows],
-        stop_frame=[row.stop_frame for row in rows],
-        cluster=[row.cluster for row in rows],
-        activity=[row.activity for row in rows],
-        label=[row.label for row in rows],
-        confidence=[row.confidence for row in rows],  # nan is null in JSON
-        border_confidence=[row.border_confidence for row in rows],
-        checked=[number for number, row in enumerate(rows) if span_of(row) in checked],
-        comments=len(comments(table)),
-    )
+    return _brief(table, [*table], marked(table, "checked"), len(comments(table)))
 
 
 class _Row(msgspec.Struct):
@@ -83,7 +69,8 @@ def _of_file(path: Path, *_: int) -> BriefTable | None:
     except ValueError:
         saved = None
     if saved is not None and saved.schema == json_table.SCHEMA and _tiles(saved):
-        return _brief(saved)
+        annotation = saved.annotation
+        return _brief(saved, saved.segments, {*annotation.checked}, len(annotation.comments))
     try:
         return brief_of(read_segments(path, format="json"))
     except KinemeError:
@@ -102,12 +89,16 @@ def _tiles(saved: _Saved) -> bool:
     )
 
 
-def _brief(saved: _Saved) -> BriefTable:
-    rows, checked = saved.segments, {*saved.annotation.checked}
+def _brief(
+    table: Segmentation | _Saved,
+    rows: Sequence[Segment] | Sequence[_Row],
+    checked: Container[Span],
+    n_comments: int,
+) -> BriefTable:
     spans = [(row.level, row.start_frame, row.stop_frame) for row in rows]
     return BriefTable(
-        n_frames=saved.n_frames,
-        fps=saved.fps,
+        n_frames=table.n_frames,
+        fps=table.fps,
         level=[row.level for row in rows],
         kind=[row.kind for row in rows],
         start_frame=[row.start_frame for row in rows],
@@ -115,8 +106,8 @@ def _brief(saved: _Saved) -> BriefTable:
         cluster=[row.cluster for row in rows],
         activity=[row.activity for row in rows],
         label=[row.label for row in rows],
-        confidence=[row.confidence for row in rows],
+        confidence=[row.confidence for row in rows],  # nan is null in JSON
         border_confidence=[row.border_confidence for row in rows],
         checked=[number for number, span in enumerate(spans) if span in checked],
-        comments=len(saved.annotation.comments),
+        comments=n_comments,
     )
