@@ -7,6 +7,7 @@ import type { JSX } from "preact";
 import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { isForPlayer } from "../../focus";
 import { sizeStyle } from "../../layout/sizes";
+import { StatusOptions } from "./StatusOptions";
 import { useStudio } from "../context";
 import type { Status } from "../recordingList";
 import { FolderProgress } from "./FolderProgress";
@@ -96,11 +97,7 @@ function Page(): JSX.Element {
           value={list.status.value}
           onChange={(event) => (list.status.value = event.currentTarget.value as Status | "")}
         >
-          <option value="">all</option>
-          <option value="new">new</option>
-          <option value="corrected">corrected</option>
-          <option value="labelled">labelled</option>
-          <option value="checked">checked</option>
+          <StatusOptions />
         </select>
         <span class="quiet number" role="status">
           {rows.value.length} of {folder.members.value.length} recordings

@@ -1,5 +1,6 @@
 /** Under the figure: what of the folder is looked at, why, and how far one is. */
 import type { JSX } from "preact";
+import { ReviewButtons } from "../review/ReviewButtons";
 import { useStudio } from "../context";
 import { nameOf } from "../../segments";
 import { clock } from "../../view";
@@ -28,17 +29,7 @@ export function QueueBar(): JSX.Element | null {
       </p>
       <FolderProgress tally={review.folder.tally.value} />
       <span class="group">
-        <button type="button" title="Next to look at (J)" onClick={() => review.next()}>
-          Next
-        </button>
-        <button
-          type="button"
-          class="primary"
-          title="The segment is right: mark it and go on (K)"
-          onClick={() => review.checkAndGoOn()}
-        >
-          Checked, next
-        </button>
+        <ReviewButtons />
         <button
           type="button"
           class="icon"

@@ -1,5 +1,6 @@
 /** The recordings of the folder: search, open, show beside, add. */
 import type { JSX } from "preact";
+import { StatusOptions } from "../folder/StatusOptions";
 import { useStudio } from "../context";
 import type { Listing } from "../../messages";
 import type { Order, Status } from "../recordingList";
@@ -58,11 +59,7 @@ export function FolderPanel(): JSX.Element {
             value={status.value}
             onChange={(event) => (status.value = event.currentTarget.value as Status | "")}
           >
-            <option value="">all</option>
-            <option value="new">new</option>
-            <option value="corrected">corrected</option>
-            <option value="labelled">labelled</option>
-            <option value="checked">checked</option>
+            <StatusOptions />
           </select>
           <select
             aria-label="Order of the recordings"

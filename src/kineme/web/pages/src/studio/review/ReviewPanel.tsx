@@ -1,5 +1,6 @@
 /** What to look at next, why, and how far one is. */
 import type { ComponentChildren, JSX } from "preact";
+import { ReviewButtons } from "./ReviewButtons";
 import { useStudio } from "../context";
 import { clusterColor, NO_COLOR } from "../../colors";
 import type { Level } from "../../messages";
@@ -37,17 +38,7 @@ export function ReviewPanel(): JSX.Element {
       <Progress level="activity" title="Activities" of={progressOf(table, "activity")} />
       <Progress level="primitive" title="Primitives" of={progressOf(table, "primitive")} />
       <p class="actions">
-        <button type="button" title="Next to look at (J)" onClick={() => review.next()}>
-          Next
-        </button>
-        <button
-          type="button"
-          class="primary"
-          title="The segment is right: mark it and go on (K)"
-          onClick={() => review.checkAndGoOn()}
-        >
-          Checked, next
-        </button>
+        <ReviewButtons />
       </p>
       <p class="why" role="status">
         {present

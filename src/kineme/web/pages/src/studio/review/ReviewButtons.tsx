@@ -1,0 +1,22 @@
+/** On to the next place to look at, with or without a mark on this one. */
+import type { JSX } from "preact";
+import { useStudio } from "../context";
+
+export function ReviewButtons(): JSX.Element {
+  const { review } = useStudio();
+  return (
+    <>
+      <button type="button" title="Next to look at (J)" onClick={() => review.next()}>
+        Next
+      </button>
+      <button
+        type="button"
+        class="primary"
+        title="The segment is right: mark it and go on (K)"
+        onClick={() => review.checkAndGoOn()}
+      >
+        Checked, next
+      </button>
+    </>
+  );
+}
