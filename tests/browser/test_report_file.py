@@ -76,6 +76,21 @@ def test_it_plays_without_a_network(chromium, segments, tmp_path: Path) -> None:
     assert printed > 200  # light, though the screen is dark
 
 
+def test_the_studio_prints_what_the_report_does(page, take) -> None:
+    page.emulate_media(media="print")
+    shown = {
+        place: page.locator(place).first.is_visible()
+        for place in (".viewer", ".place-timeline", ".paper .repetitions", ".place-left", ".video")
+    }
+    buttons = page.get_by_role("button").all()
+    assert [button.inner_text() for button in buttons if button.is_visible()] == []
+    assert [place for place, is_shown in shown.items() if is_shown] == [
+        ".viewer",
+        ".place-timeline",
+        ".paper .repetitions",
+    ]
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_the_printed_figure_is_the_one_on_the_screen(chromium, segments, tmp_path, scheme) -> None:
     path = tmp_path / "report.html"

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { repetitionsOf } from "../src/report/repetitions";
+import { repetitionsOf } from "../src/paper/repetitions";
 import { segment, tableOf } from "./recordings";
 
 it("lists each activity with the durations of its repetitions", () => {

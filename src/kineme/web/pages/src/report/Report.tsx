@@ -15,7 +15,7 @@ import { Timeline } from "../timeline/Timeline";
 import { IconButton } from "../transport/icons";
 import { Transport } from "../transport/Transport";
 import { Viewer } from "../viewer/Viewer";
-import { Paper, Repetitions } from "./Repetitions";
+import { Paper, Repetitions } from "../paper/Repetitions";
 
 export function Report(): JSX.Element {
   const store = useStore();

@@ -5,7 +5,7 @@ import "../styles/index.css";
 import { StoreProvider } from "../context";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
-import { startPrinting } from "./printing";
+import { startPrinting } from "../paper/printing";
 import { exposeSnapshot } from "../snapshot";
 import { EmbeddedData } from "../recordingData";
 import { loadMotion, openRecording, type ShownRecording } from "../opened";

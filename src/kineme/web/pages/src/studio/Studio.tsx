@@ -7,6 +7,7 @@ import { useStore } from "../context";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
 import { MatrixPlace } from "../matrix/MatrixPlace";
+import { Paper } from "../paper/Repetitions";
 import { Timeline } from "../timeline/Timeline";
 import { Transport } from "../transport/Transport";
 import { Viewer } from "../viewer/Viewer";
@@ -90,6 +91,7 @@ export function Studio(): JSX.Element {
         curves={hasFigure && store.curves.value && <Channels />}
       />
       <FolderPage />
+      <Paper />
       <OfferBar />
       <Notices />
       <DropZone />

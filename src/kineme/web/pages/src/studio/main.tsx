@@ -5,6 +5,7 @@ import "../styles/index.css";
 import "./studio.css";
 import "./folder/folder.css";
 import { StoreProvider } from "../context";
+import { startPrinting } from "../paper/printing";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
 import { Store } from "../store";
@@ -46,6 +47,7 @@ function start(): void {
   rememberLevel(store);
   startPlayer(store);
   exposeStudio(session);
+  startPrinting();
   startKeys(store, (event) => commandOf(event, parts));
   for (const what of ["keyup", "blur"]) addEventListener(what, () => editor.release());
   render(
