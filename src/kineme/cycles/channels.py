@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme._checks import as_texts
 from kineme.cycles.angles import about, bend, between, cardan, continuous
+from kineme.cycles.centres import with_centres
 from kineme.cycles.landmarks import SIDES, landmarks
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import body_frame, heading
@@ -156,14 +157,16 @@ def _of_signals(signals: Signals) -> list[Channel]:
 def of_motion(motion: Motion) -> list[Channel]:
     """Every channel of a body: its angles first, after them rotations, positions, speeds."""
     channels: list[Channel] = []
-    names, fps, gaps = motion.skeleton.names, motion.fps, motion.gaps
+    fps, gaps = motion.fps, motion.gaps
+    extended, parts = with_centres(motion, landmarks(motion))
+    names = extended.skeleton.names
 
     def add(name: str, unit: str, group: str, of: Sequence[str | int], compute: Compute) -> None:
         source = ", ".join(each if isinstance(each, str) else names[each] for each in of)
         channels.append(Channel(name, unit, group, source, fps, compute, gaps))
 
     faces = _faces(motion)
-    _add_angles(motion, landmarks(motion), add)
+    _add_angles(extended, parts, add)
     if faces:
         add("heading", DEGREES, "direction", ["the line of the hips"], partial(_heading, motion))
     _add_joints(motion, faces, add)
