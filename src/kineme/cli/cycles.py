@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -69,6 +69,15 @@ def cycles(
             metavar="EVENT",
         ),
     ] = None,
+    align: Annotated[
+        Literal["linear", "landmarks", "warp"],
+        option(
+            MEASURED,
+            "Bring curves in step: linear, landmarks or warp.",
+            metavar="HOW",
+            show_default=False,
+        ),
+    ] = "linear",
     exclude: Annotated[
         list[str] | None,
         option(
@@ -124,7 +133,13 @@ def cycles(
             if sides is not None:
                 names = _with_stance(recordings, names)
             found = measured(
-                recordings, tables, channels=names, anchor=anchor, beside=analog, common=common
+                recordings,
+                tables,
+                channels=names,
+                anchor=anchor,
+                beside=analog,
+                common=common,
+                align=align,
             )
             found = _excluded(found, exclude or [])
             if output is not None:
