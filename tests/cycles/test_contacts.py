@@ -54,6 +54,18 @@ def test_a_swing_is_between_the_turns_of_the_foot() -> None:
     assert ((ons > 1 + np.arange(6) * 1.1) & (ons < 1.2 + np.arange(6) * 1.1)).all()
 
 
+def test_a_foot_that_is_slow_between_heel_and_swing_takes_one_step() -> None:
+    rates = steps()
+    t = np.arange(0, 3, 1 / FPS)
+    slow = np.zeros((len(t), 3))
+    for when, high, wide in ((1.0, 3.0, 0.06), (1.5, -3.0, 0.09), (1.72, 3.0, 0.03)):
+        slow[:, 1] += high * np.exp(-((t - when) ** 2) / 2 / wide**2)
+    found = swings_from_gyroscope(np.concatenate([rates, slow]), FPS)
+    assert len(found) == 7
+    start = len(rates) / FPS
+    assert start + 1.0 < found[-1, 0] < start + 1.2 < start + 1.5 < found[-1, 1] < start + 1.8
+
+
 def test_a_sensor_that_lies_still_has_no_swings() -> None:
     assert swings_from_gyroscope(np.zeros((500, 3)), FPS).shape == (0, 2)
     with pytest.raises(ParameterError, match="frames x 3"):
