@@ -119,6 +119,8 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
         write_events(source, tmp_path / "copy.c3d", [0.001 * i for i in range(300)], ["hop"] * 300)
     with pytest.raises(ParameterError, match="1 times and 2 names"):
         write_events(source, tmp_path / "copy.c3d", [0.5], ["hop", "hop"])
+    with pytest.raises(ReadError, match="is no C3D file, of which a copy"):
+        write_events(tmp_path / "walk.bvh", tmp_path / "copy.c3d", TIMES, NAMES)
     (tmp_path / "text.c3d").write_text("no recording")
     with pytest.raises(ReadError):
         write_events(tmp_path / "text.c3d", tmp_path / "copy.c3d", TIMES, NAMES)

@@ -9,7 +9,7 @@ neither is early or late.
 
 *Positions.* Heel and toe each stand while they are low and slow; the foot while one of them does.
 
-*Force.* While a plate bears more than a threshold.
+*Force.* While a plate bears more than a threshold, above what it tells when nobody stands on it.
 """
 
 from __future__ import annotations
@@ -47,6 +47,8 @@ BRIDGE_S, STAND_S = 0.1, 0.1
 """Seconds: a shorter break is none, and a shorter stand is none."""
 NEWTON = 20.0
 """What a force plate bears when somebody stands on it, at least."""
+EMPTY = 0.1
+"""Of the largest force: what is less is that of an empty plate, whose amplifiers have an offset."""
 
 
 def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
@@ -198,7 +200,7 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
     Parameters
     ----------
     force : (frames,) array
-        Upright, newtons; its sign does not matter.
+        Upright, newtons; its sign does not matter, nor does a constant offset.
     fps : float
         Frames per second.
     least : float
@@ -216,7 +218,9 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
     [[0.1, 0.7]]
     """
     values = as_floats(force, "force").ravel()
-    return _lasting(np.abs(values) > least, fps)
+    empty = values[np.abs(values) < EMPTY * np.abs(values).max(initial=0.0)]
+    offset = float(np.median(empty)) if len(empty) else 0.0
+    return _lasting(np.abs(values - offset) > least, fps)
 
 
 def _lasting(stands: NDArray[np.bool_], fps: float) -> Floats:

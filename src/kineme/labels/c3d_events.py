@@ -122,6 +122,8 @@ def write_events(
     target = Path(path)
     if target.exists() and target.samefile(source):
         raise WriteError(target, "is the recording itself: name another file")
+    if Path(source).suffix.lower() != ".c3d":
+        raise ReadError(source, "is no C3D file, of which a copy could take the events")
     if target.suffix.lower() != ".c3d":
         raise WriteError(target, "must end in .c3d")
     with reading(source):
