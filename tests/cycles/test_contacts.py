@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import defaultdict
 from itertools import pairwise
 from pathlib import Path
@@ -21,7 +22,7 @@ from kineme.cycles import (
     swings_from_gyroscope,
 )
 from kineme.datasets import Action, synthesize
-from kineme.errors import ParameterError
+from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Signals
 
 FPS = 100.0
@@ -54,6 +55,18 @@ def test_a_swing_is_between_the_turns_of_the_foot() -> None:
     assert ((ons > 1 + np.arange(6) * 1.1) & (ons < 1.2 + np.arange(6) * 1.1)).all()
 
 
+def test_a_foot_that_is_slow_between_heel_and_swing_takes_one_step() -> None:
+    rates = steps()
+    t = np.arange(0, 3, 1 / FPS)
+    slow = np.zeros((len(t), 3))
+    for when, high, wide in ((1.0, 3.0, 0.06), (1.5, -3.0, 0.09), (1.72, 3.0, 0.03)):
+        slow[:, 1] += high * np.exp(-((t - when) ** 2) / 2 / wide**2)
+    found = swings_from_gyroscope(np.concatenate([rates, slow]), FPS)
+    assert len(found) == 7
+    start = len(rates) / FPS
+    assert start + 1.0 < found[-1, 0] < start + 1.2 < start + 1.5 < found[-1, 1] < start + 1.8
+
+
 def test_a_sensor_that_lies_still_has_no_swings() -> None:
     assert swings_from_gyroscope(np.zeros((500, 3)), FPS).shape == (0, 2)
     with pytest.raises(ParameterError, match="frames x 3"):
@@ -74,6 +87,25 @@ def test_a_plate_bears_who_stands_on_it() -> None:
     force = np.r_[np.zeros(200), -700 * np.ones(600), np.zeros(200)]
     assert stands_from_force(force, 1000.0).tolist() == [[0.2, 0.8]]
     assert len(stands_from_force(force, 1000.0, least=800)) == 0
+
+
+def test_an_empty_plate_need_not_tell_zero() -> None:
+    force = np.r_[np.zeros(200), -700 * np.ones(600), np.zeros(200)]
+    for offset in (-30.0, 25.0):
+        assert stands_from_force(force + offset, 1000.0).tolist() == [[0.2, 0.8]]
+    assert stands_from_force(700 + np.zeros(500), 1000.0).tolist() == [[0.0, 0.5]]
+    assert len(stands_from_force(np.zeros(500), 1000.0)) == 0
+
+
+def test_contacts_of_a_plate_are_those_that_its_file_marks(data_dir: Path) -> None:
+    path = data_dir / "formats" / "Dec_real.c3d"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KinemeWarning)  # markers that are not seen all the time
+        marked = {name: at for at, name in kineme.read(path).provenance.events}
+    found = foot_events(kineme.read(path, columns=["*"]), left="FZ1", right="FZ2")
+    for name, mark in (("left foot strike", "LHS"), ("left foot off", "LTO"),
+                       ("right foot strike", "RHS"), ("right foot off", "RTO")):  # fmt: skip
+        assert found.at(name) == pytest.approx([marked[mark]], abs=0.04)
 
 
 def test_a_walk_has_steps_of_both_feet_in_turn() -> None:

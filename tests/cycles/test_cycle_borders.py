@@ -41,6 +41,24 @@ def test_durations_are_right_within_a_fraction_of_a_frame_of_the_grid() -> None:
     assert 0 < np.nanmedian(run.uncertainty) < 0.03
 
 
+def test_channels_that_only_shake_do_not_move_borders() -> None:
+    features, true = swing(np.random.default_rng(5).uniform(0.9, 1.1, 30).tolist(), noise=0.02)
+    shaking = 1.5 * np.random.default_rng(3).normal(size=(len(features), 20))
+    cut = np.round(true[1:-1] * 30 + 0.3) / 30
+    (run,) = in_phase([run_of(0, cut)], [np.hstack([features, shaking])], [RATE])
+    assert (np.diff(run.borders)[1:-1] - np.diff(true[1:-1])[1:-1]).std() < 0.02
+
+
+def test_an_end_in_another_movement_is_where_a_usual_repetition_has_it() -> None:
+    features, true = swing([1.0, 1.01, 0.99, 1.0, 1.01, 0.99, 1.0, 1.0])
+    other = np.random.default_rng(1).normal(size=(60, 3))
+    features[int(true[6] * RATE) + 40 : int(true[6] * RATE) + 100] = other
+    (run,) = in_phase([run_of(0, true[1:8])], [features], [RATE])
+    assert np.diff(run.borders)[-1] == pytest.approx(1.0, abs=0.05)
+    alone = in_phase([run_of(0, true[1:4])], [features], [RATE])[0]
+    assert np.isfinite(alone.borders).all()
+
+
 @pytest.mark.parametrize("late", [0.25, 0.5, -0.3])
 def test_runs_of_one_cluster_begin_at_one_phase(late: float) -> None:
     features, true = swing([1.0] * 8)

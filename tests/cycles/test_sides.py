@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
+from typer.testing import CliRunner
 
 import kineme
-from kineme.cycles import Cycles, compare_sides
+from kineme.cli.app import app
+from kineme.cycles import Cycles, channels_of, compare_sides, foot_events, gait, plot_sides
+from kineme.cycles.channels import contacts_of
 from kineme.cycles.sides import MEASURES, sides_of
+from kineme.datasets import Action, synthesize
 from kineme.datasets.synthetic import SyntheticRecording
+from kineme.errors import ParameterError
+from kineme.recordings import Signals
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +51,44 @@ def test_turned_sides_differ_the_other_way(cycles: Cycles) -> None:
     assert len(there["n"]) == len(MEASURES) * len(cycles.groups)
     assert there["difference"] == pytest.approx(-back["difference"], nan_ok=True)
     assert there["low"] == pytest.approx(-back["high"], nan_ok=True)
+
+
+def test_shares_of_stance_are_compared() -> None:
+    walk = synthesize([Action("walk", 8)], fps=120, seed=1)
+    cycles = kineme.cycles(walk.motion, walk.truth, channels=["stance_*", "knee_*"])
+    sides = compare_sides(cycles)
+    stance = sides["left_channel"] == "stance_l"
+    assert sides["measure"][stance].tolist() == ["mean"]
+    assert 50 < sides["left"][stance][0] < 65
+    assert abs(sides["symmetry_index"][stance][0]) < 10
+    spans = gait(foot_events(walk.motion))
+    shares = dict(zip(spans["measure"].tolist(), spans["right_mean"].tolist(), strict=True))
+    assert sides["right"][stance][0] == pytest.approx(shares["stance_percent"], abs=3)
+
+
+def test_sensors_at_feet_tell_the_share_of_stance() -> None:
+    rates = np.zeros((500, 3))
+    rates[:, 1] = np.tile(np.r_[np.zeros(40), -6 * np.hanning(12), 5 * np.hanning(36),
+                                -5 * np.hanning(12)], 5)  # fmt: skip
+    signals = Signals(rates, 100.0, ["lf_gyr_x", "lf_gyr_y", "lf_gyr_z"])
+    assert [channel.name for channel in contacts_of(signals)] == ["stance_l"]
+    assert 45 < channels_of(signals, ["stance_l"])[0].values()[150:350].mean() < 65
+    assert [channel.name for channel in channels_of(signals)] == list(signals.names)
+
+
+def test_left_is_drawn_over_right(cycles: Cycles, tmp_path: Path) -> None:
+    axes = plot_sides(cycles, "knee_l", "knee_r", "walk", ax=Figure().add_subplot())
+    assert [line.get_label()[:6] for line in axes.lines] == ["knee_l", "knee_r"]
+    assert axes.get_title(loc="left") == "walk"
+    with pytest.raises(ParameterError, match="no channel 'knee'"):
+        plot_sides(cycles, "knee", "knee_r", "walk")
+    walk = synthesize([Action("walk", 6)], fps=60, seed=1).motion
+    kineme.write(walk, tmp_path / "walk.bvh")
+    targets = ["--sides", str(tmp_path / "sides.csv"), "--plot", str(tmp_path / "sides.png")]
+    done = CliRunner().invoke(app, ["cycles", str(tmp_path / "walk.bvh"), *targets])
+    assert done.exit_code == 0, done.output
+    assert "stance_l,stance_r,mean" in (tmp_path / "sides.csv").read_text()
+    assert (tmp_path / "sides.png").stat().st_size > 10_000
 
 
 def test_one_cycle_has_no_bounds_and_none_no_means(cycles: Cycles) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -50,7 +50,7 @@ def cycles(
     ] = None,
     sides: Annotated[
         Path | None,
-        option(OUTPUT, "Write left beside right: .csv or .parquet."),
+        option(OUTPUT, "Write left beside right (.csv, .parquet); --plot draws it."),
     ] = None,
     channels: Annotated[
         str | None,
@@ -69,12 +69,21 @@ def cycles(
             metavar="EVENT",
         ),
     ] = None,
+    align: Annotated[
+        Literal["linear", "landmarks", "warp"],
+        option(
+            MEASURED,
+            "Bring curves in step: linear, landmarks or warp.",
+            metavar="HOW",
+            show_default=False,
+        ),
+    ] = "linear",
     exclude: Annotated[
         list[str] | None,
         option(
             MEASURED,
-            "Leave a row out of means, by its number; or all that are far from the mean (far) "
-            "or whose start is not sure (unsure).",
+            "Leave a row out of means by its number, or all far from the mean (far), or of "
+            "uncertain start (unsure).",
             metavar="ROW|RULE",
         ),
     ] = None,
@@ -86,7 +95,7 @@ def cycles(
         bool,
         option(
             MEASURED,
-            "Clusters of all recordings have the same numbers, as in a library.",
+            "Clusters have the same numbers in all recordings.",
             "--common",
         ),
     ] = False,
@@ -121,14 +130,22 @@ def cycles(
     if recordings:
         with failures.caught(""):
             analog = _analog(batch.paths, recordings, request) if names else []
+            if sides is not None:
+                names = _with_stance(recordings, names)
             found = measured(
-                recordings, tables, channels=names, anchor=anchor, beside=analog, common=common
+                recordings,
+                tables,
+                channels=names,
+                anchor=anchor,
+                beside=analog,
+                common=common,
+                align=align,
             )
             found = _excluded(found, exclude or [])
             if output is not None:
                 write_cycles(found, output, ends=ends)
             if plot is not None:
-                _draw(found, plot, ends=ends)
+                _draw(found, plot, ends=ends, sides=sides is not None)
             if compare is not None:
                 _compare(found, compare, ends=ends)
             if sides is not None:
@@ -201,17 +218,36 @@ def _compare(cycles: Cycles, path: Path, *, ends: bool) -> None:
     write_table(curves, path.with_suffix(f".curves{path.suffix}"))
 
 
-def _draw(cycles: Cycles, path: Path, *, ends: bool) -> None:
-    """One picture, an axis below the other for each channel."""
+def _with_stance(recordings: list[Motion | Signals], names: list[str] | None) -> list[str] | None:
+    """The channels to measure, and when each foot stands if all recordings tell it."""
+    from kineme.cycles.channels import channels_of, contacts_of
+
+    stances = [[each.name for each in contacts_of(recording)] for recording in recordings]
+    if min(map(len, stances)) < 2:
+        return names
+    chosen = names or [channel.name for channel in channels_of(recordings[0])]
+    return [*chosen, *stances[0]]
+
+
+def _draw(cycles: Cycles, path: Path, *, ends: bool, sides: bool) -> None:
+    """One picture, an axis below the other for each channel; or for each pair of sides."""
     from matplotlib.figure import Figure
 
     from kineme._files import atomic_write
-    from kineme.cycles import plot_curves
+    from kineme.cycles import plot_curves, plot_sides
+    from kineme.cycles.sides import sides_of
 
-    n = len(cycles.channels)
-    figure = Figure(figsize=(6, 1 + 2.5 * n), layout="constrained")
-    for channel, ax in zip(cycles.channels, figure.subplots(n, squeeze=False)[:, 0], strict=True):
-        plot_curves(cycles, channel, ends=ends, ax=ax)
+    groups, pairs = cycles.groups, sides_of(cycles.channels) if sides else []
+    rows, columns = (len(pairs), len(groups)) if pairs else (len(cycles.channels), 1)
+    figure = Figure(figsize=(1.5 + 4.5 * columns, 1 + 2.5 * rows), layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False)
+    if pairs:
+        for (left, right), row in zip(pairs, axes, strict=True):
+            for group, ax in zip(groups, row, strict=True):
+                plot_sides(cycles, left, right, group, ends=ends, ax=ax)
+    else:
+        for channel, ax in zip(cycles.channels, axes[:, 0], strict=True):
+            plot_curves(cycles, channel, ends=ends, ax=ax)
     with atomic_write(path) as draft:
         figure.savefig(draft)
 

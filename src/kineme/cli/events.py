@@ -6,6 +6,8 @@ from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import typer
+
 from kineme._counts import counted
 from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
@@ -40,6 +42,10 @@ def events(
         Path | None,
         option(OUTPUT, f"Write the spans from each event to the next as labels: {TABLES}."),
     ] = None,
+    c3d: Annotated[
+        Path | None,
+        option(OUTPUT, "Of a C3D: write a copy of it that has the events, too."),
+    ] = None,
     left: Annotated[
         str | None,
         option(
@@ -65,20 +71,27 @@ def events(
     from kineme.cycles.events import gait as gait_of
     from kineme.cycles.export import write_table
     from kineme.labels import write_segments
+    from kineme.labels.c3d_events import write_events
 
     request = Request.of(reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.targets("--output", output, ".csv")
     gaits = batch.targets("--gait", gait, ".csv")
     spans = batch.targets("--labels", labels, ".csv")
-    for path, table, measured, span in zip(batch.paths, tables, gaits, spans, strict=True):
+    copies = batch.targets("--c3d", c3d, ".c3d")
+    if c3d is not None and request.reading.get("fps"):
+        raise typer.BadParameter(
+            "a C3D has its own frame rate: leave out --fps", param_hint="--c3d"
+        )
+    places = zip(batch.paths, tables, gaits, spans, copies, strict=True)
+    for path, table, measured, span, copy in places:
         with batch.caught(path):
             with batch.progress(path) as stage:
                 stage("reading")
                 recording = request.read(path)
                 found = foot_events(recording, left=left, right=right)
                 measures = gait_of(found, recording)
-            for target in filter(None, (table, measured, span)):
+            for target in filter(None, (table, measured, span, copy)):
                 target.parent.mkdir(exist_ok=True)
             if table is not None:
                 write_table(found.columns(), table)
@@ -86,8 +99,10 @@ def events(
                 write_table(measures, measured)
             if span is not None:
                 write_segments(found.segmentation(), span)
+            if copy is not None:
+                write_events(path, copy, found.times, found.names)
             if not quiet:
-                _show(path, found, measures, [table, measured, span])
+                _show(path, found, measures, [table, measured, span, copy])
     batch.exit()
 
 

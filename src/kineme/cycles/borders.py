@@ -8,7 +8,9 @@ move to where the recording about them is most similar to the mean of all border
    a cycle. Of all phases that one is kept at which the fewest repetitions move.
 2. *Between two frames.* The template is the mean of the recording about all inner borders; each
    border moves to the place where the squared difference to it is least, found between samples by
-   a parabola. Both are repeated; the mean of all moves is taken out, so that the phase stays.
+   a parabola. A dimension counts by the share of its variance that the template explains: where
+   one hand waves, the noise of all others says nothing. Both are repeated; the mean of all moves
+   is taken out, so that the phase stays.
 3. *One place for all readings.* All borders move to the middle of the rest in which they lie, else
    to where the main movement of the mean cycle turns back, at the nearest such place: a squat
    begins at its top, a step at the end of a swing.
@@ -16,6 +18,8 @@ move to where the recording about them is most similar to the mean of all border
    of the template, summed over blocks of the window, within which they may hang together.
 
 At the first and the last border of a run only the half of the window that lies inside it counts.
+Where that tells little, they are drawn to where a repetition of usual length would have them: both
+places are weighed by how uncertain they are, the second by how much inner repetitions differ.
 """
 
 from __future__ import annotations
@@ -39,6 +43,8 @@ SIMILAR, BETTER = 0.7, 0.1
 """Correlation of two mean cycles of one phase, and how much more that must be than before."""
 RESTING = 0.2
 """Of the speed of a mean cycle, the root of its mean square: what is slower rests."""
+LEAST = 4
+"""Inner repetitions that tell how much they differ in length."""
 BLOCKS = 6
 DOUBT = 2.0
 """By this the deviation is multiplied: the sum over blocks leaves out by how much repetitions
@@ -131,10 +137,18 @@ def in_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> lis
         return runs
     for step, window in enumerate(WINDOWS):
         offsets = np.arange(-round(window * POINTS), round(window * POINTS) + 1) / POINTS
-        template = _template(runs, features, rates, offsets)
+        template, weights = _template(runs, features, rates, offsets)
         reach = FARTHEST / 2**step
         moved = [
-            _moved(run, features[run.recording], rates[run.recording], template, offsets, reach)
+            _moved(
+                run,
+                features[run.recording],
+                rates[run.recording],
+                template,
+                weights,
+                offsets,
+                reach,
+            )
             for run in runs
         ]
         # The mean move, in cycles: the template must not wander.
@@ -143,8 +157,30 @@ def in_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> lis
             for new, old in zip(moved, runs, strict=True)
         ])))  # fmt: skip
         runs = [replace(run, borders=run.borders - drift * run.period) for run in moved]
+    runs = _with_usual_ends(runs)
     by = _to_landmark(runs, features, rates)
     return [replace(run, borders=run.borders + by * run.period) for run in runs]
+
+
+def _with_usual_ends(runs: list[Run]) -> list[Run]:
+    """The runs with their ends drawn to where a repetition of usual length would have them."""
+    inner = [np.diff(run.borders)[1:-1] for run in runs]
+    ratios = np.concatenate(
+        [each / np.median(each) for each in inner if len(each) > 1] or [np.empty(0)]
+    )
+    if len(ratios) < LEAST:
+        return runs
+    deviation, drawn = float(ratios.std()), []
+    for run, lengths in zip(runs, inner, strict=True):
+        borders, uncertainty = run.borders.copy(), run.uncertainty.copy()
+        usual = float(np.median(lengths)) if len(lengths) else 0.0
+        for end, place in ((0, borders[1] - usual), (-1, borders[-2] + usual)):
+            first, second = uncertainty[end] ** 2, (deviation * usual) ** 2
+            if first + second > 0:  # and both are known
+                borders[end] = (second * borders[end] + first * place) / (first + second)
+                uncertainty[end] = np.sqrt(first * second / (first + second))
+        drawn.append(replace(run, borders=borders, uncertainty=uncertainty) if usual else run)
+    return drawn
 
 
 def _to_landmark(runs: list[Run], features: list[Floats], rates: list[float]) -> float:
@@ -227,8 +263,8 @@ def _lateness(mean: Floats, reference: Floats) -> float:
 
 def _template(
     runs: list[Run], features: list[Floats], rates: list[float], offsets: Floats
-) -> Floats:
-    """(window, dims): the mean about all inner borders."""
+) -> tuple[Floats, Floats]:
+    """(window, dims): the mean about all inner borders; and (dims,): what share it explains."""
     windows = [
         sampled(
             features[run.recording],
@@ -240,14 +276,24 @@ def _template(
         for run in runs
         if len(run.borders) > 2
     ]
-    return np.asarray(np.concatenate(windows).mean(axis=0))
+    every = np.concatenate(windows)
+    template = np.asarray(every.mean(axis=0))
+    explained, total = template.var(axis=0), every.var(axis=(0, 1))
+    shares = np.where(total > 0, explained / np.where(total > 0, total, 1.0), 0.0)
+    return template, shares
 
 
 def _moved(
-    run: Run, features: Floats, rate: float, template: Floats, offsets: Floats, reach: float
+    run: Run,
+    features: Floats,
+    rate: float,
+    template: Floats,
+    weights: Floats,
+    offsets: Floats,
+    reach: float,
 ) -> Run:
     """The run with each border where the recording is most similar to the template."""
-    slope = np.gradient(template, axis=0) * POINTS
+    slope, roots = np.gradient(template, axis=0) * POINTS, np.sqrt(weights)
     shifts = np.linspace(-reach, reach, 13)
     borders, uncertainty = run.borders.copy(), np.full(len(run.borders), np.nan)
     for i, border in enumerate(run.borders):
@@ -258,14 +304,15 @@ def _moved(
             used &= offsets <= 0
         pace = run.pace(i, offsets[used])
         times = border + shifts[:, None] * run.period + pace
-        left = ((sampled(features, rate, times) - template[used]) ** 2).sum(axis=(1, 2))
+        left = ((sampled(features, rate, times) - template[used]) ** 2).sum(axis=1) @ weights
         best = int(left.argmin())
         shift = shifts[best]
         if 0 < best < len(shifts) - 1:
             shift += _vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
         borders[i] = border + shift * run.period
         window = sampled(features, rate, borders[i] + pace)
-        uncertainty[i] = _deviation(window - template[used], slope[used]) * run.period
+        left = roots * (window - template[used])
+        uncertainty[i] = _deviation(left, roots * slope[used]) * run.period
     return replace(run, borders=borders, uncertainty=uncertainty)
 
 

@@ -10,10 +10,11 @@ Left and right stand at the end of a name, as in ``knee_l``. Angles of a body:
 ``trunk_lean``  trunk forward against the vertical; ``trunk_side`` to the right
 =============== ===============================================================================
 
-``heading`` is where the body faces, about the vertical, without jumps. Of each joint there are
-``NAME.rx``, ``.rz``, ``.ry`` (its rotation, see `kineme.cycles.cardan`), ``NAME.x``, ``.y``,
-``.z`` (metres, y up), ``NAME.left``, ``.up``, ``.ahead`` (metres, seen from the pelvis, as the
-body faces) and ``NAME.speed``.
+``stance_l`` is 100 while the left foot stands and 0 while it swings, so that its mean over a cycle
+is the share of stance, in per cent; sensors at the feet have it, too. ``heading`` is where the body
+faces, about the vertical, without jumps. Of each joint there are ``NAME.rx``, ``.rz``, ``.ry`` (its
+rotation, see `kineme.cycles.cardan`), ``NAME.x``, ``.y``, ``.z`` (metres, y up), ``NAME.left``,
+``.up``, ``.ahead`` (metres, seen from the pelvis, as the body faces) and ``NAME.speed``.
 """
 
 from __future__ import annotations
@@ -29,6 +30,8 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme._checks import as_texts
 from kineme.cycles.angles import about, bend, between, cardan, continuous
+from kineme.cycles.centres import with_centres
+from kineme.cycles.events import foot_of, stance_of
 from kineme.cycles.landmarks import SIDES, landmarks
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import body_frame, heading
@@ -42,6 +45,7 @@ Add = Callable[[str, str, str, Sequence[str | int], Compute], None]
 """Name, unit, group, joints or words that tell the source, and what computes the channel."""
 
 DEGREES = "°"
+CONTACT = "contact"
 ANGLE, CHANNEL = "angle", "channel"
 """Groups that are measured where nobody says which."""
 _SHOWN = 8
@@ -56,8 +60,8 @@ class Channel:
     name, unit : str
         The unit is empty where nobody says it, as of most signals.
     group : str
-        What kind of number it is: ``angle``, ``direction``, ``rotation``, ``position``,
-        ``from the pelvis``, ``speed`` or ``channel``.
+        What kind of number it is: ``angle``, ``direction``, ``contact``, ``rotation``,
+        ``position``, ``from the pelvis``, ``speed`` or ``channel``.
     source : str
         From which joints it is, for the provenance.
     fps : float
@@ -124,6 +128,7 @@ def channels_of(
     ['knee_l', 'knee_r', 'Head.up']
     """
     every = of_motion(recording) if isinstance(recording, Motion) else _of_signals(recording)
+    every += [each for each in contacts_of(recording) if each.name not in {c.name for c in every}]
     for signals in beside:
         every += _of_signals(signals)
     if names is None:
@@ -153,17 +158,29 @@ def _of_signals(signals: Signals) -> list[Channel]:
     ]
 
 
+def contacts_of(recording: Motion | Signals) -> list[Channel]:
+    """When each foot stands, of the feet that are there."""
+    return [
+        Channel(f"stance_{side[0]}", "%", CONTACT, ", ".join(foot), recording.fps,
+                partial(stance_of, recording, side), recording.gaps)
+        for side in SIDES
+        if (foot := foot_of(recording, side))
+    ]  # fmt: skip
+
+
 def of_motion(motion: Motion) -> list[Channel]:
     """Every channel of a body: its angles first, after them rotations, positions, speeds."""
     channels: list[Channel] = []
-    names, fps, gaps = motion.skeleton.names, motion.fps, motion.gaps
+    fps, gaps = motion.fps, motion.gaps
+    extended, parts = with_centres(motion, landmarks(motion))
+    names = extended.skeleton.names
 
     def add(name: str, unit: str, group: str, of: Sequence[str | int], compute: Compute) -> None:
         source = ", ".join(each if isinstance(each, str) else names[each] for each in of)
         channels.append(Channel(name, unit, group, source, fps, compute, gaps))
 
     faces = _faces(motion)
-    _add_angles(motion, landmarks(motion), add)
+    _add_angles(extended, parts, add)
     if faces:
         add("heading", DEGREES, "direction", ["the line of the hips"], partial(_heading, motion))
     _add_joints(motion, faces, add)

@@ -9,7 +9,7 @@ neither is early or late.
 
 *Positions.* Heel and toe each stand while they are low and slow; the foot while one of them does.
 
-*Force.* While a plate bears more than a threshold.
+*Force.* While a plate bears more than a threshold, above what it tells when nobody stands on it.
 """
 
 from __future__ import annotations
@@ -47,6 +47,8 @@ BRIDGE_S, STAND_S = 0.1, 0.1
 """Seconds: a shorter break is none, and a shorter stand is none."""
 NEWTON = 20.0
 """What a force plate bears when somebody stands on it, at least."""
+EMPTY = 0.1
+"""Of the largest force: what is less is that of an empty plate, whose amplifiers have an offset."""
 
 
 def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
@@ -92,11 +94,27 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     rises = sum(float(pitch[a : a + max(1, int(FIRST * (b - a)))].sum()) for a, b in moves)
     if rises > 0:
         pitch = -pitch  # the heel rises with a negative turn, the foot swings with a positive one
-    parts = [part for a, b in moves for part in _parts(pitch, a, b, fps)]
+    parts = [part for a, b in _joined(moves, pitch, fps) for part in _parts(pitch, a, b, fps)]
     found = [(a, _swing(pitch[a:b])) for a, b in parts]
     swings = [(a + each[0], a + each[1]) for a, each in found if each is not None]
     seconds = np.array(swings, np.float64).reshape(-1, 2) / fps
     return seconds[np.diff(seconds, axis=1)[:, 0] >= SWING_S]
+
+
+def _joined(moves: Sequence[tuple[int, int]], pitch: Floats, fps: float) -> list[tuple[int, int]]:
+    """Movements, joined where the foot did not stand between them.
+
+    A foot that stood raises its heel first. Where it goes on forward, it was slow between heel
+    and swing, as in the first and the last step of a walk.
+    """
+    joined: list[tuple[int, int]] = []
+    for start, stop in moves:
+        begins = float(pitch[start : start + max(1, int(FIRST * (stop - start)))].sum())
+        if joined and begins > 0 and start - joined[-1][1] < APART_S * fps:
+            joined[-1] = joined[-1][0], stop
+        else:
+            joined.append((start, stop))
+    return joined
 
 
 def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, int]]:
@@ -182,7 +200,7 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
     Parameters
     ----------
     force : (frames,) array
-        Upright, newtons; its sign does not matter.
+        Upright, newtons; its sign does not matter, nor does a constant offset.
     fps : float
         Frames per second.
     least : float
@@ -200,7 +218,9 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
     [[0.1, 0.7]]
     """
     values = as_floats(force, "force").ravel()
-    return _lasting(np.abs(values) > least, fps)
+    empty = values[np.abs(values) < EMPTY * np.abs(values).max(initial=0.0)]
+    offset = float(np.median(empty)) if len(empty) else 0.0
+    return _lasting(np.abs(values - offset) > least, fps)
 
 
 def _lasting(stands: NDArray[np.bool_], fps: float) -> Floats:

@@ -206,31 +206,69 @@ Found = tuple[list[float], list[float], str]
 def _of_body(motion: Motion, side: str, pattern: str | None) -> Found | None:
     if pattern is not None:
         raise ParameterError("left= and right= name channels of signals; this is a body")
+    points = _points(motion, side)
+    if not points:
+        return None
+    strikes, offs = _ends(_stands(motion, points), motion)
+    return strikes, offs, " and ".join(points)
+
+
+def _points(motion: Motion, side: str) -> list[str]:
+    """The joints that tell whether a foot stands: heel and toe, or the ankle; or none."""
     joints = landmarks(motion)
     heel = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
     if heel is None:
-        return None
-    points = list(dict.fromkeys([heel, joints.get(f"{side}_toe", heel)]))
-    stands = stands_from_positions([motion.positions[:, j] for j in points], motion.fps)
-    strikes, offs = _ends(stands, motion)
-    return strikes, offs, " and ".join(motion.skeleton.names[j] for j in points)
+        return []
+    chosen = dict.fromkeys([heel, joints.get(f"{side}_toe", heel)])
+    return [motion.skeleton.names[joint] for joint in chosen]
+
+
+def _stands(motion: Motion, points: Sequence[str]) -> Floats:
+    places = [motion.positions[:, motion.skeleton.joint(name)] for name in points]
+    return stands_from_positions(places, motion.fps)
 
 
 def _of_sensors(signals: Signals, side: str, pattern: str | None) -> Found | None:
     chosen = _channels(signals.names, side, pattern)
     if chosen is None:
         return None
-    values = signals.values[:, [signals.names.index(name) for name in chosen]]
-    source = f"{', '.join(chosen)}"
+    source = ", ".join(chosen)
     if len(chosen) == 1:
-        strikes, offs = _ends(stands_from_force(values[:, 0], signals.fps), signals)
-        return strikes, offs, source
-    strikes, offs = [], []
-    for start, stop in signals.spans():
-        swings = swings_from_gyroscope(values[start:stop], signals.fps) + start / signals.fps
-        offs += swings[:, 0].tolist()
-        strikes += swings[:, 1].tolist()
+        force = signals.values[:, signals.names.index(chosen[0])]
+        strikes, offs = _ends(stands_from_force(force, signals.fps), signals)
+    else:
+        offs, strikes = _swings(signals, chosen).T.tolist()
     return strikes, offs, source
+
+
+def _swings(signals: Signals, chosen: Sequence[str]) -> Floats:
+    """Seconds from when and to when a foot swings whose gyroscope has these three axes."""
+    values = signals.values[:, [signals.names.index(name) for name in chosen]]
+    found = [
+        swings_from_gyroscope(values[start:stop], signals.fps) + start / signals.fps
+        for start, stop in signals.spans()
+    ]
+    return np.concatenate([np.empty((0, 2)), *found])
+
+
+def foot_of(recording: Motion | Signals, side: str) -> list[str]:
+    """The joints or channels that tell whether the foot of a side stands; or none."""
+    if isinstance(recording, Motion):
+        return _points(recording, side)
+    return _channels(recording.names, side, None) or []
+
+
+def stance_of(recording: Motion | Signals, side: str) -> Floats:
+    """100 in each frame in which the foot of a side stands, 0 in which it swings."""
+    chosen = foot_of(recording, side)
+    if isinstance(recording, Motion):
+        stands, spans = 100.0, _stands(recording, chosen)
+    else:
+        stands, spans = 0.0, _swings(recording, chosen)
+    values = np.full(recording.n_frames, 100.0 - stands)
+    for start, stop in np.rint(spans * recording.fps).astype(np.intp).tolist():
+        values[start:stop] = stands
+    return values
 
 
 def _ends(stands: Floats, recording: Motion | Signals) -> tuple[list[float], list[float]]:

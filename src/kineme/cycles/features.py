@@ -18,9 +18,9 @@ Floats = NDArray[np.float64]
 RATE = 250.0
 """Samples per second, at most: what is faster is averaged."""
 SMOOTH_S = 0.02
-"""Signals are smoothed by a normal curve that deviates by this."""
+"""Features are smoothed by a normal curve that deviates by this."""
 STEADY_S = 0.08
-"""Features are, before their speed is taken, so that noise is no movement."""
+"""Again, before their speed is taken, so that noise is no movement."""
 
 
 @dataclass(frozen=True)
@@ -62,26 +62,29 @@ def fine_features(recording: Motion | Signals) -> FineFeatures:
     -------
     FineFeatures
     """
+    from scipy.ndimage import gaussian_filter1d
+
     many = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
     rate = recording.fps / many
+    found, comparable = _features(recording)
+    values = _averaged(found, many)
     if isinstance(recording, Signals):
-        return FineFeatures(_of_signals(recording, many), rate, comparable=True)
+        deviation = values.std(axis=0)
+        values = (values - values.mean(axis=0)) / np.where(deviation > 0, deviation, 1)
+    values = gaussian_filter1d(values, SMOOTH_S * rate, axis=0, mode="nearest")
+    return FineFeatures(values, rate, comparable)
+
+
+def _features(recording: Motion | Signals) -> tuple[Floats, bool]:
+    """Features of each frame, and whether those of another recording can be compared with them."""
+    if isinstance(recording, Signals):
+        return recording.values, True
     try:
-        return FineFeatures(_averaged(pose_features(recording), many), rate, comparable=True)
+        return pose_features(recording), True
     except (EndEffectorError, MotionError):
         single = recording.skeleton.n_joints < 2
         positions = recording.positions
-        found = positions[:, 0] if single else distance_features(positions)[0]
-        return FineFeatures(_averaged(found, many), rate, comparable=False)
-
-
-def _of_signals(signals: Signals, many: int) -> Floats:
-    from scipy.ndimage import gaussian_filter1d
-
-    values, rate = _averaged(signals.values, many), signals.fps / many
-    deviation = values.std(axis=0)
-    scaled = (values - values.mean(axis=0)) / np.where(deviation > 0, deviation, 1)
-    return np.asarray(gaussian_filter1d(scaled, SMOOTH_S * rate, axis=0, mode="nearest"))
+        return positions[:, 0] if single else distance_features(positions)[0], False
 
 
 def _averaged(values: Floats, many: int) -> Floats:

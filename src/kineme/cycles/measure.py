@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import as_indices, check_flag, check_type
+from kineme._checks import as_indices, check_flag, check_one_of, check_type
 from kineme._version import __version__
+from kineme.cycles.align import ALIGNMENTS, LINEAR, aligned
 from kineme.cycles.anchors import anchored
 from kineme.cycles.channels import Channel, channels_of
 from kineme.cycles.runs import Repetition, repetitions
@@ -43,6 +44,7 @@ def cycles(
     anchor: str | Sequence[float] | None = None,
     beside: Sequence[Signals] = (),
     common: bool = False,
+    align: str = LINEAR,
     points: int = POINTS,
 ) -> Cycles:
     """Measure each repetition of one recording or of several.
@@ -65,6 +67,10 @@ def cycles(
     common : bool
         Whether equal cluster numbers are equal movements in all recordings, as in those of a
         library. Otherwise only equal labels are.
+    align : {"linear", "landmarks", "warp"}
+        How curves of a group are brought in step (`kineme.cycles.align`): evenly in time; so that
+        the largest and the smallest value of the first channel come at one time in all; or warped
+        to the mean of all. What is measured of a cycle stays.
     points : int
         Of a curve.
 
@@ -106,6 +112,7 @@ def cycles(
     check_type(beside, Sequence, "cycles", "beside= takes a list of signals")
     _check(given, tables, beside, points)
     check_flag(common, "common")
+    check_one_of(align, ALIGNMENTS, "align")
     names = _names(given)
     groups = [_groups(table, "" if common or len(given) == 1 else f"{name}: ")
               for table, name in zip(tables, names, strict=True)]  # fmt: skip
@@ -119,12 +126,15 @@ def cycles(
     columns = _columns(found, tables, names, groups)
     curves = np.empty((len(found), len(measured[0]), points))
     _measure(found, measured, columns, curves)
+    for group in set(columns["group"].tolist()):
+        rows = columns["group"] == group
+        curves[rows] = aligned(curves[rows], align)
     return Cycles(
         columns,
         tuple(channel.name for channel in measured[0]),
         tuple(channel.unit for channel in measured[0]),
         curves,
-        _provenance(given, tables, measured[0], found, columns),
+        _provenance(given, tables, measured[0], found, columns, align),
     )
 
 
@@ -297,6 +307,7 @@ def _provenance(
     channels: Sequence[Channel],
     found: Sequence[Repetition],
     columns: Columns,
+    align: str,
 ) -> dict[str, Any]:
     turned: dict[tuple[str, int, str], float] = {}
     for each, name, group in zip(
@@ -315,6 +326,7 @@ def _provenance(
             for each, table in zip(recordings, tables, strict=True)
         ],
         "channels": {channel.name: channel.source for channel in channels},
+        "align": align,
         "notes": [
             f"{group} in activity {activity} of {name} begins {abs(by):.0%} of a cycle "
             f"{'later' if by > 0 else 'earlier'} than its segments, where others of it begin"

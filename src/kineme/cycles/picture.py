@@ -1,4 +1,4 @@
-"""The mean curve of a channel, drawn."""
+"""The mean curve of a channel, drawn; or those of left and right."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kineme._colors import cluster_color
-from kineme.cycles.table import Cycles
+from kineme._colors import PALETTE, cluster_color
+from kineme.cycles.table import Cycles, Floats
 from kineme.errors import ParameterError
 from kineme.segments.timeline import new_axes
 
@@ -48,27 +48,92 @@ def plot_curves(
     >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
     >>> axes = plot_curves(cycles, "knee_l", ax=Figure().add_subplot())
     """
-    if channel not in cycles.channels:
-        raise ParameterError(f"no channel {channel!r}; there are {', '.join(cycles.channels)}")
+    _check(cycles, channel)
     axes = ax if ax is not None else new_axes(6, 3.5)
-    percent = np.linspace(0, 100, cycles.curves.shape[2])
     numbers = zip(cycles.columns["group"].tolist(), cycles.columns["cluster"].tolist(), strict=True)
     clusters = dict(numbers)
+    many = len(set(clusters.values())) == len(clusters)
     for place, group in enumerate(cycles.groups):
         curves = cycles.layout(channel, group, ends=ends)
-        if len(curves) == 0:
-            continue
-        many = len(set(clusters.values())) == len(clusters)
         color = cluster_color(clusters[group] if many else place)
-        mean = curves.mean(axis=0)
-        axes.plot(percent, mean, color=color, label=f"{group} (n = {len(curves)})")
-        if len(curves) > 1:
-            sd = curves.std(axis=0, ddof=1)
-            axes.fill_between(percent, mean - sd, mean + sd, color=color, alpha=0.2, linewidth=0)
+        _add_mean(axes, curves, color, f"{group} (n = {len(curves)})")
+    _name_axes(axes, cycles, channel, channel)
+    return axes
+
+
+def plot_sides(
+    cycles: Cycles,
+    left: str,
+    right: str,
+    group: str,
+    *,
+    ends: bool = False,
+    ax: Axes | None = None,
+) -> Axes:
+    """Mean and standard deviation of a left and a right channel over the same cycles of a group.
+
+    Parameters
+    ----------
+    cycles : Cycles
+    left, right : str
+        Channels.
+    group : str
+    ends : bool
+        Whether the first and the last cycle of an activity count as well.
+    ax : Axes, optional
+        Where to draw; Axes of a new figure of pyplot by default.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ParameterError
+        There is no such channel or group.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import plot_sides
+    >>> from kineme.datasets import bundled_truth
+    >>> from matplotlib.figure import Figure
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
+    >>> axes = plot_sides(cycles, "knee_l", "knee_r", "squat", ax=Figure().add_subplot())
+    """
+    axes = ax if ax is not None else new_axes(6, 3.5)
+    for channel, color, style in ((left, PALETTE[0], "-"), (right, PALETTE[4], "--")):
+        _check(cycles, channel)
+        curves = cycles.layout(channel, group, ends=ends)
+        _add_mean(axes, curves, color, f"{channel} (n = {len(curves)})", style)
+    axes.set_title(group, loc="left", fontsize="medium")
+    _name_axes(axes, cycles, left, f"{left}, {right}")
+    return axes
+
+
+def _check(cycles: Cycles, channel: str) -> None:
+    if channel not in cycles.channels:
+        raise ParameterError(f"no channel {channel!r}; there are {', '.join(cycles.channels)}")
+
+
+def _add_mean(axes: Axes, curves: Floats, color: str, label: str, style: str = "-") -> None:
+    """Mean of curves, with their deviation; nothing where there are none."""
+    if len(curves) == 0:
+        return
+    percent, mean = np.linspace(0, 100, curves.shape[1]), curves.mean(axis=0)
+    axes.plot(percent, mean, style, color=color, label=label)
+    if len(curves) > 1:
+        sd = curves.std(axis=0, ddof=1)
+        axes.fill_between(percent, mean - sd, mean + sd, color=color, alpha=0.2, linewidth=0)
+
+
+def _name_axes(axes: Axes, cycles: Cycles, channel: str, name: str) -> None:
     unit = cycles.units[cycles.channels.index(channel)]
     axes.set_xlabel("cycle (%)")
-    axes.set_ylabel(f"{channel} ({unit})" if unit else channel)
+    axes.set_ylabel(f"{name} ({unit})" if unit else name)
     axes.set_xlim(0, 100)
+    if unit == "%":
+        axes.set_ylim(-5, 105)
     if axes.get_legend_handles_labels()[0]:
         axes.legend(frameon=False)
-    return axes

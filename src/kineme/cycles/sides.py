@@ -2,7 +2,8 @@
 
 Sides are channels whose names differ in nothing but ``_l`` and ``_r`` at the end, or ``left`` and
 ``right``. Each cycle is its own control: differences are within a cycle, and their bounds by
-Student's t for pairs.
+Student's t for pairs. Of ``stance_l`` and ``stance_r`` the means are compared, which are the shares
+of stance; what is left of a cycle is swing.
 """
 
 from __future__ import annotations
@@ -51,15 +52,20 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
     check_type(cycles, Cycles, "compare_sides", "kineme.cycles(recording, segments) gives them")
     check_flag(ends, "ends")
     used = cycles.used(ends=ends)
+    stances = {
+        name for name, unit in zip(cycles.channels, cycles.units, strict=True) if unit == "%"
+    }
     lines: list[tuple[str | float, ...]] = []
     for group in cycles.groups:
         rows = used & (cycles.columns["group"] == group)
         for left, right in sides_of(cycles.channels):
-            for measure in MEASURES:
+            is_stance = left in stances
+            for measure in ("mean",) if is_stance else MEASURES:
                 of_left, of_right = (
                     cycles.columns[f"{name}.{measure}"][rows] for name in (left, right)
                 )
-                compared = _compared(of_left, of_right, measure)
+                indexed = is_stance or measure == "range"
+                compared = _compared(of_left, of_right, indexed=indexed)
                 lines.append((group, left, right, measure, *compared))
     names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
              "difference", "low", "high", "symmetry_index")  # fmt: skip
@@ -78,7 +84,7 @@ def _right_of(name: str) -> str:
     return turned if turned != name else re.sub("_l$", "_r", name)
 
 
-def _compared(left: Floats, right: Floats, measure: str) -> tuple[float, ...]:
+def _compared(left: Floats, right: Floats, *, indexed: bool) -> tuple[float, ...]:
     """Number, means, difference with bounds, symmetry index."""
     from scipy.special import stdtrit
 
@@ -92,5 +98,5 @@ def _compared(left: Floats, right: Floats, measure: str) -> tuple[float, ...]:
     if n > 1:
         half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * apart.std(ddof=1) / np.sqrt(n)
     total = of_left + of_right
-    index = 200 * mean / total if measure == "range" and total > 0 else np.nan
+    index = 200 * mean / total if indexed and total > 0 else np.nan
     return n, *(float(each) for each in (of_left, of_right, mean, mean - half, mean + half, index))

@@ -6,23 +6,33 @@ called after the event that starts it, what comes before the first is called
 nothing. Of events at the same frame the last one counts.
 
 `kineme.read_segments` takes all events; of a gait, `read_events` with ``names=["Right Foot
-Strike"]`` makes each cycle of the right leg one span.
+Strike"]`` makes each cycle of the right leg one span. `write_events` puts events into a copy
+of a file.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kineme.errors import ReadError
+from numpy.typing import ArrayLike
+
+from kineme._checks import as_floats, as_texts, check_path
+from kineme._files import atomic_write, reading
+from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
 
 if TYPE_CHECKING:
     from kineme.formats.markers.c3d_file import C3D
+
+SIDES = ("left", "right", "general")
+"""First words of a name that tell of which side an event is."""
+SAME_S = 0.2
+"""Seconds within which two events of one name are one."""
 
 
 def read_events(path: str | PathLike[str], *, names: Collection[str] | None = None) -> Segmentation:
@@ -50,9 +60,98 @@ def read_events(path: str | PathLike[str], *, names: Collection[str] | None = No
     --------
     The gait cycles of the right leg:
 
-        cycles = read_events("gait.c3d", names=["Right Foot Strike"])
+    >>> from kineme.labels.c3d_events import read_events
+    >>> cycles = read_events("gait.c3d", names=["Right Foot Strike"])  # doctest: +SKIP
     """
     return as_segmentation(read(Path(path), names), Path(path), FORMAT.name)[0]
+
+
+def write_events(
+    source: str | PathLike[str],
+    path: str | PathLike[str],
+    times: ArrayLike,
+    names: Iterable[str],
+) -> int:
+    """Write a copy of a C3D file that has these events besides its own.
+
+    Parameters
+    ----------
+    source : path-like
+        The C3D file, which stays as it is.
+    path : path-like
+        The copy. Its other parameters, points and analog samples are those of the source.
+    times : (n,) array
+        Seconds from the first frame.
+    names : iterable of str
+        Of each event. ``left foot strike`` becomes side and label: ``Left``, ``Foot Strike``.
+
+    Returns
+    -------
+    int
+        How many events were added. One within 0.2 s of an event of the file that has its name,
+        whatever the case, is left out: the file's stands.
+
+    Raises
+    ------
+    ReadError
+        ``source`` is no C3D file, or has no frame rate.
+    WriteError
+        ``path`` is ``source``, cannot be written, or there are more than 255 events.
+
+    Examples
+    --------
+    Foot contacts, found from the markers of the same file:
+
+    >>> import kineme
+    >>> from kineme.cycles import foot_events
+    >>> from kineme.labels.c3d_events import write_events
+    >>> events = foot_events(kineme.read("walk.c3d"))  # doctest: +SKIP
+    >>> write_events(
+    ...     "walk.c3d", "walk_events.c3d", events.times, events.names
+    ... )  # doctest: +SKIP
+    """
+    from kineme.formats.files import load
+    from kineme.formats.markers.c3d_file import parse_c3d
+    from kineme.formats.markers.c3d_writer import C3DEvent, with_events
+
+    check_path(path, "write_events")
+    seconds = as_floats(times, "times").ravel().tolist()
+    texts = as_texts(names, "names of events")
+    if len(seconds) != len(texts):
+        raise ParameterError(f"{len(seconds)} times and {len(texts)} names of events")
+    target = Path(path)
+    if target.exists() and target.samefile(source):
+        raise WriteError(target, "is the recording itself: name another file")
+    if Path(source).suffix.lower() != ".c3d":
+        raise ReadError(source, "is no C3D file, of which a copy could take the events")
+    if target.suffix.lower() != ".c3d":
+        raise WriteError(target, "must end in .c3d")
+    with reading(source):
+        content = load(source)
+        present = [(at, " ".join(name.lower().split())) for at, name in parse_c3d(content).events]
+        events = [C3DEvent(at, *_side_and_label(name))
+                  for at, name in zip(seconds, texts, strict=True)]  # fmt: skip
+        added = [
+            each
+            for each in events
+            if not any(
+                name == f"{each.side} {each.label}".strip().lower()
+                and abs(at - each.seconds) < SAME_S
+                for at, name in present
+            )
+        ]
+        data = with_events(content, added)
+    with atomic_write(target) as draft:
+        draft.write_bytes(data)
+    return len(added)
+
+
+def _side_and_label(name: str) -> tuple[str, str]:
+    """Side and label as Vicon's programs write them; a name without a side as it is."""
+    side, _, label = " ".join(name.split()).partition(" ")
+    if side.lower() not in SIDES or not label:
+        return "", " ".join(name.split())
+    return side.capitalize(), label.title() if label.islower() else label
 
 
 def read(path: Path, names: Collection[str] | None = None) -> Labels:

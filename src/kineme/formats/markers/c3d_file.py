@@ -111,7 +111,7 @@ def _events(file: Layout) -> tuple[tuple[float, str], ...]:
     if file.rate == 0:
         return ()
     skipped = (file.first_frame - 1) / file.rate
-    found = _group_events(file.parameters) or _header_events(file)
+    found = _group_events(file.parameters) or header_events(file)
     return tuple(sorted((round(t - skipped, 6), label) for t, label in found if np.isfinite(t)))
 
 
@@ -125,7 +125,8 @@ def _group_events(parameters: Parameters) -> list[tuple[float, str]]:
     return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
 
 
-def _header_events(file: Layout) -> list[tuple[float, str]]:
+def header_events(file: Layout) -> list[tuple[float, str]]:
+    """Second from frame 1, and label, of the events in the first block."""
     data, kind = file.content.data, file.parameters.processor
     marker, n = np.frombuffer(data, number_type(kind, real=False), 2, 2 * 149).tolist()
     if marker != _HEADER_EVENTS:
@@ -230,7 +231,7 @@ class Layout:
     def _fills(self, n_points: int, per_frame: int) -> bool:
         """Whether a declared number of frames, so wide, ends in the last block of the file."""
         width = (4 * n_points + per_frame) * self._kind.itemsize
-        size = len(self.content.data) - self._start
+        size = len(self.content.data) - self.start
         ends = (frames * width for frames in self._declared_frames())
         return any(end <= size < (end // BLOCK + 2) * BLOCK for end in ends if end)
 
@@ -239,7 +240,7 @@ class Layout:
         return number_type(self.parameters.processor, real=self.scale < 0)
 
     @cached_property
-    def _start(self) -> int:
+    def start(self) -> int:
         """Where the data begin, in bytes."""
         block = self.header.data_block or int(self.parameters.number("POINT", "DATA_START", 0))
         if block < 2:
@@ -261,7 +262,7 @@ class Layout:
 
     def frames(self) -> Stored:
         """(frames, numbers): the data section as stored."""
-        start, kind = self._start, self._kind
+        start, kind = self.start, self._kind
         width = 4 * self.n_points + self.counts[1]
         if width == 0:
             raise self.content.error("the header names no place for the data, or no points in it")
@@ -294,12 +295,34 @@ class Layout:
 
 
 @dataclass(frozen=True)
+class Record:
+    """Where a group or a parameter stands in a C3D file, in bytes."""
+
+    number: int  # of its group; negative: it is the group
+    name: str  # in upper case
+    start: int
+    values: int  # type, dimensions and values, or what describes a group
+    stop: int | None  # where the next record begins; the last one need not tell it
+
+
+@dataclass(frozen=True)
 class Parameters:
     """The values of a C3D file by group and name, both in upper case."""
 
     content: FileContent
     processor: int
-    places: dict[tuple[str, str], int]
+    start: int  # byte at which they begin
+    records: list[Record]
+
+    @cached_property
+    def places(self) -> dict[tuple[str, str], int]:
+        """Where the values of each parameter stand."""
+        groups = {-each.number: each.name for each in self.records if each.number < 0}
+        return {
+            (groups.get(each.number, ""), each.name): each.values
+            for each in self.records
+            if each.number > 0
+        }
 
     def number(self, group: str, name: str, usual: float) -> float:
         """The first of the values as a finite number, ``usual`` if there is none."""
@@ -308,7 +331,7 @@ class Parameters:
 
     def numbers(self, group: str, name: str, *, signed: bool = False) -> list[float]:
         """The values as numbers, none if they are text; integers are counts unless signed."""
-        kind, _, data = self._stored(group, name)
+        kind, _, data = self.stored(group, name)
         if kind == 4:
             reals = np.frombuffer(data, number_type(self.processor, real=True))
             return list(map(float, as_float32(reals, self.processor)))
@@ -323,13 +346,17 @@ class Parameters:
 
     def strings(self, group: str, name: str) -> list[str]:
         """The values as text, none if they are numbers."""
-        kind, shape, data = self._stored(group, name)
+        return [string(text) for text in self.texts(group, name)]
+
+    def texts(self, group: str, name: str) -> list[bytes]:
+        """The same as they are stored."""
+        kind, shape, data = self.stored(group, name)
         width = shape[0] if shape else 1
         if kind != -1 or width == 0:
             return []
-        return [string(data[at : at + width]) for at in range(0, len(data), width)]
+        return [data[at : at + width] for at in range(0, len(data), width)]
 
-    def _stored(self, group: str, name: str) -> tuple[int, list[int], bytes]:
+    def stored(self, group: str, name: str) -> tuple[int, list[int], bytes]:
         """Type, dimensions and bytes of a parameter; nothing where it is not whole."""
         at = self.places.get((group, name))
         data = self.content.data
@@ -357,8 +384,7 @@ def read_parameters(content: FileContent) -> Parameters:
             f"({MIPS}): the file is damaged, or no C3D file"
         )
     order = "big" if processor == MIPS else "little"
-    groups: dict[int, str] = {}
-    found: list[tuple[int, str, int]] = []
+    records: list[Record] = []
     at = start + 4
     while at + 2 <= len(data):
         length = abs(int.from_bytes(data[at : at + 1], signed=True))
@@ -368,15 +394,11 @@ def read_parameters(content: FileContent) -> Parameters:
         if length == 0 or group == 0:
             break
         name = string(data[at + 2 : after]).upper()
-        if group < 0:
-            groups[-group] = name
-        else:
-            found.append((group, name, after + 2))
+        records.append(Record(group, name, at, after + 2, after + step if step else None))
         if step == 0:
             break
         at = after + step
-    places = {(groups.get(group, ""), name): place for group, name, place in found}
-    return Parameters(content, processor, places)
+    return Parameters(content, processor, start, records)
 
 
 def number_type(processor: int, *, real: bool) -> np.dtype[Any]:

@@ -1,0 +1,130 @@
+"""Curves in step: the same share of the cycle is the same part of the movement.
+
+Cycles of one group are each of 0 to 100 %, evenly in time. Where their parts last differently, a
+mean over them is flatter than any of them. Two ways of mending that:
+
+*Landmarks.* The largest and the smallest value of the first channel come at one time in all cycles,
+the mean of theirs; time between landmarks and the ends is stretched evenly (Kneip and Gasser 1992,
+"Statistical tools to analyze data representing a sample of curves").
+
+*Warping.* Each cycle is warped to the mean of all, in all channels, each in units of its own
+deviation (dynamic time warping; Sakoe and Chiba 1978), several times. What all have in common in
+these warps is taken off, so that the mean keeps its times.
+
+What is measured, such as when a channel is largest, is that of the cycle as it was.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+LINEAR, LANDMARKS, WARP = "linear", "landmarks", "warp"
+ALIGNMENTS = (LINEAR, LANDMARKS, WARP)
+GRID = 101
+"""Points of a cycle on which it is warped."""
+NEAR = 0.15
+"""Of a cycle: a landmark is looked for so far from where the mean has it."""
+INSIDE = 0.05
+"""Of a cycle: landmarks are so far from its ends and from each other, at least."""
+BAND = 0.15
+"""Of a cycle, by which it is warped at most."""
+STEP = 0.2
+"""What a step of a warp costs that leaves one of the two cycles where it is."""
+ROUNDS = 3
+SMOOTH = 7
+"""Points over which a warp is smoothed."""
+BLOCK = 256
+"""Cycles that are warped at a time."""
+
+
+def aligned(curves: Floats, alignment: str) -> Floats:
+    """Curves (cycles, channels, points) of one group, in step; those with gaps as they were."""
+    complete = np.isfinite(curves).all(axis=(1, 2))
+    if alignment == LINEAR or complete.sum() < 2:
+        return curves
+    shares = np.linspace(0, 1, curves.shape[2])
+    grid = np.linspace(0, 1, GRID)
+    sampled = _at(curves[complete], shares, np.broadcast_to(grid, (int(complete.sum()), GRID)))
+    phases = _by_landmarks(sampled[:, 0]) if alignment == LANDMARKS else _by_warping(sampled)
+    phases = np.array([np.interp(shares, grid, each) for each in phases])
+    moved = curves.copy()
+    moved[complete] = _at(curves[complete], shares, phases)
+    return moved
+
+
+def _at(curves: Floats, shares: Floats, phases: Floats) -> Floats:
+    """The curves, known at shares of the cycle, at a phase of each for each point."""
+    return np.array(
+        [[np.interp(phase, shares, channel) for channel in curve]
+         for curve, phase in zip(curves, phases, strict=True)]
+    )  # fmt: skip
+
+
+def _by_landmarks(curves: Floats) -> Floats:
+    """(cycles, GRID): the phase of each cycle at each time of the common one."""
+    mean, grid = curves.mean(axis=0), np.linspace(0, 1, GRID)
+    reach, margin = round(NEAR * GRID), round(INSIDE * GRID)
+    found = []
+    for sign in (1.0, -1.0):
+        at = int((sign * mean).argmax())
+        if margin <= at < GRID - margin:
+            first, last = max(margin, at - reach), min(GRID - margin, at + reach + 1)
+            found.append(grid[first + (sign * curves[:, first:last]).argmax(axis=1)])
+    extremes = np.array(found).reshape(len(found), len(curves)).T
+    extremes = extremes[:, np.argsort(extremes.mean(axis=0))]
+    common = [0.0, *extremes.mean(axis=0).tolist(), 1.0]
+    phases = np.tile(grid, (len(curves), 1))
+    for row, each in enumerate(extremes.tolist()):
+        places = [0.0, *each, 1.0]
+        if all(b - a >= INSIDE for a, b in [*pairwise(places), *pairwise(common)]):
+            phases[row] = np.interp(grid, common, places)
+    return phases
+
+
+def _by_warping(curves: Floats) -> Floats:
+    """The same, warped to the mean."""
+    grid = np.linspace(0, 1, GRID)
+    deviation = curves.std(axis=(0, 2), keepdims=True)
+    scaled = curves / np.where(deviation > 0, deviation, 1.0)
+    phases = np.tile(grid, (len(curves), 1))
+    for _ in range(ROUNDS):
+        mean = _at(scaled, grid, phases).mean(axis=0)
+        blocks = range(0, len(scaled), BLOCK)
+        phases = np.concatenate([_warped(mean, scaled[at : at + BLOCK]) for at in blocks])
+        usual = phases.mean(axis=0)
+        phases = np.array([np.interp(grid, usual, each) for each in phases])
+    return phases
+
+
+def _warped(mean: Floats, curves: Floats) -> Floats:
+    """The phase of each cycle at each time of the mean, on the cheapest path within a band."""
+    n, band = len(curves), round(BAND * GRID)
+    cost = np.full((n, GRID + 1, GRID + 1), np.inf)
+    cost[:, 0, 0] = 0
+    for i in range(GRID):
+        first, last = max(0, i - band), min(GRID, i + band + 1)
+        apart = np.square(curves[:, :, first:last] - mean[:, i, None]).sum(axis=1)
+        for j in range(first, last):
+            before = np.minimum(cost[:, i, j + 1], cost[:, i + 1, j]) + STEP
+            cost[:, i + 1, j + 1] = apart[:, j - first] + np.minimum(cost[:, i, j], before)
+    total, count = np.zeros((n, GRID)), np.zeros((n, GRID))
+    rows, at, of = np.arange(n), np.full(n, GRID), np.full(n, GRID)  # back from the end
+    while (inside := (at > 0) & (of > 0)).any():
+        np.add.at(total, (rows[inside], at[inside] - 1), of[inside] - 1)
+        np.add.at(count, (rows[inside], at[inside] - 1), 1)
+        costs = [cost[rows, at - 1, of - 1], cost[rows, at - 1, of] + STEP,
+                 cost[rows, at, of - 1] + STEP]  # fmt: skip
+        chosen = np.argmin(costs, axis=0)
+        at, of = at - (inside & (chosen != 2)), of - (inside & (chosen != 1))
+    phases = total / np.maximum(count, 1) / (GRID - 1)
+    kernel, half = np.ones(SMOOTH) / SMOOTH, SMOOTH // 2
+    late = np.pad(phases - np.linspace(0, 1, GRID), ((0, 0), (half, half)))
+    smooth = np.array([np.convolve(each, kernel, "valid") for each in late])
+    smooth = np.maximum.accumulate(np.clip(smooth + np.linspace(0, 1, GRID), 0, 1), axis=1)
+    smooth[:, 0], smooth[:, -1] = 0, 1
+    return np.asarray(smooth)

@@ -1,0 +1,157 @@
+"""Centres of hips and knees, of legs that have markers on thigh and shank and none on the knee.
+
+*Hip.* From the depth and the width of the pelvis, by the regression of Harrington et al. 2007,
+"Prediction of the hip joint centre in adults, children, and patients with cerebral palsy based on
+magnetic resonance imaging".
+
+*Knee.* Thigh and shank are rigid bodies, each fitted to its markers. Both have one point in common,
+about which they turn (Ehrig et al. 2006, "A survey of formal methods for determining the centre of
+rotation of ball joints", section 2.2.2). A knee turns about an axis, so that this point may lie
+anywhere on it: that one is taken which is in line with hip and ankle, as seen from the front. A
+knee that is not bent in the recording has no such point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.cycles.landmarks import SIDES
+from kineme.features.naming import part_and_side
+from kineme.recordings import Motion, Skeleton
+
+Floats = NDArray[np.float64]
+
+LEAST = 3
+"""Markers of a rigid body."""
+FRONT, BACK, SACRUM = ("asis", "asi", "ias"), ("psis", "psi", "ips"), ("vsacral", "sacr", "sacral")
+"""Names of markers on the pelvis."""
+DEPTH, WIDTH_DOWN, WIDTH_OUT = (-0.24, -0.0099), (-0.30, -0.0109), (0.33, 0.0073)
+"""How far ahead, up and to its side a hip is of the middle of the front: factor, and metres."""
+PULL = 0.05
+"""How strongly the common point is drawn to between both bodies, against how well it fits them."""
+BENT = 0.1
+"""How much a knee bends and stretches in the recording, about 8 degrees of deviation, at least."""
+MOST = 4000
+"""Frames that the common point is found from, at most."""
+
+
+def with_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
+    """The motion with centres of hips and knees as more joints, and the joints by part and side.
+
+    Both are as they were where knees have markers, or nothing tells where their centres are.
+
+    Parameters
+    ----------
+    motion : Motion
+    joints : mapping of str to int
+        As `kineme.cycles.landmarks` has them.
+    """
+    names = [part_and_side(name) for name in motion.skeleton.names]
+    places = motion.positions
+    made: dict[str, Floats] = {}
+    if motion.rotations is not None or any(f"{side}_knee" in joints for side in SIDES):
+        return motion, dict(joints)
+    hips = _hips(places, names) or {
+        side: places[:, joints[f"{side}_hip"]] for side in SIDES if f"{side}_hip" in joints
+    }
+    if len(hips) < len(SIDES):
+        return motion, dict(joints)
+    to_left = hips["left"] - hips["right"]
+    for side in SIDES:
+        ankle = joints.get(f"{side}_ankle")
+        bodies = [[j for j, (part, of) in enumerate(names) if of == side and part.startswith(word)]
+                  for word in ("thigh", "shank")]  # fmt: skip
+        if ankle is None or min(map(len, bodies)) < LEAST:
+            continue
+        ends = hips[side], places[:, ankle]
+        knee = _knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
+        if knee is not None:
+            made[f"{side}_knee"] = knee
+    if not made:
+        return motion, dict(joints)
+    made |= {f"{side}_hip": hip for side, hip in hips.items()}
+    skeleton, n = motion.skeleton, motion.skeleton.n_joints
+    extended = Skeleton(
+        (*skeleton.names, *(f"centre of {part.replace('_', ' ')}" for part in made)),
+        (*skeleton.parents, *[0] * len(made)),
+        np.concatenate([skeleton.offsets, np.zeros((len(made), 3))]),
+        skeleton.end_sites,
+    )
+    positions = np.concatenate([places, np.stack([*made.values()], axis=1)], axis=1)
+    added = {part: n + place for place, part in enumerate(made)}
+    return replace(motion, skeleton=extended, positions=positions), {**joints, **added}
+
+
+def _hips(places: Floats, names: Sequence[tuple[str, str]]) -> dict[str, Floats]:
+    """Both centres, from the markers of the pelvis; none where these are not there."""
+    fronts = [_first(names, FRONT, side) for side in SIDES]
+    backs = [_first(names, BACK, side) for side in SIDES]
+    sacrum = _first(names, SACRUM, "")
+    if min(backs) < 0:
+        backs = [sacrum]
+    if min(fronts + backs) < 0:
+        return {}
+    front, back = places[:, fronts].mean(axis=1), places[:, backs].mean(axis=1)
+    across, ahead = places[:, fronts[0]] - places[:, fronts[1]], front - back
+    width, depth = (float(np.median(np.linalg.norm(each, axis=1))) for each in (across, ahead))
+    left = _unit(across)
+    forward = _unit(ahead - (ahead * left).sum(axis=1, keepdims=True) * left)
+    up = np.cross(forward, left)
+    middle = front + (DEPTH[0] * depth + DEPTH[1]) * forward
+    middle = middle + (WIDTH_DOWN[0] * width + WIDTH_DOWN[1]) * up
+    aside = (WIDTH_OUT[0] * width + WIDTH_OUT[1]) * left
+    return {"left": middle + aside, "right": middle - aside}
+
+
+def _first(names: Sequence[tuple[str, str]], words: Sequence[str], side: str) -> int:
+    return next((names.index((word, side)) for word in words if (word, side) in names), -1)
+
+
+def _unit(vectors: Floats) -> Floats:
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(vectors / np.maximum(lengths, 1e-12))
+
+
+def _knee(
+    thigh: Floats, shank: Floats, ends: tuple[Floats, Floats], to_left: Floats
+) -> Floats | None:
+    """(frames, 3): the point about which two bodies turn, in line with hip and ankle."""
+    upper, lower = _poses(thigh), _poses(shank)
+    chosen = np.unique(np.linspace(0, len(thigh) - 1, min(len(thigh), MOST)).astype(np.intp))
+    (turned, centre), (other, below) = ((r[chosen], c[chosen]) for r, c in (upper, lower))
+    both = np.concatenate([turned, -other], axis=2).reshape(-1, 6)
+    if np.linalg.svd(both, compute_uv=False)[4] < BENT * np.sqrt(len(chosen)):
+        return None
+    pulled = np.concatenate([turned, 0 * other], axis=2).reshape(-1, 6)
+    apart = (below - centre).reshape(-1)
+    found = np.linalg.lstsq(
+        np.concatenate([both, PULL * pulled]), np.concatenate([apart, PULL * apart / 2])
+    )[0]
+    at = (_moved(upper, found[:3]) + _moved(lower, found[3:])) / 2
+    axis = _unit(np.einsum("fji,fj->fi", upper[0], _unit(to_left)).mean(axis=0, keepdims=True))[0]
+    axis = np.einsum("fij,j->fi", upper[0], axis)
+    aside = (((ends[0] + ends[1]) / 2 - at) * axis).sum(axis=1)
+    return np.asarray(at + float(np.median(aside)) * axis)
+
+
+Poses = tuple[Floats, Floats]
+"""Rotations (frames, 3, 3) and places of the middle (frames, 3) of a rigid body."""
+
+
+def _moved(poses: Poses, point: Floats) -> Floats:
+    return np.asarray(np.einsum("fij,j->fi", poses[0], point) + poses[1])
+
+
+def _poses(markers: Floats) -> Poses:
+    """How a body is turned against its shape in the middle frame, by least squares (Kabsch)."""
+    centre = markers.mean(axis=1)
+    shape = markers - centre[:, None]
+    products = np.einsum("mi,fmj->fij", shape[len(shape) // 2], shape)
+    u, _, vt = np.linalg.svd(products)
+    flips = np.ones((len(u), 1, 3))
+    flips[:, 0, 2] = np.sign(np.linalg.det(u @ vt))
+    return np.einsum("fij,fjk->fki", u * flips, vt), centre

@@ -1,0 +1,283 @@
+"""A C3D file with more events: parameters of the group EVENT made anew, all else byte for byte.
+
+The parameter section is a list of records, of which each tells how far the next one is. Those
+of other groups stay as they are, and so do points and analog samples. Where the section needs more
+blocks, what follows moves down, and the three places that say where it begins are told: the
+header's pointer to the data, POINT:DATA_START, and the header's pointer to labels and ranges.
+
+Text, integers and floats are those of the file's processor. An event has a side (CONTEXTS), a name
+(LABELS), minutes and seconds (TIMES, counted from frame 1), an icon, and whose it is (SUBJECTS).
+Events of the header, as older programs write them, go into the group as well, since readers
+look there first; in the header they stay.
+
+Source: Motion Lab Systems, "The C3D file format: a technical user guide" (2021); icons and
+descriptions are those of Vicon Nexus.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import prod
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import WriteError
+from kineme.formats.files import FileContent
+from kineme.formats.markers.c3d_file import (
+    BLOCK,
+    DEC,
+    MIPS,
+    Layout,
+    Parameters,
+    as_float32,
+    header_events,
+    number_type,
+    read_header,
+    read_parameters,
+)
+
+RawRecord = tuple[int, str, bytes]
+"""Number of its group (negative: it is the group), its name in upper case, its bytes."""
+
+EVENT = "EVENT"
+PER_EVENT = ("USED", "CONTEXTS", "LABELS", "DESCRIPTIONS", "TIMES", "SUBJECTS", "ICON_IDS",
+             "GENERIC_FLAGS")  # fmt: skip
+"""Parameters with a value for each event, which are made anew."""
+MOST = 255
+"""Events: a dimension is one byte."""
+ICONS = {
+    "Foot Strike": (1, "The instant the heel strikes the ground"),
+    "Foot Off": (2, "The instant the toe leaves the ground"),
+}
+"""Icon and description by the label of an event."""
+_LABELS_AND_RANGES = 12345
+"""Marks a header that names the block of labels and ranges."""
+
+
+@dataclass(frozen=True)
+class C3DEvent:
+    """One event.
+
+    Parameters
+    ----------
+    seconds : float
+        From the first frame of the file.
+    side : str
+        ``Left``, ``Right``, ``General``; empty where nobody says it.
+    label : str
+        Such as ``Foot Strike``.
+    """
+
+    seconds: float
+    side: str
+    label: str
+
+
+def with_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
+    """The bytes of a C3D file that has these events besides its own.
+
+    Parameters
+    ----------
+    content : FileContent
+    events : sequence of C3DEvent
+
+    Raises
+    ------
+    ReadError
+        No C3D file, one without a frame rate, or one that is laid out as none should be.
+    WriteError
+        More events than a C3D file holds.
+    """
+    parameters = read_parameters(content)
+    layout = Layout(content, parameters, read_header(content, parameters))
+    layout.frames()  # ReadError where the data are not there
+    if not layout.rate:
+        raise content.error("has no frame rate, which the times of events need")
+    table = _table(layout, events)
+    if len(table["LABELS"]) > MOST:
+        raise WriteError(
+            content.path,
+            f"cannot take {len(table['LABELS'])} events: a C3D file holds {MOST} at most",
+        )
+    if not events:
+        return content.data
+    data = _with_section(layout, _records_with(layout, table))
+    if not _is_kept(parameters, read_parameters(FileContent(content.path, data)), table):
+        raise content.error("has records of parameters over each other: it is damaged")
+    return data
+
+
+def _is_kept(before: Parameters, after: Parameters, table: dict[str, list[Any]]) -> bool:
+    """Whether a file has the parameters that it had, and these events."""
+    others = (
+        place
+        for place in before.places
+        if place[0] != EVENT or place[1] not in PER_EVENT
+        if place != ("POINT", "DATA_START")
+    )
+    return (
+        all(before.stored(*place) == after.stored(*place) for place in others)
+        and int(after.number(EVENT, "USED", 0)) == len(table["LABELS"])
+        and len(after.numbers(EVENT, "TIMES")) == 2 * len(table["LABELS"])
+    )
+
+
+def _table(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, list[Any]]:
+    """By parameter the values of all events: those of the file first, in its order."""
+    parameters, first = layout.parameters, (layout.first_frame - 1) / layout.rate
+    used = int(parameters.number(EVENT, "USED", 0))
+    times = parameters.numbers(EVENT, "TIMES")
+    pairs = list(zip(times[::2], times[1::2], strict=False))[:used]
+    table: dict[str, list[Any]] = {"TIMES": pairs}
+    for name, usual in (("CONTEXTS", b""), ("LABELS", b""), ("DESCRIPTIONS", b""),
+                        ("SUBJECTS", b""), ("ICON_IDS", 0), ("GENERIC_FLAGS", 0)):  # fmt: skip
+        stored = (
+            parameters.texts(EVENT, name)
+            if usual == b""
+            else [int(each) for each in parameters.numbers(EVENT, name, signed=True)]
+        )[: len(pairs)]
+        table[name] = [*stored, *([usual] * (len(pairs) - len(stored)))]
+    subject = (parameters.texts("SUBJECTS", "NAMES") or [b""])[0]
+    more = [] if pairs else [C3DEvent(at - first, "", name) for at, name in header_events(layout)]
+    for event in [*more, *events]:
+        minutes, seconds = divmod(event.seconds + first, 60)
+        icon, description = ICONS.get(event.label, (0, ""))
+        table["TIMES"].append((minutes, seconds))
+        table["CONTEXTS"].append(event.side.encode())
+        table["LABELS"].append(event.label.encode())
+        table["DESCRIPTIONS"].append(description.encode())
+        table["SUBJECTS"].append(subject)
+        table["ICON_IDS"].append(icon)
+        table["GENERIC_FLAGS"].append(1)  # found, not marked by a person
+    return table
+
+
+def _records_with(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord]:
+    """All records, those of events made anew, at the end."""
+    parameters = layout.parameters
+    records = _records(parameters)
+    groups = {-number: name for number, name, _ in records if number < 0}
+    number = next((each for each, name in groups.items() if name == EVENT), 0)
+    kept = [each for each in records if not (each[0] == number > 0 and each[1] in PER_EVENT)]
+    if not number:
+        number = next((n for n in range(1, 128) if n not in groups), 0)
+        if not number:
+            raise layout.content.error("has 127 groups of parameters, and no room for its events")
+        kept.append((-number, EVENT, _record(-number, EVENT, b"\0", parameters.processor)))
+    n = len(table["LABELS"])
+    times = np.array(table["TIMES"], np.float32)
+    made: list[tuple[str, int, list[int], bytes]] = [
+        ("USED", 2, [], _integers([n], parameters.processor)),
+        ("TIMES", 4, [2, n], _reals(times, parameters.processor)),
+        ("ICON_IDS", 2, [n], _integers(table["ICON_IDS"], parameters.processor)),
+        ("GENERIC_FLAGS", 1, [n], bytes(each & 255 for each in table["GENERIC_FLAGS"])),
+    ]
+    for name in ("CONTEXTS", "LABELS", "DESCRIPTIONS", "SUBJECTS"):
+        width = max(1, *map(len, table[name]))
+        made.append((name, -1, [width, n], b"".join(each.ljust(width) for each in table[name])))
+    for name, kind, shape, values in sorted(made, key=lambda each: PER_EVENT.index(each[0])):
+        body = bytes([kind & 255, len(shape), *shape]) + values + b"\0"  # without a description
+        kept.append((number, name, _record(number, name, body, parameters.processor)))
+    return kept
+
+
+def _records(parameters: Parameters) -> list[RawRecord]:
+    """The records as stored, each from the length of its name to where the next one begins."""
+    data, records = parameters.content.data, []
+    for each in parameters.records:
+        stop = each.stop
+        if stop is None:  # the last one does not tell where it ends
+            stop = _end(data, each.number, each.values)
+        raw = bytearray(data[each.start : stop])
+        raw[each.values - 2 - each.start : each.values - each.start] = _step(
+            stop - (each.values - 2), parameters.processor
+        )
+        records.append((each.number, each.name, bytes(raw)))
+    return records
+
+
+def _end(data: bytes, number: int, values: int) -> int:
+    """Where a record ends whose values, or for a group its description, begin at a byte."""
+    if number > 0:
+        shape = data[values + 2 : values + 2 + data[values + 1]]
+        kind = int.from_bytes(data[values : values + 1], signed=True)
+        values += 2 + len(shape) + abs(kind) * prod(shape)
+    return values + 1 + (data[values] if values < len(data) else 0)
+
+
+def _record(number: int, name: str, body: bytes, processor: int) -> bytes:
+    head = bytes([len(name), number & 255]) + name.encode()
+    return head + _step(len(body) + 2, processor) + body
+
+
+def _step(length: int, processor: int) -> bytes:
+    return length.to_bytes(2, "big" if processor == MIPS else "little")
+
+
+def _with_section(layout: Layout, records: list[RawRecord]) -> bytes:
+    """The file with these records as its parameters."""
+    content, parameters = layout.content, layout.parameters
+    data, kind = content.data, parameters.processor
+    start = parameters.start
+    room = layout.start - start
+    if room <= 0:
+        raise content.error("has its data before its parameters, which cannot grow there")
+    read = max((each.start for each in parameters.records), default=start)
+    size = data[start + 2] * BLOCK
+    if not read - start < size <= room:  # a count that is not true
+        size = room
+    body = b"".join(raw for _, _, raw in records) + bytes(2)
+    blocks = max(size, -(-(len(body) + 4) // BLOCK) * BLOCK) // BLOCK
+    if blocks > 255:
+        raise WriteError(content.path, "has no room for so many events among its parameters")
+    head = data[start : start + 2] + bytes([blocks, kind])
+    section = bytearray((head + body).ljust(blocks * BLOCK, b"\0"))
+    grown = blocks - size // BLOCK
+    header = bytearray(data[:start])
+    if grown:
+        _move(header, 2 * 8, kind, grown)
+        if header[2 * 147 : 2 * 148] == _integers([_LABELS_AND_RANGES], kind):
+            _move(header, 2 * 148, kind, grown)
+        points = {-number for number, name, _ in records if number < 0 and name == "POINT"}
+        at = 4
+        for number, name, raw in records:
+            if name == "DATA_START" and number in points:
+                length = abs(int.from_bytes(raw[:1], signed=True))
+                _move_value(section, at + 4 + length, kind, grown)
+            at += len(raw)
+    return bytes(header + section) + data[start + size :]
+
+
+def _move_value(section: bytearray, values: int, processor: int, by: int) -> None:
+    """Add blocks to a parameter whose type stands at a byte of the section."""
+    place = values + 2 + section[values + 1]
+    if section[values] == 2:
+        _move(section, place, processor, by)
+    elif section[values] == 4:
+        kind = number_type(processor, real=True)
+        stored = np.frombuffer(bytes(section[place : place + 4]), kind)
+        moved = as_float32(stored, processor) + by
+        section[place : place + 4] = _reals(moved, processor)
+
+
+def _move(data: bytearray, place: int, processor: int, by: int) -> None:
+    """Add blocks to a pointer of two bytes; one that is 0 points nowhere."""
+    order: Any = "big" if processor == MIPS else "little"
+    block = int.from_bytes(data[place : place + 2], order)
+    if block:
+        data[place : place + 2] = (block + by).to_bytes(2, order)
+
+
+def _integers(values: Sequence[int], processor: int) -> bytes:
+    return np.array(values, number_type(processor, real=False)).tobytes()
+
+
+def _reals(values: NDArray[np.float32], processor: int) -> bytes:
+    """Floats as a processor has them; DEC's have exponents larger by two, and words exchanged."""
+    if processor != DEC:
+        return values.astype(number_type(processor, real=True)).tobytes()
+    words = (values * np.float32(4)).astype("<f4").view("<u2").reshape(-1, 2)[:, ::-1]
+    return words.tobytes()
