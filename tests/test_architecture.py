@@ -99,7 +99,7 @@ ROOMS = {
     ),
     "web": Room(
         "sources of the pages, the built pages, and what they are told",
-        "features formats labels recordings segments",
+        "cycles features formats labels recordings segments",
     ),
     "report": Room("one page of HTML that shows a recording", "features segments web"),
     "studio": Room(
