@@ -110,7 +110,7 @@ def filled(
         "motion": ("application/octet-stream;base64", _base64(binary)),
         "tiles": ("application/json", _json(pictures)),
         "curves": ("application/json", _json(curves)),
-        "cycles": ("application/json;deflate;base64", _base64(zlib.compress(to_json(cycles), 9))),
+        "cycles": ("application/json;deflate;base64", _base64(zlib.compress(to_json(cycles)))),
     }
     for part, (kind, text) in parts.items():
         element = f'<script type="{kind}" id="kineme-{part}">{text}</script>'

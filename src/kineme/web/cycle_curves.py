@@ -40,8 +40,8 @@ DIGITS = 4
 MOST_NUMBERS = 50_000
 """In the curves of a report, some 3 bytes each."""
 FEWEST_CHANNELS = 4
-MOST_FRAMES = 500_000
-"""Of all tables of a report together: half a second for each hundred thousand."""
+MOST_FRAMES = 200_000
+"""Of all tables of a report together: half a second for a hundred thousand."""
 PLACES = {
     "first": "the first of its activity",
     "last": "the last of its activity",
@@ -104,7 +104,7 @@ class CycleCurves:
             measured = self._measured(cycles, [channel] if channel else self._usual)
             group = measured.select(rows)
             name = channel or _liveliest(group, measured)[0]
-            return _drawn(group, MOST)[group.channels.index(name)]
+            return _drawn(group, name, MOST, _means(group)[name])
 
     def report(self, table: Segmentation, others: Sequence[Segmentation] = ()) -> ReportCurves:
         """The curves of all clusters, of as many channels and cycles as fit into a page.
@@ -115,16 +115,16 @@ class CycleCurves:
             heads = {head.name: head for head in self.channels()}
             if table.n_frames * (1 + len(others)) > MOST_FRAMES:
                 others = ()
+            shown = self._measured(self._of_table(table), self._usual)
             found: dict[tuple[object, ...], Cycles] = {}
             tables: list[dict[str, int]] = []
             for each in (table, *others):
-                cycles = self._of_table(each)
+                cycles = shown if each is table else self._of_table(each)
                 groups = {k: cycles.select(_rows_of(cycles, k)) for k in _clusters(cycles)}
                 for group in groups.values():
                     found.setdefault(_spans(group), group)
                 numbers = {spans: number for number, spans in enumerate(found)}
                 tables.append({str(k): numbers[_spans(group)] for k, group in groups.items()})
-            shown = self._measured(self._of_table(table), self._usual)
             names = self._report_channels(shown, len(found))
             room = MOST_NUMBERS // (shown.curves.shape[2] * len(names))
             most = _most([len(group) for group in found.values()], room)
@@ -151,9 +151,13 @@ class CycleCurves:
         self, group: Cycles, names: Sequence[str], most: int, every: Cycles
     ) -> dict[str, ClusterCurves]:
         """By channel, that one first which goes farthest."""
-        measured = self._measured(group, names)
-        drawn = {each.channel: each for each in _drawn(measured, most)}
-        return {name: drawn[name] for name in _liveliest(measured, every)}
+        measured = group if group.channels else self._measured(group, names)
+        means = _means(measured)
+        return {
+            name: _drawn(measured, name, most, means[name])
+            for name in _liveliest(measured, every)
+            if name in names
+        }
 
     def _of_table(self, table: Segmentation) -> Cycles:
         """Its cycles, without channels."""
@@ -233,9 +237,9 @@ def _liveliest(group: Cycles, every: Cycles) -> list[str]:
 
     Without a unit, as a share of what the channel spans in all cycles.
     """
-    curves = group.mean_curves(ends=not group.used().any())
+    means = _means(group)
     extents = [
-        _extent(curves["mean"][curves["channel"] == channel])
+        _extent(means[channel]["mean"])
         / (1 if unit else _extent(every.curves[:, every.channels.index(channel)]) or 1)
         for channel, unit in zip(group.channels, group.units, strict=True)
     ]
@@ -248,24 +252,25 @@ def _extent(values: Floats) -> float:
     return float(np.ptp(finite)) if len(finite) else 0.0
 
 
-def _drawn(group: Cycles, most: int) -> list[ClusterCurves]:
-    """The messages for the cycles of a group, one for each channel."""
-    ends = not group.used().any()
-    used, tidy = group.used(ends=ends), group.mean_curves(ends=ends)
-    points = group.curves.shape[2]
-    return [
-        _of_channel(group, place, used, most, ends,
-                    {name: tidy[name][place * points : (place + 1) * points] for name in tidy})
-        for place in range(len(group.channels))
-    ]  # fmt: skip
+def _means(group: Cycles) -> dict[str, Columns]:
+    """By channel the mean curve; of all cycles where none is an inner one."""
+    tidy, points = group.mean_curves(ends=_only_ends(group)), group.curves.shape[2]
+    return {
+        channel: {name: tidy[name][place * points : (place + 1) * points] for name in tidy}
+        for place, channel in enumerate(group.channels)
+    }
 
 
-def _of_channel(
-    group: Cycles, place: int, used: NDArray[np.bool_], most: int, ends: bool, mean: Columns
-) -> ClusterCurves:
+def _only_ends(group: Cycles) -> bool:
+    return not group.used().any()
+
+
+def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurves:
+    """The message for the cycles of a group."""
+    place, ends = group.channels.index(channel), _only_ends(group)
     curves, columns = group.curves[:, place], group.columns
     complete = np.isfinite(curves).all(axis=1)
-    counts = used & complete
+    counts = group.used(ends=ends) & complete
     apart = np.square(curves - mean["mean"])
     finite = np.isfinite(apart)
     distance = np.sqrt(np.divide(
@@ -287,7 +292,7 @@ def _of_channel(
         for i in _some(order, most)
     ]
     return ClusterCurves(
-        channel=group.channels[place],
+        channel=channel,
         unit=group.units[place],
         n=int(mean["n"][0]),
         total=len(group),
