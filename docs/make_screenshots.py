@@ -24,10 +24,12 @@ from playwright.sync_api import Page, sync_playwright
 
 import kineme
 from kineme._files import atomic_write
-from kineme.datasets import bundled_truth
+from kineme.datasets import Action, bundled_truth, synthesize
+from kineme.report.sessions import write_sessions
 
 IMAGES = Path(__file__).parent / "images"
 SIZE = {"width": 1280, "height": 720}
+SHEET = {"width": 740, "height": 960}
 DRAWN_IN_SOFTWARE = [
     "--no-sandbox",
     "--use-gl=angle",
@@ -53,6 +55,7 @@ def main() -> None:
         with studio(library) as address:
             draw_library(browser.new_page(viewport=SIZE, color_scheme="light"), address)
         draw_report(browser.new_page(viewport=SIZE, color_scheme="light"), folder)
+        draw_sheet(browser.new_page(viewport=SHEET), folder)
         browser.close()
 
 
@@ -102,6 +105,18 @@ def draw_report(page: Page, folder: Path) -> None:
     page.locator(".cluster-name", has_text="kick").click()
     go_on(page, 50)
     save(page, "report")
+
+
+def draw_sheet(page: Page, folder: Path) -> None:
+    """Eight squats before and after, as the page on cycles has them."""
+    sessions = []
+    for amplitude, seed in ((1.0, 3), (0.8, 4)):
+        made = synthesize([Action("squat", 8, amplitude=amplitude)], fps=100, seed=seed)
+        sessions.append(kineme.cycles(made.motion, made.truth))
+    sheet = folder / "changed.html"
+    write_sessions(sessions[0], sessions[1], sheet, names=("before", "after"))
+    page.goto(sheet.as_uri())
+    save(page, "sessions")
 
 
 def go_on(page: Page, frames: int) -> None:

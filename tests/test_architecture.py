@@ -99,9 +99,12 @@ ROOMS = {
     ),
     "web": Room(
         "sources of the pages, the built pages, and what they are told",
-        "features formats labels recordings segments",
+        "cycles features formats labels recordings segments",
     ),
-    "report": Room("one page of HTML that shows a recording", "features segments web"),
+    "report": Room(
+        "one page of HTML that shows a recording, or compares two sessions",
+        "cycles features segments web",
+    ),
     "studio": Room(
         "a local server and its page: recordings looked at, tables corrected and kept",
         "clips datasets evaluation features formats labels library methods recordings report "

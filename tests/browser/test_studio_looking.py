@@ -65,15 +65,27 @@ def test_all_members_of_a_cluster_play_in_step(page):
     screen.changed(alone, "figure")
 
 
-def test_the_mean_of_two_walks_is_of_one_phase(page):
-    """The bundled recording has two, the second cut a sixth of a double step later."""
+def test_curves_are_those_of_kineme_cycles(page, take):
+    """Angles, of one phase: the bundled recording has two walks, cut at different ones."""
     screen = Screen(page)
-    walks = [row for row in screen.lane("primitive") if row["cluster"] == 0]
-    later = sum(row["activity"] != walks[0]["activity"] for row in walks)
     page.get_by_role("tab", name="Clusters").click()
-    note = page.locator(".curves .note").filter(has_text=f"{len(walks)} members, mean ± deviation")
-    turned = f"{later} cut at another phase of the cycle, turned to that of the others"
+    note = page.locator(".curves .note")
+    turned = (
+        "5 inner of 9 repetitions, mean ± standard deviation; knee_r (dashed); 1 activity turned"
+    )
     note.filter(has_text=turned).wait_for()
+    assert page.get_by_label("Channel", exact=True).input_value() == "knee_l"
+    page.get_by_label("What is measured").select_option("speed")
+    page.get_by_label("Channel", exact=True).select_option("LeftFoot.speed")
+    note.filter(has_text="RightFoot.speed (dashed)").wait_for()
+    screen.click(screen.lane("primitive")[4])  # an edit is measured anew
+    screen.wait("k.selected")
+    page.keyboard.press("Delete")
+    screen.saved()
+    note.filter(has_text="of 8 repetitions").wait_for()
+    page.locator(".farthest button").first.click()
+    screen.wait("k.selected")
+    assert screen.state["selected"]["cluster"] == 0
 
 
 def test_two_recordings_stand_side_by_side(new_tab, server, take):

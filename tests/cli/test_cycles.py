@@ -59,6 +59,12 @@ def test_several_recordings_are_measured_together(kineme, take: Path, tmp_path: 
     assert (compared[0]["group"], compared[0]["measure"]) == ("walk", "duration_s")
     assert float(compared[0]["difference"]) == pytest.approx(0, abs=1e-9)
     assert (tmp_path / "both.curves.csv").exists()
+    done = kineme(
+        "cycles", "take.bvh", "other.bvh", "--segments", "tables/{name}.json", "-q",
+        "--compare", "both.html",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "<h1>take → other</h1>" in (tmp_path / "both.html").read_text(encoding="utf-8")
     alone = kineme("cycles", "take.bvh", "--compare", "both.csv")
     assert alone.returncode == 2
 

@@ -28,6 +28,26 @@ def test_a_detail_is_shown_before_it_is_made(studio: Studio) -> None:
     assert studio.client.post(address, json={**sent, "detail": -1}).status_code == 400
 
 
+def test_repetitions_are_measured_as_by_the_command(studio: Studio) -> None:
+    one = f"/api/recordings/{studio.id}"
+    channels = studio.get(f"{one}/cycles").json()["channels"]
+    assert channels[0]["name"] == "knee_l"
+    revision = studio.recording()["revision"]
+    motion = kineme.read(studio.path)
+    cycles = kineme.cycles(motion, kineme.segment(motion), channels=["hip_l"])
+    curves = studio.get(f"{one}/cycles/0?channel=hip_l").json()
+    mean = cycles.layout("hip_l", "cluster 0").mean(axis=0)
+    assert curves["mean"] == pytest.approx(mean, abs=0.01)
+    assert studio.get(f"{one}/cycles/0").json()["channel"] in {each["name"] for each in channels}
+    for wrong in ("99", "0?channel=tail", "x"):
+        assert studio.get(f"{one}/cycles/{wrong}").status_code == 404
+    row = next(each for each in kineme.segment(motion).primitives if each.kind == "primitive")
+    frame = row.stop_frame  # an edit is measured anew
+    studio.done(revision, "delete_border", level="primitive", frame=frame)
+    fewer = studio.get(f"{one}/cycles/0?channel=hip_l").json()
+    assert fewer["total"] == curves["total"] - 1
+
+
 def test_curves_come_in_pieces(studio: Studio) -> None:
     head = studio.get(f"/api/recordings/{studio.id}/curves").json()
     assert {each["group"] for each in head["curves"]} >= {"height", "speed"}

@@ -46,7 +46,10 @@ def cycles(
     ] = None,
     compare: Annotated[
         Path | None,
-        option(OUTPUT, "Write two recordings side by side: .csv or .parquet."),
+        option(
+            OUTPUT,
+            "Write two recordings side by side: .csv, .parquet, .html.",
+        ),
     ] = None,
     sides: Annotated[
         Path | None,
@@ -176,11 +179,12 @@ def _check_targets(
     """typer.BadParameter for a file that could not be written, before any work is done."""
     from kineme.cli.options.targets import PICTURES
     from kineme.cycles.export import SUFFIXES
+    from kineme.report.page import SUFFIXES as PAGES
 
     for name, path, suffixes in (
         ("--output", output, SUFFIXES),
         ("--plot", plot, PICTURES),
-        ("--compare", compare, (".csv", ".parquet")),
+        ("--compare", compare, (".csv", ".parquet", *PAGES)),
         ("--sides", sides, (".csv", ".parquet")),
     ):
         if path is not None and path.suffix.lower() not in suffixes:
@@ -208,11 +212,16 @@ def _excluded(cycles: Cycles, rules: list[str]) -> Cycles:
 def _compare(cycles: Cycles, path: Path, *, ends: bool) -> None:
     """Write what changed from the first recording to the second: numbers, curves beside them."""
     from kineme.cycles import compare_curves, compare_sessions, write_table
+    from kineme.report.page import SUFFIXES as PAGES
+    from kineme.report.sessions import write_sessions
 
     names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
     if len(names) < 2:
         raise ParameterError("there are no repetitions in both recordings to compare")
     first, second = (cycles.select(cycles.columns["recording"] == name) for name in names)
+    if path.suffix.lower() in PAGES:
+        write_sessions(first, second, path, ends=ends)
+        return
     write_table(compare_sessions(first, second, ends=ends), path)
     curves = compare_curves(first, second, ends=ends)
     write_table(curves, path.with_suffix(f".curves{path.suffix}"))

@@ -18,7 +18,7 @@ from kineme.cycles.events import Events, foot_events, gait
 from kineme.cycles.export import write_cycles, write_table
 from kineme.cycles.landmarks import landmarks
 from kineme.cycles.measure import cycles
-from kineme.cycles.picture import plot_curves, plot_sides
+from kineme.cycles.picture import plot_curves, plot_sessions, plot_sides
 from kineme.cycles.sessions import compare_curves, compare_sessions
 from kineme.cycles.sides import compare_sides
 from kineme.cycles.table import Cycles
@@ -39,6 +39,7 @@ __all__ = [
     "gait",
     "landmarks",
     "plot_curves",
+    "plot_sessions",
     "plot_sides",
     "stands_from_force",
     "stands_from_positions",

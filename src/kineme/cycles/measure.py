@@ -125,7 +125,7 @@ def cycles(
         found = anchored(found, given, groups, anchor, beside)
     columns = _columns(found, tables, names, groups)
     curves = np.empty((len(found), len(measured[0]), points))
-    _measure(found, measured, columns, curves)
+    _measure([(each.recording, each.start, each.stop) for each in found], measured, columns, curves)
     for group in set(columns["group"].tolist()):
         rows = columns["group"] == group
         curves[rows] = aligned(curves[rows], align)
@@ -135,6 +135,34 @@ def cycles(
         tuple(channel.unit for channel in measured[0]),
         curves,
         _provenance(given, tables, measured[0], found, columns, align),
+    )
+
+
+def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
+    """The same cycles of one recording with other channels, from the borders that they have.
+
+    Parameters
+    ----------
+    cycles : Cycles
+    channels : sequence of Channel
+        Of the same recording, see `kineme.cycles.channels_of`.
+
+    Returns
+    -------
+    Cycles
+        As if `kineme.cycles` had measured these channels, without all that finds the borders.
+    """
+    former = {f"{channel}.{name}" for channel in cycles.channels for name in STATISTICS}
+    columns = {name: column for name, column in cycles.columns.items() if name not in former}
+    spans = zip(columns["start_s"].tolist(), columns["stop_s"].tolist(), strict=True)
+    curves = np.empty((len(cycles), len(channels), cycles.curves.shape[2]))
+    _measure([(0, start, stop) for start, stop in spans], [channels], columns, curves)
+    return Cycles(
+        columns,
+        tuple(channel.name for channel in channels),
+        tuple(channel.unit for channel in channels),
+        curves,
+        {**cycles.provenance, "channels": {channel.name: channel.source for channel in channels}},
     )
 
 
@@ -256,19 +284,22 @@ def _columns(
 
 
 def _measure(
-    found: Sequence[Repetition],
+    spans: Sequence[tuple[int, float, float]],
     measured: Sequence[Sequence[Channel]],
     columns: Columns,
     curves: Floats,
 ) -> None:
-    """Fill in the statistics and the curves of each channel, one channel at a time."""
+    """Fill in the statistics and the curves of each channel, one channel at a time.
+
+    ``spans`` has of each cycle its recording, start and stop in seconds.
+    """
     for place, channel in enumerate(measured[0]):
-        statistics = np.full((len(found), len(STATISTICS)), np.nan)
+        statistics = np.full((len(spans), len(STATISTICS)), np.nan)
         for number, of_one in enumerate(measured):
-            rows = [i for i, each in enumerate(found) if each.recording == number]
+            rows = [row for row, (recording, _, _) in enumerate(spans) if recording == number]
             values = of_one[place].values()
             for row in rows:
-                start, stop = found[row].start, found[row].stop
+                _, start, stop = spans[row]
                 curves[row, place], statistics[row] = _of_cycle(
                     values, channel.fps if number == 0 else of_one[place].fps, start, stop,
                     curves.shape[2],

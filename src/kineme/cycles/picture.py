@@ -1,4 +1,4 @@
-"""The mean curve of a channel, drawn; or those of left and right."""
+"""Mean curves of a channel, drawn: of groups, of two sessions, or of left and right."""
 
 from __future__ import annotations
 
@@ -7,12 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kineme._colors import PALETTE, cluster_color
-from kineme.cycles.table import Cycles, Floats
+from kineme.cycles.table import Columns, Cycles, Floats
 from kineme.errors import ParameterError
 from kineme.segments.timeline import new_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+
+FIRST, SECOND = "#777777", "#332288"
+"""Colours of two sessions; the first is dashed, too, so that paper without colour tells them."""
 
 
 def plot_curves(
@@ -137,3 +141,54 @@ def _name_axes(axes: Axes, cycles: Cycles, channel: str, name: str) -> None:
         axes.set_ylim(-5, 105)
     if axes.get_legend_handles_labels()[0]:
         axes.legend(frameon=False)
+    return axes
+
+
+def plot_sessions(
+    curves: Columns, channel: str, group: str, *, unit: str = "", ax: Axes | None = None
+) -> Axes:
+    """Mean and standard deviation of a channel in two sessions, and where they surely differ.
+
+    Parameters
+    ----------
+    curves : dict of str to array
+        Both sessions side by side, from `kineme.cycles.compare_curves`.
+    channel, group : str
+    unit : str
+        Of the channel.
+    ax : Axes, optional
+        Where to draw; Axes of a new figure of pyplot by default.
+
+    Returns
+    -------
+    Axes
+        The first session dashed; a bar at the bottom where the bounds of the difference leave
+        out 0.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import compare_curves, plot_sessions
+    >>> from kineme.datasets import bundled_truth
+    >>> from matplotlib.figure import Figure
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()), channels=["knee_l"])
+    >>> both = compare_curves(cycles, cycles)
+    >>> axes = plot_sessions(both, "knee_l", "walk", ax=Figure().add_subplot())
+    """
+    rows = (curves["channel"] == channel) & (curves["group"] == group)
+    axes = ax if ax is not None else new_axes(6, 3.5)
+    percent = curves["percent"][rows]
+    for session, color, style in (("first", FIRST, "--"), ("second", SECOND, "-")):
+        mean, sd = (curves[f"{session}_{name}"][rows] for name in ("mean", "sd"))
+        axes.plot(percent, mean, style, color=color, label=session)
+        axes.fill_between(percent, mean - sd, mean + sd, color=color, alpha=0.2, linewidth=0)
+    differs = (curves["low"][rows] > 0) | (curves["high"][rows] < 0)
+    axes.fill_between(
+        percent, 0, 0.03, where=differs, color=SECOND, linewidth=0, step="mid",
+        transform=axes.get_xaxis_transform(),
+    )  # fmt: skip
+    axes.set_xlabel("cycle (%)")
+    axes.set_ylabel(f"{channel} ({unit})" if unit else channel)
+    axes.set_xlim(0, 100)
+    return axes

@@ -1,14 +1,15 @@
 """The report: one page of HTML with everything in it, for any browser, without a network.
 
 The page itself is built from the sources in ``web/pages`` and comes with the
-package. It has three marked places for data, which become script elements that
+package. It has marked places for data, which become script elements that
 no browser runs: the `kineme.web.messages.Recording` message, the binary
-motion, and the tiles of the similarity matrix.
+motion, the tiles of the similarity matrix, and the curves of repetitions.
 """
 
 from __future__ import annotations
 
 import json
+import zlib
 from base64 import b64encode
 from importlib.resources import files
 from os import PathLike
@@ -19,9 +20,10 @@ from kineme._files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
 from kineme.segments.segmentation import Segmentation
-from kineme.web.curves import curves_of
+from kineme.web.curves import curves_of, recorded
+from kineme.web.cycle_curves import CycleCurves
 from kineme.web.encoding import to_json
-from kineme.web.messages import Recording
+from kineme.web.messages import Recording, ReportCurves
 from kineme.web.page_data import PageData, Shown, page_data, recording_message
 
 SUFFIXES = (".html", ".htm")
@@ -75,8 +77,17 @@ def write_report(
     message = recording_message(
         data, segmentation, name=name or _name(segmentation), band=band, levels=True
     )
+    source = recorded(recording, data.fps)
+    others = [segmentation.level(level.detail) for level in message.levels]
     with atomic_write(path) as draft:
-        page = filled(_template(), message, data.binary, tiles, _curves(recording, data))
+        page = filled(
+            _template(),
+            message,
+            data.binary,
+            tiles,
+            _curves(recording, data),
+            CycleCurves(lambda: source).report(segmentation, others),
+        )
         draft.write_text(page, encoding="utf-8")
 
 
@@ -86,11 +97,12 @@ def filled(
     binary: bytes,
     tiles: dict[str, bytes],
     curves: dict[str, object] | None = None,
+    cycles: ReportCurves | None = None,
 ) -> str:
     """The template with the data in place of its comments.
 
     Tiles are PNGs by "level/row/column"; ``curves`` has ``list`` and ``tiles``, where there are
-    any.
+    any; ``cycles`` are the curves of repetitions.
     """
     pictures = {place: _base64(tile) for place, tile in tiles.items()}
     parts = {
@@ -98,6 +110,7 @@ def filled(
         "motion": ("application/octet-stream;base64", _base64(binary)),
         "tiles": ("application/json", _json(pictures)),
         "curves": ("application/json", _json(curves)),
+        "cycles": ("application/json;deflate;base64", _base64(zlib.compress(to_json(cycles)))),
     }
     for part, (kind, text) in parts.items():
         element = f'<script type="{kind}" id="kineme-{part}">{text}</script>'

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from kineme.recordings import Signals
     from kineme.transfer import KnowledgeBase
     from kineme.web.curves import Curves
+    from kineme.web.cycle_curves import CycleCurves
     from kineme.web.page_data import PageData
 
 
@@ -49,6 +50,7 @@ class LoadedRecording:
         self._lock = threading.Lock()
         self._page_data: PageData | None = None
         self._curves: Curves | None = None
+        self._cycle_curves: CycleCurves | None = None
 
     @property
     def recording(self) -> Motion | Signals:
@@ -89,7 +91,7 @@ class LoadedRecording:
     def forget_pictures(self) -> None:
         """Let go of what pages draw, until one asks again."""
         with self._lock:
-            self._page_data = self._curves = None
+            self._page_data = self._curves = self._cycle_curves = None
 
     def curves(self) -> Curves:
         """What is drawn over time."""
@@ -97,14 +99,25 @@ class LoadedRecording:
 
         with self._lock:
             if self._curves is None:
-                found = self.recording
-                analog = self._cache.analog(self.path) if isinstance(found, Motion) else None
-                self._curves = Curves(found, analog)
+                self._curves = Curves(self.recording, self._analog())
             return self._curves
+
+    def cycle_curves(self) -> CycleCurves:
+        """What is drawn of repetitions."""
+        from kineme.web.cycle_curves import CycleCurves
+
+        with self._lock:
+            if self._cycle_curves is None:
+                self._cycle_curves = CycleCurves(lambda: self.recording, self._analog)
+            return self._cycle_curves
+
+    def _analog(self) -> Signals | None:
+        """The channels beside a motion."""
+        return self._cache.analog(self.path) if self.is_motion else None
 
     def source(self, analog: bool) -> Motion | Signals:
         """What a curve is of: the recording, or the channels beside it."""
-        found = self._cache.analog(self.path) if analog else None
+        found = self._analog() if analog else None
         return self.recording if found is None else found
 
     def segment(

@@ -40,8 +40,10 @@ from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels, video_of
 from kineme.web.library_messages import CallEverywhere, TablesChanged
 from kineme.web.messages import (
+    ClusterCurves,
     Comparison,
     CurveList,
+    CycleChannels,
     Edited,
     FileChoice,
     FolderTables,
@@ -88,6 +90,8 @@ class Api:
             route(f"{one}/matrix/{{level}}/{{row}}/{{column}}", self.tile),
             route(f"{one}/curves", self.curves),
             route(f"{one}/curves/{{curve}}/{{level}}/{{number}}", self.curve_tile),
+            route(f"{one}/cycles", self.cycle_channels),
+            route(f"{one}/cycles/{{cluster}}", self.cycle_curves),
             route(f"{one}/edits", self.edit, EditRequest),
             route(f"{one}/preview", self.preview, PreviewRequest),
             route(f"{one}/versions", self.versions),
@@ -207,6 +211,17 @@ class Api:
         if found is None:
             raise UnknownError("the curve has no such tile")
         return Response(found, media_type=BINARY)
+
+    def cycle_channels(self, request: Request) -> CycleChannels:
+        return CycleChannels(channels=self._opened(request).loaded.cycle_curves().channels())
+
+    def cycle_curves(self, request: Request) -> ClusterCurves:
+        opened, channel = self._opened(request), request.query_params.get("channel", "")
+        (cluster,) = _numbers(request, "cluster")
+        found = opened.loaded.cycle_curves().of(opened.table, cluster, channel)
+        if found is None:
+            raise UnknownError("there are no such repetitions, or no such channel")
+        return found
 
     def edit(self, request: Request, sent: EditRequest) -> Edited:
         return self._recordings.edit(request.path_params["id"], sent)

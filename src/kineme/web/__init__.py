@@ -2,6 +2,8 @@
 
 ``page_data`` puts together what a page draws, whichever kind the recording is,
 from ``display`` (the poses), ``similarity`` and ``matrix`` (the tiles of the
-similarity matrix). The types of what pages are told are in ``messages``, of what they send
-in ``requests``; ``encoding`` turns both into JSON and back.
+similarity matrix). ``curves`` are what is drawn over time, ``cycle_curves`` the
+repetitions of a cluster, as `kineme.cycles` measures them. The types of what pages are
+told are in ``messages``, of what they send in ``requests``; ``encoding`` turns both
+into JSON and back.
 """

@@ -82,6 +82,13 @@ class Curves:
         return levels[level][number * TILE : (number + 1) * TILE].tobytes()
 
 
+def recorded(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Signals:
+    """The recording; signals where it is an array (frames, channels) of that rate."""
+    if isinstance(recording, Motion | Signals):
+        return recording
+    return Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
+
+
 def curves_of(
     recording: Motion | Signals | ArrayLike, fps: float, most_bytes: int = MOST_BYTES
 ) -> tuple[CurveList, dict[str, bytes]]:
@@ -90,9 +97,7 @@ def curves_of(
     ``fps`` is that of an array (frames, channels). Finer levels are left out where all together
     would be longer than ``most_bytes``.
     """
-    if not isinstance(recording, Motion | Signals):
-        recording = Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
-    signals = recording
+    signals = recorded(recording, fps)
     curves, tiles = Curves(signals), dict[str, bytes]()
     head, left = curves.head(), most_bytes
     for level in reversed(range(head.levels)):

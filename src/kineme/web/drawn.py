@@ -1,4 +1,7 @@
-"""What curves are drawn of a recording: heights, speeds, angles, channels."""
+"""What curves are drawn of a recording: heights, speeds, angles, channels.
+
+Angles and speeds are those that `kineme.cycles` measures.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.cycles.angles import bend
+from kineme.cycles.channels import ANGLE, channels_of
+from kineme.features.feet import speed_of
 from kineme.recordings import Motion, Signals
 
 Floats = NDArray[np.float64]
@@ -63,7 +69,7 @@ def _in_frames(number: int, n_frames: int, fps: float) -> Callable[[Motion | Sig
 
 
 def of_motion(motion: Motion) -> list[Drawn]:
-    """Height, place and speed of each joint, and how far it is bent where two bones meet."""
+    """The body's angles; height, place and speed of each joint, and how far it is bent."""
     names, parents = motion.skeleton.names, motion.skeleton.parents
     lengths = np.linalg.norm(motion.skeleton.offsets, axis=1)
     drawn = [Drawn(name, "height", "m", _place(i, 1)) for i, name in enumerate(names)]
@@ -75,7 +81,8 @@ def of_motion(motion: Motion) -> list[Drawn]:
             drawn.append(Drawn(name, "flexion angle", "°", bend))
     for axis, group in ((0, "x"), (2, "z")):
         drawn += [Drawn(name, group, "m", _place(i, axis)) for i, name in enumerate(names)]
-    return drawn
+    angles = [each for each in channels_of(motion) if each.group == ANGLE]
+    return [Drawn(each.name, each.group, each.unit, _angle(each.name)) for each in angles] + drawn
 
 
 def _channel(number: int) -> Callable[[Motion | Signals], Floats]:
@@ -87,25 +94,18 @@ def _place(joint: int, axis: int) -> Callable[[Motion | Signals], Floats]:
 
 
 def _speed(joint: int) -> Callable[[Motion | Signals], Floats]:
-    def values(recording: Motion | Signals) -> Floats:
-        places = _positions(recording)[:, joint]
-        if len(places) < 2:
-            return np.zeros(len(places))
-        return np.asarray(np.linalg.norm(np.gradient(places, axis=0), axis=1) * recording.fps)
-
-    return values
+    return lambda recording: speed_of(_positions(recording)[:, joint], recording.fps)
 
 
 def _flexion(parent: int, joint: int, end: int) -> Callable[[Motion | Signals], Floats]:
     """Degrees between a bone and the next one; 0 where they are in line."""
+    return lambda recording: bend(
+        *(_positions(recording)[:, each] for each in (parent, joint, end))
+    )
 
-    def values(recording: Motion | Signals) -> Floats:
-        places = _positions(recording)
-        before, after = places[:, joint] - places[:, parent], places[:, end] - places[:, joint]
-        sine = np.linalg.norm(np.cross(before, after), axis=1)
-        return np.asarray(np.degrees(np.arctan2(sine, (before * after).sum(axis=1))))
 
-    return values
+def _angle(name: str) -> Callable[[Motion | Signals], Floats]:
+    return lambda recording: channels_of(recording, [name])[0].values()
 
 
 def _positions(recording: Motion | Signals) -> Floats:

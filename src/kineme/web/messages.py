@@ -100,6 +100,73 @@ class CurveList(Struct, frozen=True, kw_only=True):
     levels: int
 
 
+class CycleChannel(Struct, frozen=True, kw_only=True):
+    """What can be measured of a repetition, as ``kineme info --channels`` has it.
+
+    ``opposite`` is the channel of the other side of the body; empty where there is none.
+    """
+
+    name: str
+    unit: str
+    group: str
+    opposite: str
+
+
+class CycleChannels(Struct, frozen=True, kw_only=True):
+    """The channels of a recording, those first that are measured where nobody says which."""
+
+    channels: list[CycleChannel]
+
+
+class CycleCurve(Struct, frozen=True, kw_only=True):
+    """A repetition: from 0 to 100 % of the cycle, evenly; null where nothing was recorded.
+
+    ``start_frame`` is that of its segment, ``start_s`` and ``stop_s`` where it was measured.
+    Where it ``counts`` it is part of the mean; else ``note`` says why not. ``distance`` is how far
+    it is from the mean: the root of the mean square.
+    """
+
+    start_frame: int
+    start_s: float
+    stop_s: float
+    counts: bool
+    note: str
+    distance: float | None
+    values: list[float | None]
+
+
+class ClusterCurves(Struct, frozen=True, kw_only=True):
+    """A channel over the repetitions of a cluster, and of those with the same name.
+
+    Mean and standard deviation are of ``n`` of ``total`` repetitions: of the inner ones, or where
+    there are none (``ends``) of all. ``cycles`` are those drawn: those farthest from the mean
+    first, after them those that do not count. ``turned`` counts activities that were cut at
+    another phase than the others.
+    """
+
+    channel: str
+    unit: str
+    n: int
+    total: int
+    ends: bool
+    turned: int
+    mean: list[float | None]
+    sd: list[float | None]
+    cycles: list[CycleCurve]
+
+
+class ReportCurves(Struct, frozen=True, kw_only=True):
+    """The curves in a report.
+
+    ``curves`` have them by channel, ``tables`` by cluster the number of those, for the table that
+    is shown and then for each of the ``levels`` of a `Recording`.
+    """
+
+    channels: list[CycleChannel]
+    curves: list[dict[str, ClusterCurves]]
+    tables: list[dict[str, int]]
+
+
 class TableAtDetail(Struct, frozen=True, kw_only=True):
     """The same recording, coarser (``detail`` below 1) or finer."""
 

@@ -127,6 +127,72 @@ export interface CurveList {
   levels: number;
 }
 
+/**
+ * What can be measured of a repetition, as `kineme info --channels` has it.
+ *
+ * `opposite` is the channel of the other side of the body; empty where there is none.
+ */
+export interface CycleChannel {
+  name: string;
+  unit: string;
+  group: string;
+  opposite: string;
+}
+
+/** The channels of a recording, those first that are measured where nobody says which. */
+export interface CycleChannels {
+  channels: CycleChannel[];
+}
+
+/**
+ * A repetition: from 0 to 100 % of the cycle, evenly; null where nothing was recorded.
+ *
+ * `start_frame` is that of its segment, `start_s` and `stop_s` where it was measured.
+ * Where it `counts` it is part of the mean; else `note` says why not. `distance` is how far
+ * it is from the mean: the root of the mean square.
+ */
+export interface CycleCurve {
+  start_frame: number;
+  start_s: number;
+  stop_s: number;
+  counts: boolean;
+  note: string;
+  distance: number | null;
+  values: (number | null)[];
+}
+
+/**
+ * A channel over the repetitions of a cluster, and of those with the same name.
+ *
+ * Mean and standard deviation are of `n` of `total` repetitions: of the inner ones, or where
+ * there are none (`ends`) of all. `cycles` are those drawn: those farthest from the mean
+ * first, after them those that do not count. `turned` counts activities that were cut at
+ * another phase than the others.
+ */
+export interface ClusterCurves {
+  channel: string;
+  unit: string;
+  n: number;
+  total: number;
+  ends: boolean;
+  turned: number;
+  mean: (number | null)[];
+  sd: (number | null)[];
+  cycles: CycleCurve[];
+}
+
+/**
+ * The curves in a report.
+ *
+ * `curves` have them by channel, `tables` by cluster the number of those, for the table that
+ * is shown and then for each of the `levels` of a `Recording`.
+ */
+export interface ReportCurves {
+  channels: CycleChannel[];
+  curves: Record<string, ClusterCurves>[];
+  tables: Record<string, number>[];
+}
+
 /** The same recording, coarser (`detail` below 1) or finer. */
 export interface TableAtDetail {
   detail: number;

@@ -11,8 +11,13 @@ export interface Motion {
 
 /** The motion of a deflated message; see `kineme.web.display`. */
 export async function unpackMotion(head: MotionHead, packed: ArrayBuffer): Promise<Motion> {
+  return decodeMotion(head, await inflated(packed).arrayBuffer());
+}
+
+/** What was deflated, as an answer is read. */
+export function inflated(packed: ArrayBuffer): Response {
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return decodeMotion(head, await new Response(stream).arrayBuffer());
+  return new Response(stream);
 }
 
 /** Differences column by column (joint, then axis) become values sample by sample. */

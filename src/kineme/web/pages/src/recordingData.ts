@@ -1,5 +1,6 @@
 /** Where a page gets its data: out of its own file (report) or from the server (studio). */
-import type { CurveList, Recording } from "./messages";
+import type { ClusterCurves, CurveList, CycleChannel, Recording, ReportCurves } from "./messages";
+import { inflated } from "./motion";
 
 export interface RecordingData {
   recording(): Promise<Recording>;
@@ -11,11 +12,19 @@ export interface RecordingData {
   curves(): Promise<CurveList | null>;
   /** Pairs of least and greatest values, see kineme.web.curves; null where there is none. */
   curveTile(curve: number, level: number, number: number): Promise<ArrayBuffer | null>;
+  /** What can be measured of a repetition. */
+  cycleChannels(): Promise<CycleChannel[]>;
+  /**
+   * A channel over the repetitions of a cluster, in the table of a revision; that one which goes
+   * farthest where none is named, null where there is none.
+   */
+  clusterCurves(cluster: number, channel: string, revision: number): Promise<ClusterCurves | null>;
 }
 
-/** The data inside a report: three script elements that no browser runs. */
+/** The data inside a report: script elements that no browser runs. */
 export class EmbeddedData implements RecordingData {
   private readonly tiles: Record<string, string>;
+  private cycles: Promise<ReportCurves> | null = null;
   private readonly drawn: { list: CurveList; tiles: Record<string, string> } | null;
 
   constructor(private readonly page: Document = document) {
@@ -46,6 +55,25 @@ export class EmbeddedData implements RecordingData {
   curveTile(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
     const text = this.drawn?.tiles[`${curve}/${level}/${number}`];
     return Promise.resolve(text ? bytesOf(text).buffer : null);
+  }
+
+  async cycleChannels(): Promise<CycleChannel[]> {
+    return (await this.measured()).channels;
+  }
+
+  async clusterCurves(
+    cluster: number,
+    channel: string,
+    revision: number,
+  ): Promise<ClusterCurves | null> {
+    const { curves, tables } = await this.measured();
+    const channels = curves[tables[revision]?.[cluster] ?? -1] ?? {};
+    return (channel ? channels[channel] : Object.values(channels)[0]) ?? null;
+  }
+
+  private measured(): Promise<ReportCurves> {
+    const packed = (): ArrayBuffer => bytesOf(this.text("kineme-cycles")).buffer;
+    return (this.cycles ??= inflated(packed()).json() as Promise<ReportCurves>);
   }
 
   private text(id: string): string {

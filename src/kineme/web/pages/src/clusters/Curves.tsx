@@ -1,177 +1,145 @@
-/** All members of a cluster laid over each other, from their beginning to their end. */
-import { computed, useSignal } from "@preact/signals";
-import { useMemo } from "preact/hooks";
+/** The repetitions of a cluster over each other, with mean and deviation, as kineme measures them. */
+import { useComputed, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
-import type { CurveTiles } from "../channels/tiles";
-import { useTiles } from "../channels/useTiles";
 import { clusterColor } from "../colors";
-import type { Segment } from "../messages";
-import type { Motion } from "../motion";
+import type { ClusterCurves, CycleChannel, CycleCurve } from "../messages";
 import type { Store } from "../store";
-import { AXES, coursesOfChannels, coursesOfMotion, type Course } from "./courses";
-import { curveOf, distanceFrom, farthest, liveliest, pointsFor, someOf, spreadOf } from "./curves";
 import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
-import { phasesOf } from "./phases";
+import { shownCluster, useClusterCurves } from "./useClusterCurves";
 
-const MOST = 150; // curves drawn, and members that the mean is of
-const FEW = 12; // members looked at to choose a course
-const FIRST = 6; // channels, or joints of a body that nothing is known of, looked at for that
-const FARTHEST = 3; // members named that differ most from the mean
+const FARTHEST = 3; // repetitions named that differ most from the mean
+const DASHED = " (dashed)";
 
 export function Curves(): JSX.Element {
   const store = useStore();
-  const tiles = useTiles();
-  const chosen = useSignal<string | null>(null);
-  const shown = useMemo(
-    () => computed(() => contentOf(store, tiles.value, chosen.value)),
-    [store, tiles, chosen],
-  );
-  const member = useMemo(
-    () => computed(() => (shown.value ? memberAt(store, shown.value) : -1)),
-    [store, shown],
-  );
-  const content = shown.value;
-  if (!content) return <Missing />;
-  const { courses, course, members, phases, color } = content;
-  const all = store.shownCluster.value?.members.length ?? 0;
-  const turned = phases.filter((phase) => phase > 0).length;
-  const plural = members.length === 1 && all <= 1 ? "member" : "members";
-  const memberCount = `${members.length < all ? `${members.length} of ${all}` : members.length} ${plural}`;
-  const groups = [...new Set(courses.map(({ group }) => group))];
-  const choose = (found: Course | undefined): void => {
-    if (found) chosen.value = nameOf(found);
-  };
+  const chosen = useSignal("");
+  const measured = useClusterCurves(chosen);
+  const selected = useComputed(() => cycleAt(store, measured.value?.curves?.cycles ?? []));
+  const now = measured.value;
+  if (!store.clusters.value.length) return <p class="empty quiet">No cluster to show.</p>;
+  if (!now?.curves)
+    return (
+      <p class="empty quiet" aria-busy={!now}>
+        {now ? "No curves of this cluster." : "Measuring …"}
+      </p>
+    );
+  const { channels, curves, opposite } = now;
+  const color = clusterColor(shownCluster(store));
   return (
     <div class="curves">
       <div class="curve-choice">
         <span class="swatch" style={{ background: color }} />
-        <select
-          aria-label="Joint or channel"
-          value={course.name}
-          onChange={({ currentTarget: { value } }) =>
-            choose(courses.find(({ group, name }) => name === value && group === course.group))
-          }
-        >
-          {courses
-            .filter(({ group }) => group === course.group)
-            .map(({ name }) => (
-              <option key={name} value={name}>
-                {name}
-              </option>
-            ))}
-        </select>
-        <select
-          aria-label="What of it"
-          value={course.group}
-          onChange={({ currentTarget: { value } }) => {
-            const those = courses.filter(({ group }) => group === value);
-            choose(those.find(({ name }) => name === course.name) ?? those[0]);
-          }}
-        >
-          {groups.map((group) => (
-            <option key={group} value={group}>
-              {group}
-            </option>
-          ))}
-        </select>
-        <span class="quiet">{course.unit}</span>
+        <ChannelSelect
+          channels={channels}
+          channel={curves.channel}
+          choose={(name) => (chosen.value = name)}
+        />
+        <span class="quiet">{curves.unit}</span>
       </div>
       <div class="curve-room">
         <Canvas
-          label={`Curves of ${memberCount}, with mean and deviation. Click one to go to its member.`}
-          watch={() => void [shown.value, member.value]}
+          label={`Curves of ${curves.total} repetitions, with mean and deviation. Click one to go to it.`}
+          watch={() => void [measured.value, selected.value, store.cluster.value]}
           draw={(pen, width, height) => {
-            const now = shown.value;
-            if (now) drawCurves(pen, { ...now, selected: member.value }, width, height);
+            const shown = measured.value;
+            if (shown?.curves)
+              drawCurves(
+                pen,
+                {
+                  curves: shown.curves,
+                  opposite: shown.opposite,
+                  selected: selected.value,
+                  color: clusterColor(shownCluster(store)),
+                },
+                width,
+                height,
+              );
           }}
           onClick={(event) => {
             const { left, top, width, height } = event.currentTarget.getBoundingClientRect();
             const [x, y] = [event.clientX - left, event.clientY - top];
-            const nearest = members[nearestCurve(content.curves, x, y, width, height)];
-            if (nearest) store.select(nearest);
+            go(store, curves.cycles[nearestCurve(now.curves!, now.opposite, x, y, width, height)]);
           }}
         />
-        <Now members={members} phases={phases} />
+        <Now cycles={curves.cycles} />
       </div>
-      <Farthest content={content} />
+      <Farthest curves={curves} />
       <p class="quiet note">
-        {memberCount}, mean ± deviation
-        {AXES.some((axis) => axis === course.group) && ", seen from the pelvis"}
-        {turned > 0 &&
-          `; ${turned} cut at another phase of the cycle, turned to that of the others`}
+        {whatIsShown(curves)}
+        {opposite && `; ${opposite.channel}${DASHED}`}
+        {curves.turned > 0 &&
+          `; ${curves.turned} ${curves.turned === 1 ? "activity" : "activities"} turned to the phase of the others`}
       </p>
     </div>
   );
 }
 
-type Content = NonNullable<ReturnType<typeof contentOf>>;
-
-function contentOf(store: Store, tiles: CurveTiles | null, chosen: string | null) {
-  const active = store.active.value;
-  const motion = active?.motion.value;
-  const cluster = store.shownCluster.value ?? store.clusters.value[0];
-  if (!active || !cluster) return null;
-  void tiles?.settled.value;
-  const fps = store.fps.value;
-  const channels = tiles ? coursesOfChannels(tiles, fps) : [];
-  const courses = [...(motion ? coursesOfMotion(motion) : []), ...channels];
-  const members = someOf(cluster.members, MOST);
-  const telling = motion ? ofEnds(motion, courses) : channels.slice(0, FIRST);
-  if (!telling.length) return null;
-  const phases = phasesOf(telling, members);
-  const some = someOf([...members.keys()], FEW);
-  const of = <T,>(all: readonly T[]): T[] => some.map((i) => all[i]!);
-  const size = (course: Course): number => extentOf(tiles, channels.indexOf(course));
-  const course =
-    courses.find((each) => nameOf(each) === chosen) ??
-    liveliest(telling, of(members), of(phases), motion ? undefined : size)!;
-  const points = pointsFor(course.fps, members);
-  const curves = members.map((each, i) => curveOf(course, each, points, phases[i]));
-  const color = clusterColor(cluster.id);
-  return { courses, course, members, phases, curves, spread: spreadOf(curves), color };
+/** How many repetitions the mean is of, and which. */
+function whatIsShown({ n, total, ends, cycles }: ClusterCurves): string {
+  const mean = "mean ± standard deviation";
+  const drawn = cycles.length < total ? `, ${cycles.length} drawn` : "";
+  if (!n) return `${total} repetitions${drawn}, none recorded as a whole`;
+  if (ends) return `${n} of ${total} repetitions${drawn}, ${mean}`;
+  return `${n} inner of ${total} repetitions${drawn}, ${mean}`;
 }
 
-/** Where hands, feet and head are; of a body that nothing is known of, some of its joints. */
-function ofEnds({ head: { effectors, joints } }: Motion, courses: readonly Course[]): Course[] {
-  const parts = Object.keys(effectors).filter((part) => part !== "pelvis");
-  const ends = parts.length
-    ? parts.map((part) => joints[effectors[part]!]!)
-    : someOf(joints, FIRST);
-  return courses.filter(
-    ({ group, name }) => AXES.some((axis) => axis === group) && ends.includes(name),
+interface Choice {
+  channels: readonly CycleChannel[];
+  channel: string;
+  choose: (name: string) => void;
+}
+
+function ChannelSelect({ channels, channel, choose }: Choice): JSX.Element {
+  const group = channels.find(({ name }) => name === channel)?.group;
+  const groups = [...new Set(channels.map((each) => each.group))];
+  const names = (of: string | undefined): string[] =>
+    channels.filter((each) => each.group === of).map(({ name }) => name);
+  return (
+    <>
+      <select
+        aria-label="Channel"
+        value={channel}
+        onChange={({ currentTarget: { value } }) => choose(value)}
+      >
+        {names(group).map((name) => (
+          <option key={name} value={name}>
+            {name}
+          </option>
+        ))}
+      </select>
+      <select
+        aria-label="What is measured"
+        value={group}
+        onChange={({ currentTarget: { value } }) => choose(names(value)[0]!)}
+      >
+        {groups.map((each) => (
+          <option key={each} value={each}>
+            {each}
+          </option>
+        ))}
+      </select>
+    </>
   );
 }
 
-/** From the least to the greatest value of a channel. */
-function extentOf(tiles: CurveTiles | null, channel: number): number {
-  const [low, high] = tiles?.bounds(channel) ?? [0, 1];
-  return high - low || 1;
-}
-
-function nameOf({ group, name }: Course): string {
-  return `${group}: ${name}`;
-}
-
-/** The members that differ most from the mean, each a way to it. */
-function Farthest({ content }: { content: Content }): JSX.Element | null {
+/** The repetitions that differ most from the mean, each a way to it. */
+function Farthest({ curves: { cycles, unit, n } }: { curves: ClusterCurves }): JSX.Element | null {
   const store = useStore();
-  const { members, curves, spread, course } = content;
-  if (members.length < 3) return null;
+  if (n < 3) return null;
   return (
     <p class="farthest" aria-label="Farthest from the mean">
       <span class="quiet">Farthest:</span>
-      {farthest(spread, curves, FARTHEST).map((i) => {
-        const each = members[i]!;
-        const far = `${distanceFrom(spread, curves[i]!).toPrecision(2)} ${course.unit}`.trim();
+      {cycles.slice(0, FARTHEST).map((each) => {
+        const far = `${each.distance?.toPrecision(2)} ${unit}`.trim();
         return (
           <button
-            key={i}
+            key={each.start_frame}
             type="button"
             title={`${far} from the mean, from ${each.start_s.toFixed(2)} to ${each.stop_s.toFixed(2)} s`}
-            onClick={() => store.select(each)}
+            onClick={() => go(store, each)}
           >
             {each.start_s.toFixed(1)} s
           </button>
@@ -181,31 +149,31 @@ function Farthest({ content }: { content: Content }): JSX.Element | null {
   );
 }
 
-/** The member under the playhead, else the selected one. */
-function memberAt(store: Store, { members }: Content): number {
-  const at = store.frame.value;
-  const present = members.findIndex((each) => each.start_frame <= at && at < each.stop_frame);
+/** Selects the segment of a repetition, if it is there still. */
+function go(store: Store, cycle: CycleCurve | undefined): void {
+  const segment = store.primitives.value.find(
+    ({ start_frame }) => start_frame === cycle?.start_frame,
+  );
+  if (segment) store.select(segment);
+}
+
+/** The number of the repetition under the playhead, else of the selected one; -1: neither. */
+function cycleAt(store: Store, cycles: readonly CycleCurve[]): number {
+  const at = store.playhead.value;
+  const present = cycles.findIndex((each) => each.start_s <= at && at < each.stop_s);
   if (present >= 0) return present;
   const selected = store.selected.value;
-  return members.findIndex((each) => each.start_frame === selected?.start_frame);
+  return cycles.findIndex((each) => each.start_frame === selected?.start_frame);
 }
 
 /** How far the present repetition is; apart from the canvas, so that playing redraws no curves. */
-function Now(props: { members: readonly Segment[]; phases: readonly number[] }): JSX.Element {
+function Now({ cycles }: { cycles: readonly CycleCurve[] }): JSX.Element {
   const store = useStore();
-  const { members, phases } = props;
   const at = store.playhead.value;
-  const number = members.findIndex((each) => each.start_s <= at && at < each.stop_s);
-  const present = members[number];
-  const done = present ? (at - present.start_s) / (present.stop_s - present.start_s) : -1;
-  const share = present ? (done - phases[number]! + 1) % 1 : -1;
+  const present = cycles.find((each) => each.start_s <= at && at < each.stop_s);
   return (
     <div class="curve-now" style={{ left: `${LEFT}px`, right: `${RIGHT}px` }}>
-      {share >= 0 && <Line share={share} />}
+      {present && <Line share={(at - present.start_s) / (present.stop_s - present.start_s)} />}
     </div>
   );
-}
-
-function Missing(): JSX.Element {
-  return <p class="empty quiet">No cluster to show.</p>;
 }

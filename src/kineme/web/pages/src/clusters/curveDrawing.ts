@@ -1,14 +1,17 @@
 /** How the curves of a cluster look. */
 import { onPage } from "../colors";
+import type { ClusterCurves } from "../messages";
 import { cssColor, theme } from "../theme";
-import type { Spread } from "./curves";
 
 type Pen = CanvasRenderingContext2D;
+/** Numbers over the cycle; null where nothing was recorded. */
+type Values = readonly (number | null)[];
 
 export interface CurvePicture {
-  curves: readonly Float32Array[];
-  spread: Spread;
-  /** Which of the curves is selected; -1: none. */
+  curves: ClusterCurves;
+  /** The other side of the body, of which the mean is drawn. */
+  opposite: ClusterCurves | null;
+  /** Which of the repetitions is selected; -1: none. */
   selected: number;
   color: string;
 }
@@ -19,10 +22,13 @@ export const RIGHT = 8;
 const BELOW = 16;
 const ABOVE = 8;
 
+const DASHES = [5, 4];
+
 export function drawCurves(pen: Pen, picture: CurvePicture, width: number, height: number): void {
-  const { curves, spread, selected } = picture;
-  const [low, high] = boundsOf(curves);
-  const last = spread.mean.length - 1;
+  const { curves, opposite, selected } = picture;
+  const { cycles, mean } = curves;
+  const [low, high] = boundsOf(curves, opposite);
+  const last = mean.length - 1;
   const x = (i: number): number => LEFT + (i / last) * (width - LEFT - RIGHT);
   const y = (value: number): number =>
     ABOVE + ((high - value) / (high - low)) * (height - ABOVE - BELOW);
@@ -31,39 +37,50 @@ export function drawCurves(pen: Pen, picture: CurvePicture, width: number, heigh
   pen.lineJoin = "round";
   pen.fillStyle = color;
   pen.globalAlpha = 0.25;
-  band(pen, spread, x, y);
-  pen.globalAlpha = Math.max(0.18, Math.min(0.6, 6 / curves.length));
+  band(pen, curves, x, y);
+  const alpha = Math.max(0.18, Math.min(0.6, 6 / cycles.length));
   pen.strokeStyle = color;
   pen.lineWidth = 1;
-  for (const curve of curves) line(pen, curve, x, y);
+  for (const { values, counts } of cycles) {
+    pen.globalAlpha = counts ? alpha : alpha / 2; // what is in no mean stands back
+    line(pen, values, x, y);
+  }
   pen.globalAlpha = 1;
   pen.lineWidth = 2.5;
-  line(pen, spread.mean, x, y);
+  line(pen, mean, x, y);
+  if (opposite) {
+    pen.lineWidth = 1.5;
+    pen.setLineDash(DASHES);
+    line(pen, opposite.mean, x, y);
+    pen.setLineDash([]);
+  }
   pen.strokeStyle = cssColor("text");
   pen.lineWidth = 1.5;
-  if (curves[selected]) line(pen, curves[selected], x, y);
+  if (cycles[selected]) line(pen, cycles[selected].values, x, y);
 }
 
-/** The curve that passes nearest to a point of the canvas. */
+/** The repetition whose curve passes nearest to a point of the canvas. */
 export function nearestCurve(
-  curves: readonly Float32Array[],
+  curves: ClusterCurves,
+  opposite: ClusterCurves | null,
   px: number,
   py: number,
   width: number,
   height: number,
 ): number {
-  const [low, high] = boundsOf(curves);
+  const [low, high] = boundsOf(curves, opposite);
   const share = Math.min(Math.max((px - LEFT) / (width - LEFT - RIGHT), 0), 1);
-  const i = Math.round(share * ((curves[0]?.length ?? 1) - 1));
+  const i = Math.round(share * (curves.mean.length - 1));
   const value = high - ((py - ABOVE) / (height - ABOVE - BELOW)) * (high - low);
-  const far = curves.map((curve) => Math.abs(curve[i]! - value));
-  return far.indexOf(Math.min(...far.filter((each) => !Number.isNaN(each))));
+  const far = curves.cycles.map(({ values }) => Math.abs((values[i] ?? Infinity) - value));
+  return far.indexOf(Math.min(...far));
 }
 
-function boundsOf(curves: readonly Float32Array[]): [number, number] {
+function boundsOf(curves: ClusterCurves, opposite: ClusterCurves | null): [number, number] {
   let [low, high] = [Infinity, -Infinity];
-  for (const curve of curves)
-    for (const value of curve) {
+  for (const values of [...curves.cycles.map((each) => each.values), opposite?.mean ?? []])
+    for (const value of values) {
+      if (value === null) continue;
       if (value < low) low = value;
       if (value > high) high = value;
     }
@@ -117,11 +134,11 @@ function stepOf(extent: number): number {
   return [1, 2, 5, 10].map((times) => times * power).find((step) => extent / step <= 5)!;
 }
 
-function line(pen: Pen, curve: Float32Array, x: Axes["x"], y: Axes["y"]): void {
+function line(pen: Pen, curve: Values, x: Axes["x"], y: Axes["y"]): void {
   pen.beginPath();
   let down = false;
   curve.forEach((value, i) => {
-    if (Number.isNaN(value)) down = false;
+    if (value === null) down = false;
     else if (down) pen.lineTo(x(i), y(value));
     else {
       pen.moveTo(x(i), y(value));
@@ -131,9 +148,11 @@ function line(pen: Pen, curve: Float32Array, x: Axes["x"], y: Axes["y"]): void {
   pen.stroke();
 }
 
-function band(pen: Pen, { mean, deviation }: Spread, x: Axes["x"], y: Axes["y"]): void {
+/** A deviation from the mean; nothing where there is none, as of a single repetition. */
+function band(pen: Pen, { mean, sd }: ClusterCurves, x: Axes["x"], y: Axes["y"]): void {
+  if (mean.includes(null) || sd.includes(null)) return;
   pen.beginPath();
-  for (let i = 0; i < mean.length; i++) pen.lineTo(x(i), y(mean[i]! + deviation[i]!));
-  for (let i = mean.length - 1; i >= 0; i--) pen.lineTo(x(i), y(mean[i]! - deviation[i]!));
+  for (let i = 0; i < mean.length; i++) pen.lineTo(x(i), y(mean[i]! + sd[i]!));
+  for (let i = mean.length - 1; i >= 0; i--) pen.lineTo(x(i), y(mean[i]! - sd[i]!));
   pen.fill();
 }

@@ -45,6 +45,7 @@ function offerLevels(store: Store, { recording }: ShownRecording): void {
       const isShown = chosen.detail === shown;
       recording.value = {
         ...recording.value,
+        revision: isShown ? 0 : 1 + positionOf(detail, all), // of the curves of repetitions
         segmentation: isShown ? segmentation : { ...segmentation, ...annotation, segments },
       };
     });

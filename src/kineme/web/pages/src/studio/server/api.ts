@@ -10,9 +10,12 @@ import type {
   CallEverywhere,
   Changed,
   ClipsRequest,
+  ClusterCurves,
   CompareRequest,
   Comparison,
   CurveList,
+  CycleChannel,
+  CycleChannels,
   Edited,
   EditRequest,
   FileChoice,
@@ -90,6 +93,17 @@ export class Api {
     const path = "/api/recordings/{id}/curves/{curve}/{level}/{number}";
     const asked = this.ask(addressOf(path, { id, curve, level, number }));
     return orNull(asked.then((answer) => unbroken(answer.arrayBuffer())));
+  }
+
+  async cycleChannels(id: string): Promise<CycleChannel[]> {
+    const answer: CycleChannels = await this.get("/api/recordings/{id}/cycles", { id });
+    return answer.channels;
+  }
+
+  /** The repetitions of a cluster; null where the server has none. */
+  clusterCurves(id: string, cluster: number, channel: string): Promise<ClusterCurves | null> {
+    const path = "/api/recordings/{id}/cycles/{cluster}";
+    return orNull(this.get<ClusterCurves, typeof path>(path, { id, cluster }, { channel }));
   }
 
   edit(id: string, request: EditRequest): Promise<Edited> {

@@ -9,6 +9,8 @@ export type GetPath =
   | "/api/recordings/{id}"
   | "/api/recordings/{id}/curves"
   | "/api/recordings/{id}/curves/{curve}/{level}/{number}"
+  | "/api/recordings/{id}/cycles"
+  | "/api/recordings/{id}/cycles/{cluster}"
   | "/api/recordings/{id}/export/{format}"
   | "/api/recordings/{id}/loops"
   | "/api/recordings/{id}/matrix/{level}/{row}/{column}"

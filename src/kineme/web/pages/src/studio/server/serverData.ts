@@ -1,9 +1,11 @@
 /** The data of one recording, from the studio's server. */
-import type { CurveList, Recording } from "../../messages";
+import type { ClusterCurves, CurveList, CycleChannel, Recording } from "../../messages";
 import type { RecordingData } from "../../recordingData";
 import type { Api } from "./api";
 
 export class ServerData implements RecordingData {
+  private channels: Promise<CycleChannel[]> | null = null;
+
   constructor(
     private readonly api: Api,
     private readonly id: string,
@@ -27,5 +29,17 @@ export class ServerData implements RecordingData {
 
   curveTile(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
     return this.api.curveTile(this.id, curve, level, number);
+  }
+
+  cycleChannels(): Promise<CycleChannel[]> {
+    this.channels ??= this.api.cycleChannels(this.id).catch((error: unknown) => {
+      this.channels = null; // asked for again
+      throw error;
+    });
+    return this.channels;
+  }
+
+  clusterCurves(cluster: number, channel: string): Promise<ClusterCurves | null> {
+    return this.api.clusterCurves(this.id, cluster, channel);
   }
 }

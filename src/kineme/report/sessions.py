@@ -1,0 +1,355 @@
+"""Two sessions on one sheet of paper: what changed, and how sure that is.
+
+The numbers are those of `kineme.cycles.compare_sessions`, `kineme.cycles.compare_curves` and
+`kineme.cycles.compare_sides`. A sheet has room for some of them: for the groups with most
+repetitions and the channels whose ranges changed most surely. It says what it leaves out.
+"""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+from io import BytesIO
+from math import floor, log10
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from kineme._checks import check_path
+from kineme._counts import counted
+from kineme._files import atomic_write
+from kineme._version import __version__
+from kineme.cycles import Cycles, compare_curves, compare_sessions, compare_sides, plot_sessions
+from kineme.cycles.picture import FIRST, SECOND
+from kineme.cycles.table import Columns
+from kineme.errors import WriteError
+from kineme.report.page import SUFFIXES
+
+MOST_GROUPS = 4
+LINES = {1: 26, 2: 26, 3: 28, 4: 31}
+"""Of numbers, by how many groups there are: many have less room for pictures."""
+HEADS = 3
+"""Lines that a table has above its first."""
+PANELS = {1: 6, 2: 3, 3: 3, 4: 3}
+SIDES = {1: 6, 2: 5, 3: 4, 4: 4}
+TIMES = ("duration_s", "cadence_per_min")
+NAMES = {"duration_s": "duration (s)", "cadence_per_min": "repetitions per minute"}
+MISSING = "–"
+MEANING = (
+    "Differences are the second less the first; their bounds hold the true one with a "
+    "confidence of 95 % (by Welch's t), each number by itself: of twenty that did not change, "
+    "one will seem to have."
+)
+STYLE = """
+@page { size: A4; margin: 11mm 13mm; }
+body { max-width: 184mm; margin: 0 auto; padding: 4mm; color: #1b1f27; background: #fff;
+  font: 9pt/1.35 system-ui, "Segoe UI", Helvetica, Arial, sans-serif; }
+@media print { body { padding: 0; } }
+h1 { margin: 0; font-size: 15pt; }
+h2 { margin: 3.5mm 0 1mm; font-size: 10.5pt; }
+p { margin: 0.8mm 0; }
+.quiet { color: #59606b; font-size: 8pt; }
+table { width: 100%; table-layout: fixed; border-collapse: collapse;
+  font-variant-numeric: tabular-nums; }
+th { font-weight: 600; text-align: right; border-bottom: 0.4pt solid #888; }
+th:first-child, td:first-child { text-align: left; width: 25%; }
+td { text-align: right; border-bottom: 0.3pt solid #ddd; }
+th, td { padding: 0.35mm 1mm; overflow: hidden; white-space: nowrap; text-overflow: ellipsis; }
+.clear td:last-child { font-weight: 600; }
+.curves { display: grid; grid-template-columns: repeat(3, 1fr); gap: 1mm 3mm; }
+figure { margin: 0; }
+figcaption { overflow: hidden; white-space: nowrap; text-overflow: ellipsis; font-size: 8pt; }
+img { display: block; width: 100%; }
+i { display: inline-block; width: 8mm; margin: 0 1mm 0.8mm 4mm; border-top: 1.4pt solid; }
+section, figure, table { break-inside: avoid; }
+"""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """Both sessions, compared."""
+
+    names: tuple[str, str]
+    sessions: tuple[Cycles, Cycles]
+    numbers: Columns
+    curves: Columns
+    sides: tuple[Columns, Columns]
+    ends: bool
+
+
+def write_sessions(
+    first: Cycles,
+    second: Cycles,
+    path: str | PathLike[str],
+    *,
+    names: tuple[str, str] | None = None,
+    ends: bool = False,
+) -> None:
+    """Write a page that compares two sessions; it prints on one sheet.
+
+    Parameters
+    ----------
+    first, second : Cycles
+        Of the same channels.
+    path : str or PathLike
+        The page, .html.
+    names : pair of str, optional
+        What the page calls them; by default their recordings.
+    ends : bool
+        Whether the first and the last cycle of an activity count as well.
+
+    Raises
+    ------
+    ParameterError
+        No group is in both, or their channels differ.
+    WriteError
+        Another suffix, or the file cannot be written.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> from kineme.report.sessions import write_sessions
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
+    >>> write_sessions(cycles, cycles, "changed.html")
+    """
+    check_path(path, "write_sessions")
+    if Path(path).suffix.lower() not in SUFFIXES:
+        raise WriteError(path, f"a page is written as {', '.join(SUFFIXES)}")
+    sheet = Sheet(
+        names or (_name(first), _name(second)),
+        (first, second),
+        compare_sessions(first, second, ends=ends),
+        compare_curves(first, second, ends=ends),
+        (compare_sides(first, ends=ends), compare_sides(second, ends=ends)),
+        ends,
+    )
+    with atomic_write(path) as draft:
+        draft.write_text(_page(sheet), encoding="utf-8")
+
+
+def _name(cycles: Cycles) -> str:
+    names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
+    return names[0] if len(names) == 1 else counted(len(names), "recording")
+
+
+def _page(sheet: Sheet) -> str:
+    before, after = (escape(name) for name in sheet.names)
+    groups = _groups(sheet)
+    shown = groups[:MOST_GROUPS]
+    n_channels = LINES[len(shown)] // len(shown) - HEADS - len(TIMES)
+    channels = {group: _channels(sheet, group)[:n_channels] for group in shown}
+    body = [
+        f"<h1>{before} → {after}</h1>",
+        f'<p class="quiet">{_counts(sheet)}. {MEANING}</p>',
+        *(_numbers(sheet, group, channels[group]) for group in shown),
+        _pictures(sheet, _panels(channels)[: PANELS[len(shown)]]),
+        _sides(sheet, shown),
+        f'<p class="quiet">{escape(_rest(sheet, groups, n_channels))}</p>',
+    ]
+    return (
+        '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8" />\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1" />\n'
+        '<meta http-equiv="Content-Security-Policy" '
+        "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\" />\n"
+        f"<title>{before} → {after}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
+        + "\n".join(part for part in body if part)
+        + "\n</body>\n</html>\n"
+    )
+
+
+def _counts(sheet: Sheet) -> str:
+    kind = "all repetitions" if sheet.ends else "inner repetitions, without first and last ones"
+    out = sum(int((each.columns["excluded"] != "").sum()) for each in sheet.sessions)
+    left_out = f"; {counted(out, 'repetition')} left out" if out else ""
+    return f"Means ± standard deviations of {kind}{left_out}"
+
+
+def _groups(sheet: Sheet) -> list[str]:
+    """The groups that are in both sessions, those with most repetitions first."""
+    groups = list(dict.fromkeys(sheet.numbers["group"].tolist()))
+    return sorted(groups, key=lambda group: -min(_count(each, group) for each in sheet.sessions))
+
+
+def _count(cycles: Cycles, group: str) -> int:
+    return int((cycles.columns["group"] == group).sum())
+
+
+def _row(sheet: Sheet, group: str, measure: str) -> dict[str, float]:
+    numbers = sheet.numbers
+    at = np.flatnonzero((numbers["group"] == group) & (numbers["measure"] == measure))[0]
+    return {name: float(column[at]) for name, column in numbers.items()
+            if name not in ("group", "measure")}  # fmt: skip
+
+
+def _channels(sheet: Sheet, group: str) -> list[str]:
+    """The channels, those first whose range changed most surely."""
+
+    def certainty(channel: str) -> float:
+        row = _row(sheet, group, f"{channel}.range")
+        width = row["high"] - row["low"]
+        return abs(row["difference"]) / width if width > 0 else -1.0
+
+    return sorted(sheet.sessions[0].channels, key=certainty, reverse=True)
+
+
+def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
+    """A table of what changed in a group."""
+    units = dict(zip(sheet.sessions[0].channels, sheet.sessions[0].units, strict=True))
+    labels = NAMES | {
+        f"{channel}.range": f"{channel} range{f' ({unit})' if (unit := units[channel]) else ''}"
+        for channel in channels
+    }
+    lines = []
+    for measure, label in labels.items():
+        row = _row(sheet, group, measure)
+        clear = row["low"] > 0 or row["high"] < 0
+        verdict = ("more" if row["difference"] > 0 else "less") if clear else "not clear"
+        digits = _digits(row["first_mean"], row["second_mean"])
+        text = {name: _text(value, digits) for name, value in row.items()}
+        bounds = f"{text['low']} to {text['high']}"
+        cells = [
+            label,
+            *(f"{text[f'{session}_mean']} ± {text[f'{session}_sd']}"
+              for session in ("first", "second")),
+            text["difference"],
+            bounds if np.isfinite(row["low"]) else MISSING,
+            verdict if np.isfinite(row["low"]) else "too few",
+        ]  # fmt: skip
+        lines.append(f"<tr{' class=clear' if clear else ''}>{_cells(cells)}</tr>")
+    heads = ["", *sheet.names, "difference", "95 %", "changed"]
+    counts = " → ".join(str(_count(each, group)) for each in sheet.sessions)
+    duration = _row(sheet, group, "duration_s")
+    used = " and ".join(f"{duration[f'{session}_n']:.0f}" for session in ("first", "second"))
+    return (
+        f'<section><h2>{escape(group)}: {counts} repetitions <span class="quiet">(means of {used})'
+        f"</span></h2>\n<table><tr>{_cells(heads, 'th')}</tr>\n" + "\n".join(lines)
+        + "</table></section>"
+    )  # fmt: skip
+
+
+def _panels(channels: dict[str, list[str]]) -> list[tuple[str, str]]:
+    """Which curves are drawn first: of each group in turn the channel that changed most."""
+    turns = max(len(names) for names in channels.values())
+    return [
+        (group, names[turn])
+        for turn in range(turns)
+        for group, names in channels.items()
+        if turn < len(names)
+    ]
+
+
+def _pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
+    """Mean curves of both sessions over each other."""
+    units = dict(zip(sheet.sessions[0].channels, sheet.sessions[0].units, strict=True))
+    several = len({group for group, _ in panels}) > 1
+    figures = []
+    for group, channel in panels:
+        unit = f" ({units[channel]})" if units[channel] else ""
+        caption = escape(f"{group}: {channel}{unit}" if several else f"{channel}{unit}")
+        picture = b64encode(_picture(sheet.curves, group, channel)).decode("ascii")
+        figures.append(
+            f"<figure><figcaption>{caption}</figcaption>"
+            f'<img alt="Mean curves of {caption}" src="data:image/svg+xml;base64,{picture}" />'
+            "</figure>"
+        )
+    first, second = (escape(name) for name in sheet.names)
+    return (
+        f'<p><i style="color: {FIRST}; border-top-style: dashed"></i>{first}'
+        f'<i style="color: {SECOND}"></i>{second}</p>\n<div class="curves">\n'
+        + "\n".join(figures)
+        + '\n</div>\n<p class="quiet">Mean ± standard deviation over the cycle, in per cent. A bar '
+        "below: there the bounds of the difference leave out 0.</p>"
+    )
+
+
+def _picture(curves: Columns, group: str, channel: str) -> bytes:
+    """An SVG without names: fonts of the page have more letters."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    drawn = BytesIO()
+    with mpl.rc_context({"font.size": 7, "svg.hashsalt": "kineme"}):
+        figure = Figure(figsize=(2.4, 1.4), layout="constrained")
+        axes = plot_sessions(curves, channel, group, ax=figure.add_subplot())
+        axes.set(xlabel="", ylabel="", xticks=[0, 25, 50, 75, 100])
+        axes.spines[["top", "right"]].set_visible(False)
+        figure.savefig(drawn, format="svg", metadata={"Date": None})
+    return drawn.getvalue()
+
+
+def _sides(sheet: Sheet, groups: Sequence[str]) -> str:
+    """Left against right in both sessions, where channels have sides."""
+    first, second = (_ranges(columns) for columns in sheet.sides)
+    keys = [key for key in first if key in second and key[0] in groups]
+    if not keys:
+        return ""
+    pairs = list(dict.fromkeys(key[1:] for key in keys))
+    keys = sorted(keys, key=lambda key: pairs.index(key[1:]))[: SIDES[len(groups)]]
+    lines = []
+    for key in keys:
+        group, left, right = key
+        cells = [f"{group}: {left}, {right}"]
+        for of_left, of_right, index in (first[key], second[key]):
+            digits = _digits(of_left, of_right)
+            cells += [_text(of_left, digits), _text(of_right, digits), _text(index, 1)]
+        lines.append(f"<tr>{_cells(cells)}</tr>")
+    names = "".join(f'<th colspan="3">{escape(name)}</th>' for name in sheet.names)
+    heads = ["mean range", *2 * ["left", "right", "index (%)"]]
+    return (
+        f"<section><h2>Left beside right</h2>\n<table><tr><th></th>{names}</tr>\n"
+        f"<tr>{_cells(heads, 'th')}</tr>\n"
+        + "\n".join(lines)
+        + '</table>\n<p class="quiet">Symmetry index: the difference of left and right in per '
+        "cent of their mean; 0 where they are equal. All pairs: --sides NAME.csv.</p></section>"
+    )
+
+
+def _ranges(sides: Columns) -> dict[tuple[str, str, str], tuple[float, float, float]]:
+    """By group, left and right channel: both ranges and their symmetry index."""
+    names = ("group", "left_channel", "right_channel", "measure", "left", "right",
+             "symmetry_index")  # fmt: skip
+    return {
+        (group, left, right): (of_left, of_right, index)
+        for group, left, right, measure, of_left, of_right, index in zip(
+            *(sides[name].tolist() for name in names), strict=True
+        )
+        if measure == "range"
+    }
+
+
+def _rest(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
+    """What the sheet has no room for, and what made it."""
+    channels = len(sheet.sessions[0].channels)
+    omitted = []
+    if len(groups) > MOST_GROUPS:
+        omitted.append(f"{counted(len(groups) - MOST_GROUPS, 'group')} with fewer repetitions")
+    if channels > n_channels:
+        omitted.append(f"{counted(channels - n_channels, 'channel')} that changed less surely")
+    more = (
+        f"Not shown: {', '.join(omitted)}; a table has them (--compare NAME.csv). "
+        if omitted
+        else ""
+    )
+    return f"{more}Made by kineme {__version__}."
+
+
+def _cells(texts: Sequence[str], tag: str = "td") -> str:
+    return "".join(f"<{tag}>{escape(text)}</{tag}>" for text in texts)
+
+
+def _digits(*values: float) -> int:
+    """How many digits after the point numbers of this size are told with."""
+    size = max((abs(value) for value in values if np.isfinite(value)), default=0.0)
+    return max(1, 2 - floor(log10(size))) if size > 0 else 1
+
+
+def _text(value: float, digits: int) -> str:
+    if not np.isfinite(value):
+        return MISSING
+    text = f"{value:.{digits}f}"
+    return text.removeprefix("-") if float(text) == 0 else text.replace("-", "\N{MINUS SIGN}")

@@ -1,0 +1,333 @@
+"""What a page draws of the repetitions of a cluster: what `kineme.cycles` measures, and no other.
+
+Repetitions of one name are one group, as in the files of ``kineme cycles``: equal phase, borders
+between two frames, mean and standard deviation over the inner ones.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import floor, log10
+from threading import RLock
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.recordings import Motion, Signals
+from kineme.segments.segmentation import Segmentation
+from kineme.web.messages import ClusterCurves, CycleChannel, CycleCurve, ReportCurves
+
+if TYPE_CHECKING:
+    from kineme.cycles.channels import Channel
+    from kineme.cycles.table import Columns, Cycles
+
+Floats = NDArray[np.float64]
+
+MOST = 150
+"""Curves that are drawn of a group; the mean is of all."""
+FAR, FEWEST = 3, 6
+"""Those farthest from the mean are among them; so many are in a report, if they fit."""
+MOST_USUAL = 16
+"""Channels of which the one that tells most is chosen, and that a report may hold."""
+MOST_KEPT = 24
+"""Channels whose numbers stay in memory: 3 MB each for an hour at 120 Hz."""
+DIGITS = 4
+"""Curves are rounded to so many, counted from the first of what a channel spans; means to one more.
+"""
+MOST_NUMBERS = 50_000
+"""In the curves of a report, some 3 bytes each."""
+FEWEST_CHANNELS = 4
+MOST_FRAMES = 200_000
+"""Of all tables of a report together: half a second for a hundred thousand."""
+PLACES = {
+    "first": "the first of its activity",
+    "last": "the last of its activity",
+    "only": "the only one of its activity",
+}
+
+
+class CycleCurves:
+    """The curves of a recording's repetitions, measured when they are asked for.
+
+    ``read`` gives the recording, ``beside`` the channels of the same time, if there are any:
+    neither is held. Cycles are those of the table asked for last.
+    """
+
+    def __init__(
+        self,
+        read: Callable[[], Motion | Signals],
+        beside: Callable[[], Signals | None] = lambda: None,
+    ):
+        self._read, self._beside = read, beside
+        self._heads: dict[str, CycleChannel] = {}
+        self._usual: list[str] = []
+        self._values: OrderedDict[str, Channel] = OrderedDict()
+        self._table: Segmentation | None = None
+        self._cycles: Cycles | None = None
+        self._lock = RLock()
+
+    def channels(self) -> list[CycleChannel]:
+        """What can be measured: those that are measured where nobody says which come first."""
+        from kineme.cycles.channels import channels_of
+        from kineme.cycles.sides import sides_of
+
+        with self._lock:
+            if not self._heads:
+                recording, beside = self._read(), self._beside()
+                every = channels_of(recording, ["*"], beside=[] if beside is None else [beside])
+                self._usual = [each.name for each in channels_of(recording)[:MOST_USUAL]]
+                pairs = sides_of(tuple(each.name for each in every))
+                opposite = dict(pairs) | {right: left for left, right in pairs}
+                for each in sorted(every, key=lambda one: one.name not in self._usual):
+                    self._heads[each.name] = CycleChannel(
+                        name=each.name,
+                        unit=each.unit,
+                        group=each.group,
+                        opposite=opposite.get(each.name, ""),
+                    )
+            return list(self._heads.values())
+
+    def of(self, table: Segmentation, cluster: int, channel: str = "") -> ClusterCurves | None:
+        """The curves of a cluster; None where there are no such repetitions, or no such channel.
+
+        Without ``channel`` that one which goes farthest in them.
+        """
+        with self._lock:
+            self.channels()
+            cycles = self._of_table(table)
+            rows = _rows_of(cycles, cluster)
+            if not rows.any() or (channel and channel not in self._heads):
+                return None
+            measured = self._measured(cycles, [channel] if channel else self._usual)
+            group = measured.select(rows)
+            name = channel or _liveliest(group, measured)[0]
+            return _drawn(group, name, MOST, _means(group)[name])
+
+    def report(self, table: Segmentation, others: Sequence[Segmentation] = ()) -> ReportCurves:
+        """The curves of all clusters, of as many channels and cycles as fit into a page.
+
+        ``others`` are the tables at other details, of which long recordings have none.
+        """
+        with self._lock:
+            heads = {head.name: head for head in self.channels()}
+            if table.n_frames * (1 + len(others)) > MOST_FRAMES:
+                others = ()
+            shown = self._measured(self._of_table(table), self._usual)
+            found: dict[tuple[object, ...], Cycles] = {}
+            tables: list[dict[str, int]] = []
+            for each in (table, *others):
+                cycles = shown if each is table else self._of_table(each)
+                groups = {k: cycles.select(_rows_of(cycles, k)) for k in _clusters(cycles)}
+                for group in groups.values():
+                    found.setdefault(_spans(group), group)
+                numbers = {spans: number for number, spans in enumerate(found)}
+                tables.append({str(k): numbers[_spans(group)] for k, group in groups.items()})
+            names = self._report_channels(shown, len(found))
+            room = MOST_NUMBERS // (shown.curves.shape[2] * len(names))
+            most = _most([len(group) for group in found.values()], room)
+            return ReportCurves(
+                channels=[_with_opposite_in(heads[name], names) for name in names],
+                curves=[self._of_report(group, names, most, shown) for group in found.values()],
+                tables=tables,
+            )
+
+    def _report_channels(self, cycles: Cycles, n_groups: int) -> list[str]:
+        """The usual channels: first those that go farthest in a cluster, with their other sides."""
+        lively = [_liveliest(cycles.select(_rows_of(cycles, cluster)), cycles)[0]
+                  for cluster in _clusters(cycles)]  # fmt: skip
+        sides = [
+            side
+            for name in [*lively, *self._usual]
+            for side in (name, self._heads[name].opposite)
+            if side in self._usual
+        ]
+        least = max(n_groups, 1) * cycles.curves.shape[2] * (2 + FEWEST)
+        return list(dict.fromkeys(sides))[: max(MOST_NUMBERS // least, FEWEST_CHANNELS)]
+
+    def _of_report(
+        self, group: Cycles, names: Sequence[str], most: int, every: Cycles
+    ) -> dict[str, ClusterCurves]:
+        """By channel, that one first which goes farthest."""
+        measured = group if group.channels else self._measured(group, names)
+        means = _means(measured)
+        return {
+            name: _drawn(measured, name, most, means[name])
+            for name in _liveliest(measured, every)
+            if name in names
+        }
+
+    def _of_table(self, table: Segmentation) -> Cycles:
+        """Its cycles, without channels."""
+        from kineme.cycles.measure import cycles
+
+        if self._cycles is None or self._table is not table:
+            recording = self._read()
+            timed = table if table.fps == recording.fps else replace(table, fps=recording.fps)
+            found = cycles(recording, timed, channels=[])
+            frames = [row.start_frame for row in table.primitives if row.kind == "primitive"]
+            columns = {**found.columns, "segment_frame": np.array(frames, np.int64)}
+            self._table, self._cycles = table, replace(found, columns=columns)
+        return self._cycles
+
+    def _measured(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
+        """The cycles with these channels."""
+        from kineme.cycles.channels import channels_of
+        from kineme.cycles.measure import measured_anew
+
+        missing = [name for name in names if name not in self._values]
+        if missing:
+            recording = self._read()
+            needed = isinstance(recording, Motion) and any(
+                self._heads[name].group == "channel" for name in missing
+            )
+            beside = self._beside() if needed else None
+            for each in channels_of(recording, ["*"], beside=[] if beside is None else [beside]):
+                if each.name in missing:
+                    self._values[each.name] = _in_memory(each)
+        channels = [self._values[name] for name in names]
+        for name in names:
+            self._values.move_to_end(name)
+        while len(self._values) > MOST_KEPT:
+            self._values.popitem(last=False)
+        return measured_anew(cycles, channels)
+
+
+def _in_memory(channel: Channel) -> Channel:
+    """The same channel with its numbers, without the recording that they come from."""
+    values = channel.values()
+    return replace(channel, compute=lambda: values, gaps=())
+
+
+def _clusters(cycles: Cycles) -> list[int]:
+    return sorted({cluster for cluster in cycles.columns["cluster"].tolist() if cluster >= 0})
+
+
+def _spans(cycles: Cycles) -> tuple[object, ...]:
+    """All that curves of these cycles depend on."""
+    names = ("start_s", "stop_s", "place", "excluded")
+    return _turned(cycles), *(tuple(cycles.columns[name].tolist()) for name in names)
+
+
+def _most(sizes: Sequence[int], room: int) -> int:
+    """How many cycles of each group can be drawn, if there is room for so many curves in all."""
+    most = FAR
+    while most < MOST and sum(2 + min(size, most + 1) for size in sizes) <= room:
+        most += 1
+    return most
+
+
+def _with_opposite_in(head: CycleChannel, names: Sequence[str]) -> CycleChannel:
+    opposite = head.opposite if head.opposite in names else ""
+    return CycleChannel(name=head.name, unit=head.unit, group=head.group, opposite=opposite)
+
+
+def _rows_of(cycles: Cycles, cluster: int) -> NDArray[np.bool_]:
+    """Which cycles are of the group of a cluster: its own, and those with the same name."""
+    groups = cycles.columns["group"][cycles.columns["cluster"] == cluster]
+    if cluster < 0 or len(groups) == 0:
+        return np.zeros(len(cycles), bool)
+    return np.asarray(cycles.columns["group"] == groups[0])
+
+
+def _liveliest(group: Cycles, every: Cycles) -> list[str]:
+    """The channels, the one whose mean goes farthest first.
+
+    Without a unit, as a share of what the channel spans in all cycles.
+    """
+    means = _means(group)
+    extents = [
+        _extent(means[channel]["mean"])
+        / (1 if unit else _extent(every.curves[:, every.channels.index(channel)]) or 1)
+        for channel, unit in zip(group.channels, group.units, strict=True)
+    ]
+    return [group.channels[place] for place in np.argsort(-np.array(extents), kind="stable")]
+
+
+def _extent(values: Floats) -> float:
+    """From the least to the greatest number; 0 where there is none."""
+    finite = values[np.isfinite(values)]
+    return float(np.ptp(finite)) if len(finite) else 0.0
+
+
+def _means(group: Cycles) -> dict[str, Columns]:
+    """By channel the mean curve; of all cycles where none is an inner one."""
+    tidy, points = group.mean_curves(ends=_only_ends(group)), group.curves.shape[2]
+    return {
+        channel: {name: tidy[name][place * points : (place + 1) * points] for name in tidy}
+        for place, channel in enumerate(group.channels)
+    }
+
+
+def _only_ends(group: Cycles) -> bool:
+    return not group.used().any()
+
+
+def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurves:
+    """The message for the cycles of a group."""
+    place, ends = group.channels.index(channel), _only_ends(group)
+    curves, columns = group.curves[:, place], group.columns
+    complete = np.isfinite(curves).all(axis=1)
+    counts = group.used(ends=ends) & complete
+    apart = np.square(curves - mean["mean"])
+    finite = np.isfinite(apart)
+    distance = np.sqrt(np.divide(
+        np.where(finite, apart, 0).sum(axis=1), finite.sum(axis=1),
+        out=np.full(len(group), np.nan), where=finite.any(axis=1),
+    ))  # fmt: skip
+    order = sorted(range(len(group)), key=lambda i: (not counts[i], -np.nan_to_num(distance[i])))
+    digits = _digits(_extent(curves))
+    drawn = [
+        CycleCurve(
+            start_frame=int(columns["segment_frame"][i]),
+            start_s=float(columns["start_s"][i]),
+            stop_s=float(columns["stop_s"][i]),
+            counts=bool(counts[i]),
+            note="" if counts[i] else _note(columns, i),
+            distance=None if np.isnan(distance[i]) else round(float(distance[i]), digits),
+            values=_rounded(curves[i], digits),
+        )
+        for i in _some(order, most)
+    ]
+    return ClusterCurves(
+        channel=channel,
+        unit=group.units[place],
+        n=int(mean["n"][0]),
+        total=len(group),
+        ends=ends,
+        turned=_turned(group),
+        mean=_rounded(mean["mean"], digits + 1),
+        sd=_rounded(mean["sd"], digits + 1),
+        cycles=drawn,
+    )
+
+
+def _turned(group: Cycles) -> int:
+    """How many of its activities began at another phase than the others."""
+    name = f"{group.columns['group'][0]} in activity "
+    return sum(note.startswith(name) for note in group.provenance["notes"])
+
+
+def _rounded(values: Floats, digits: int) -> list[float | None]:
+    return [value if np.isfinite(value) else None for value in values.round(digits).tolist()]
+
+
+def _digits(extent: float) -> int:
+    """How many digits after the point numbers of this extent are told with."""
+    return DIGITS - 1 - floor(log10(extent)) if extent > 0 else DIGITS
+
+
+def _some(order: Sequence[int], most: int) -> list[int]:
+    """The first ones, which are the farthest, and of the others evenly so many."""
+    if len(order) <= most:
+        return list(order)
+    rest, n = order[FAR:], most - FAR
+    return [*order[:FAR], *(rest[i * len(rest) // n] for i in range(n))]
+
+
+def _note(columns: Columns, row: int) -> str:
+    """Why a cycle does not count in the mean."""
+    excluded, place = str(columns["excluded"][row]), str(columns["place"][row])
+    return excluded or PLACES.get(place, "something was not recorded")

@@ -1,0 +1,57 @@
+// @vitest-environment happy-dom
+import { deflateSync } from "node:zlib";
+import { expect, test } from "vitest";
+import { LEFT, nearestCurve, RIGHT } from "../src/clusters/curveDrawing";
+import type { ClusterCurves, CycleCurve, ReportCurves } from "../src/messages";
+import { EmbeddedData } from "../src/recordingData";
+
+function cycle(start_frame: number, values: (number | null)[]): CycleCurve {
+  const [start_s, stop_s] = [start_frame / 10, start_frame / 10 + 1];
+  return { start_frame, start_s, stop_s, counts: true, note: "", distance: 0, values };
+}
+
+function curvesOf(channel: string, cycles: CycleCurve[] = []): ClusterCurves {
+  const [mean, sd] = [
+    [1, 2, 3],
+    [0, 0, 0],
+  ];
+  return { channel, unit: "°", n: 1, total: 1, ends: false, turned: 0, mean, sd, cycles };
+}
+
+/** A report with these curves, as its file has them. */
+function report(cycles: ReportCurves): EmbeddedData {
+  const text = deflateSync(JSON.stringify(cycles)).toString("base64");
+  const page = {
+    getElementById: (id: string) => (id === "kineme-cycles" ? { textContent: text } : null),
+  };
+  return new EmbeddedData(page as unknown as Document);
+}
+
+test("a report has the curves of each table that it shows, the liveliest channel first", async () => {
+  const head = { name: "knee_l", unit: "°", group: "angle", opposite: "knee_r" };
+  const data = report({
+    channels: [head],
+    curves: [
+      { knee_l: curvesOf("knee_l"), knee_r: curvesOf("knee_r") },
+      { knee_r: curvesOf("knee_r") },
+    ],
+    tables: [{ "0": 0 }, { "0": 0 }, { "0": 1, "3": 0 }],
+  });
+  expect(await data.cycleChannels()).toEqual([head]);
+  const asked = async (...of: [number, string, number]) =>
+    (await data.clusterCurves(...of))?.channel;
+  expect(await asked(0, "", 0)).toBe("knee_l");
+  expect(await asked(0, "knee_r", 1)).toBe("knee_r");
+  expect(await asked(0, "", 2)).toBe("knee_r");
+  expect(await asked(3, "", 2)).toBe("knee_l");
+  expect(await asked(0, "knee_l", 2)).toBeUndefined();
+  expect(await asked(7, "", 0)).toBeUndefined();
+  expect(await asked(0, "", 9)).toBeUndefined();
+});
+
+test("a click goes to the nearest curve, and to none that was not recorded there", () => {
+  const curves = curvesOf("knee_l", [cycle(0, [0, 0, 0]), cycle(10, [null, null, 10])]);
+  const [width, height] = [LEFT + RIGHT + 100, 100];
+  expect(nearestCurve(curves, null, LEFT + 100, 10, width, height)).toBe(1);
+  expect(nearestCurve(curves, null, LEFT, 10, width, height)).toBe(0);
+});
