@@ -73,8 +73,9 @@ class Shape:
 
 @dataclass(frozen=True)
 class ShapedClip:
-    """A clip before it is written. ``carry`` is of loops only."""
+    """A clip before it is written, of the segment of that index. ``carry`` is of loops only."""
 
+    index: int
     segment: Segment
     motion: Motion
     carry: Carry | None
@@ -93,7 +94,7 @@ def shaped(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterator[Sh
     for index, row in enumerate(rows):
         rank = places.get(index)
         if shape.best is None or (rank is not None and rank <= shape.best):
-            yield _shaped(motion, row, shape, feet, qualities.get(index), rank)
+            yield _shaped(motion, index, row, shape, feet, qualities.get(index), rank)
 
 
 @dataclass(frozen=True)
@@ -184,6 +185,7 @@ def _places(rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]) -> di
 
 def _shaped(
     motion: Motion,
+    index: int,
     row: Segment,
     shape: Shape,
     feet: Feet,
@@ -205,6 +207,7 @@ def _shaped(
     if shape.close and quality is not None:
         clip = with_first_again(clip, carry)
     return ShapedClip(
+        index,
         row,
         clip,
         carry if quality is not None else None,
