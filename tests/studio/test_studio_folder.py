@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import json
 import shutil
 import zipfile
+import zlib
 
 import numpy as np
 import pytest
 from studio_clients import Studio
 
 import kineme
+from kineme.clips.loops import Carry
 from kineme.studio.folder import file_id
 from kineme.studio.overview import brief_of, saved_brief
 from kineme.web.encoding import to_json
@@ -146,6 +149,27 @@ def test_repetitions_are_ranked_as_loops(studio: Studio) -> None:
         of_cluster.append(each["cost"])
         assert each["rank"] == len(of_cluster)
     assert all(each == sorted(each) for each in costs.values())
+
+
+def test_a_loop_plays_as_it_is_written(studio: Studio) -> None:
+    number = studio.get(f"/api/recordings/{studio.id}/loops").json()["loops"][0]["number"]
+    sent = studio.get(f"/api/recordings/{studio.id}/loops/{number}").json()
+    head, row = sent["motion"], studio.recording()["segmentation"]["segments"][number]
+    n, joints = head["n_samples"], len(head["joints"])
+    assert n == row["stop_frame"] - row["start_frame"] + 1
+    steps = np.frombuffer(zlib.decompress(base64.b64decode(sent["numbers"])), "<i2")
+    steps = np.cumsum(steps.reshape(3 * joints, n), axis=1, dtype=np.int16)
+    positions = head["origin"] + head["step"] * steps.T.reshape(n, joints, 3)
+    address = f"/api/recordings/{studio.id}/clips"
+    clips = studio.client.post(address, json={"rows": [number], "loops": True})
+    with zipfile.ZipFile(io.BytesIO(clips.content)) as files:
+        (name,) = (name for name in files.namelist() if name.endswith(".bvh"))
+        files.extract(name, studio.folder.parent)
+    written = kineme.read(studio.folder.parent / name).positions
+    assert np.abs(positions[:-1] - written).max() < 1e-3
+    carried = Carry(sent["turn"], sent["x"], sent["z"]).apply(positions[:1])
+    assert np.abs(positions[-1:] - carried).max() < 1e-3
+    assert studio.get(f"/api/recordings/{studio.id}/loops/9999").status_code == 400
 
 
 def test_a_video_lies_beside_and_keeps_its_offset(studio: Studio) -> None:

@@ -124,6 +124,15 @@ def ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
     return found
 
 
+def played_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
+    """One round of a segment as a loop, its first frame again at the end, and what carries it on.
+
+    It is the loop that is written without further changes.
+    """
+    closed, carry = loop(cut(motion, row.start_frame, row.stop_frame))
+    return with_first_again(closed, carry), carry
+
+
 def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
     """By index of the segment the quality of each loop; transitions have none."""
     usual, found = usual_steps(motion.positions), dict[int, LoopQuality]()

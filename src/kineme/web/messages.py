@@ -236,6 +236,20 @@ class Loops(Struct, frozen=True, kw_only=True):
     loops: list[LoopRow]
 
 
+class PlayedLoop(Struct, frozen=True, kw_only=True):
+    """A round of a loop as it would be written, its first frame again at the end.
+
+    ``numbers`` are all its frames, as `kineme.web.display` has them, in base 64. The next round is
+    turned by ``turn`` radians about the vertical axis, then moved by ``x`` and ``z`` metres.
+    """
+
+    motion: MotionHead
+    numbers: str
+    turn: float
+    x: float
+    z: float
+
+
 class BriefTable(Struct, frozen=True, kw_only=True):
     """What the page of a folder shows of a segment table: its columns, and what people did.
 

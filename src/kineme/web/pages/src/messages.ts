@@ -263,6 +263,20 @@ export interface Loops {
 }
 
 /**
+ * A round of a loop as it would be written, its first frame again at the end.
+ *
+ * `numbers` are all its frames, as `kineme.web.display` has them, in base 64. The next round is
+ * turned by `turn` radians about the vertical axis, then moved by `x` and `z` metres.
+ */
+export interface PlayedLoop {
+  motion: MotionHead;
+  numbers: string;
+  turn: number;
+  x: number;
+  z: number;
+}
+
+/**
  * What the page of a folder shows of a segment table: its columns, and what people did.
  *
  * `checked` are numbers of rows, `comments` counts them.

@@ -11,6 +11,7 @@ export type GetPath =
   | "/api/recordings/{id}/curves/{curve}/{level}/{number}"
   | "/api/recordings/{id}/export/{format}"
   | "/api/recordings/{id}/loops"
+  | "/api/recordings/{id}/loops/{number}"
   | "/api/recordings/{id}/matrix/{level}/{row}/{column}"
   | "/api/recordings/{id}/motion"
   | "/api/recordings/{id}/people"
