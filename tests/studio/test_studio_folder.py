@@ -15,6 +15,8 @@ from studio_clients import Studio
 
 import kineme
 from kineme.clips.loops import Carry
+from kineme.formats.scenes.gltf_writer import write_animations
+from kineme.recordings.operations import turn
 from kineme.studio.folder import file_id
 from kineme.studio.overview import brief_of, saved_brief
 from kineme.web.encoding import to_json
@@ -248,3 +250,35 @@ def test_one_of_several_people_is_chosen_from_a_list(studio: Studio) -> None:
     assert studio.client.post(f"{address}/reading", json=chosen).status_code == 200
     assert studio.get(address).json()["reading"] == {"person": "bob", "fps": 30.0}
     assert studio.get(f"{address}/people").json() == ["ann", "bob"]
+
+
+def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
+    motion = kineme.read(studio.path)
+    path = studio.folder / "takes.glb"
+    write_animations({"walk": motion, "turned": turn(motion, 1.0)}, path)
+    takes = Studio(studio.client, studio.folder)
+    takes.id = file_id(path)
+    address = f"/api/recordings/{takes.id}/reading"
+
+    def named(take: str) -> tuple[str | None, set[str]]:
+        """The take that is shown once it is asked for, and the names in its table."""
+        assert studio.client.post(address, json={"take": take}).status_code == 200
+        shown = takes.recording()
+        return shown["take"], {row["label"] for row in shown["segmentation"]["segments"]} - {""}
+
+    first = takes.recording()
+    assert (first["take"], first["takes"]) == ("walk", ["walk", "turned"])
+    name = {"level": "activity", "frame": 0}
+    takes.done(first["revision"], "name_segment", **name, label="of walk")
+    assert named("turned") == ("turned", set())
+    takes.done(takes.recording()["revision"], "name_segment", **name, label="of turned")
+    assert named("walk") == ("walk", {"of walk"})
+    assert named("turned") == ("turned", {"of turned"})
+    tables = [path.with_name(f"takes.{kind}segments.json") for kind in ("", "glb.")]
+    assert [kineme.read_segments(each).provenance["input"]["take"] for each in tables] == [
+        "walk",
+        "turned",
+    ]
+    refused = studio.client.post(address, json={"take": "run"})
+    assert (refused.status_code, refused.json()["reading"]) == (400, True)
+    assert takes.recording()["take"] == "turned"

@@ -153,6 +153,9 @@ class LoadedRecording:
         """Whether a table is of this recording: as long, and made from it if it says from what."""
         if segmentation.n_frames != self.n_frames:
             return False
+        take = _input_of(segmentation).get("take")
+        if take is not None and take != self.provenance.take:
+            return False
         digest = digest_in(segmentation)
         if not digest:
             return True
@@ -162,7 +165,7 @@ class LoadedRecording:
     def _one_segment(self, kind: Kind) -> Segmentation:
         read = self.provenance
         provenance = {
-            "input": {"path": read.path, "format": read.format, "sha256": read.sha256},
+            "input": read.input,
             "notes": [*read.notes],
         }
         return one_segment(kind, self.n_frames, self.fps, provenance)
@@ -170,8 +173,13 @@ class LoadedRecording:
 
 def digest_in(segmentation: Segmentation) -> str:
     """The digest of the recording that a table was made from, empty if it does not say."""
+    return str(_input_of(segmentation).get("sha256") or "")
+
+
+def _input_of(segmentation: Segmentation) -> dict[str, Any]:
+    """What a table says of the file it was made from."""
     read: Any = segmentation.provenance.get("input")
-    return str(read.get("sha256") or "") if isinstance(read, dict) else ""
+    return read if isinstance(read, dict) else {}
 
 
 def one_segment(

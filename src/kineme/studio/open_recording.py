@@ -141,6 +141,8 @@ class OpenRecording:
                 saved=self._saved,
                 video=video_message(self.path),
                 reading=options_of(self.path),
+                take=self.loaded.provenance.take,
+                takes=[*self.loaded.provenance.takes],
                 finding=self.finding,
                 warnings=[
                     *shown.warnings,

@@ -118,6 +118,7 @@ class Recording(Struct, frozen=True, kw_only=True):
     """Everything a page needs of one recording but the binary parts.
 
     ``reading`` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+    ``takes`` the animations in its file, of which ``take`` is this one,
     ``levels`` the tables at all details, coarsest first, in a report; the studio's server is
     asked for them.
     While ``finding`` its segments are still to be found, and the table is a single transition.
@@ -134,6 +135,8 @@ class Recording(Struct, frozen=True, kw_only=True):
     levels: list[TableAtDetail]
     video: Video | None
     reading: dict[str, Any]
+    take: str | None = None
+    takes: list[str] = []
     revision: int
     can_undo: bool
     can_redo: bool

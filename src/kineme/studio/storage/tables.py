@@ -87,7 +87,7 @@ def saved_table(
             continue
         if fits(table):
             return file, table, notes
-        notes.append(f"{path.name} was left alone: it is the table of another recording")
+        notes.append(f"{path.name} was left alone: it is the table of another recording or take")
     raise WriteError(recording, "has no name left for its table")
 
 

@@ -143,6 +143,7 @@ export interface Video {
  * Everything a page needs of one recording but the binary parts.
  *
  * `reading` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+ * `takes` the animations in its file, of which `take` is this one,
  * `levels` the tables at all details, coarsest first, in a report; the studio's server is
  * asked for them.
  * While `finding` its segments are still to be found, and the table is a single transition.
@@ -159,6 +160,8 @@ export interface Recording {
   levels: TableAtDetail[];
   video: Video | null;
   reading: Record<string, unknown>;
+  take?: string | null;
+  takes?: string[];
   revision: number;
   can_undo: boolean;
   can_redo: boolean;
@@ -597,6 +600,7 @@ export interface VideoRequest {
 /** How a recording is read; empty: as the file says. */
 export interface ReadingRequest {
   person?: string;
+  take?: string;
   fps?: number;
   unit?: string;
   up?: string;
