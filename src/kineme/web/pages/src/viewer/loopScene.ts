@@ -8,7 +8,7 @@ import { loopPoseAt, type Loop } from "./loop";
 import { Stage } from "./stage";
 
 export class LoopScene {
-  private readonly stage: Stage;
+  readonly stage: Stage;
   private loop: Loop | null = null;
   private figure: Figure | null = null;
   private pose = new Float32Array();

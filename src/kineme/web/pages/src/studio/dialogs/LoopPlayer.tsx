@@ -8,6 +8,7 @@ import { painter, ticker } from "../../ticker";
 import { IconButton } from "../../transport/icons";
 import { secondsOfRound, type Loop } from "../../viewer/loop";
 import { LoopScene } from "../../viewer/loopScene";
+import { turnByKey } from "../../viewer/updates";
 
 interface Props {
   loop: Loop;
@@ -67,8 +68,10 @@ export function LoopPlayer({ loop, name, color }: Props): JSX.Element {
     <div class="loop-player" data-playing={playing.value}>
       <canvas
         ref={canvas}
+        tabIndex={0}
         role="img"
-        aria-label={`${name}, round after round. Drag to look from another side.`}
+        aria-label={`${name}, round after round. Drag or press alt and an arrow key to look from another side.`}
+        onKeyDown={(event) => turnByKey(event, scene.current)}
       />
       <span class="round-done" ref={place} />
       <p>
