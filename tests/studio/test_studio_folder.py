@@ -255,7 +255,8 @@ def test_one_of_several_people_is_chosen_from_a_list(studio: Studio) -> None:
 def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
     motion = kineme.read(studio.path)
     path = studio.folder / "takes.glb"
-    write_animations({"walk": motion, "turned": turn(motion, 1.0)}, path)
+    motions = {"walk": motion, "turned": turn(motion, 1.0), "short": motion[:200]}
+    write_animations(motions, path)
     takes = Studio(studio.client, studio.folder)
     takes.id = file_id(path)
     address = f"/api/recordings/{takes.id}/reading"
@@ -267,7 +268,7 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
         return shown["take"], {row["label"] for row in shown["segmentation"]["segments"]} - {""}
 
     first = takes.recording()
-    assert (first["take"], first["takes"]) == ("walk", ["walk", "turned"])
+    assert (first["take"], first["takes"]) == ("walk", ["walk", "turned", "short"])
     name = {"level": "activity", "frame": 0}
     takes.done(first["revision"], "name_segment", **name, label="of walk")
     assert named("turned") == ("turned", set())
@@ -279,6 +280,8 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
         "walk",
         "turned",
     ]
+    assert named("short") == ("short", set())
+    assert not any("left alone" in each for each in takes.recording()["warnings"])
     refused = studio.client.post(address, json={"take": "run"})
     assert (refused.status_code, refused.json()["reading"]) == (400, True)
-    assert takes.recording()["take"] == "turned"
+    assert takes.recording()["take"] == "short"

@@ -151,16 +151,17 @@ class LoadedRecording:
 
     def fits(self, segmentation: Segmentation) -> bool:
         """Whether a table is of this recording: as long, and made from it if it says from what."""
-        if segmentation.n_frames != self.n_frames:
-            return False
-        take = _input_of(segmentation).get("take")
-        if take is not None and take != self.provenance.take:
+        if segmentation.n_frames != self.n_frames or self.is_of_another_take(segmentation):
             return False
         digest = digest_in(segmentation)
         if not digest:
             return True
         name = Path(str(segmentation.provenance["input"].get("path") or "")).name
         return digest == self.provenance.sha256 or name == self.path.name
+
+    def is_of_another_take(self, segmentation: Segmentation) -> bool:
+        """Whether a table says that it is of another take of the file."""
+        return _input_of(segmentation).get("take", self.provenance.take) != self.provenance.take
 
     def _one_segment(self, kind: Kind) -> Segmentation:
         read = self.provenance
