@@ -11,7 +11,8 @@ from __future__ import annotations
 import re
 import uuid
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
+from itertools import count
 from typing import Any, NamedTuple
 
 Row = dict[str, Any]
@@ -52,15 +53,21 @@ def shortened(text: str) -> str:
 
 
 def numbered(rows: Sequence[Row]) -> list[str]:
-    """A name for each segment, with a number where several are called the same."""
+    """A name for each segment, with a number where several are called the same.
+
+    Numbers that would make the name of another are left out, so that no two are the same.
+    """
     names = [name_of(row) for row in rows]
-    totals, counts = Counter(names), Counter[str]()
-    unique = []
-    for name in names:
-        counts[name] += 1
-        width = max(2, len(str(totals[name])))
-        unique.append(f"{name} {counts[name]:0{width}}" if totals[name] > 1 else name)
-    return unique
+    totals = Counter(names)
+    free = {name: _numbers_of(name, n, totals) for name, n in totals.items()}
+    return [next(free[name]) if totals[name] > 1 else name for name in names]
+
+
+def _numbers_of(name: str, n: int, others: Container[str]) -> Iterator[str]:
+    """A name with numbers behind it, of as many digits as so many need, unlike the others."""
+    width = max(2, len(str(n)))
+    each = (f"{name} {number:0{width}}" for number in count(1))
+    return (one for one in each if one not in others)
 
 
 def clips_of(record: Record, level: str) -> list[tuple[str, Row]]:

@@ -69,6 +69,13 @@ def test_names_fit_into_blender_with_a_number_and_are_no_halves_of_letters() -> 
     assert table.numbered([row | {"label": "kick"}]) == ["kick"]
 
 
+def test_a_number_makes_no_name_that_another_has() -> None:
+    labels = ["kick", "kick 01", "kick", "kick 01 01", "kick 01"]
+    rows = [{"label": label, "cluster": 0, "kind": "primitive"} for label in labels]
+    names = ["kick 02", "kick 01 02", "kick 03", "kick 01 01", "kick 01 03"]
+    assert table.numbered(rows) == names
+
+
 def test_frames_of_the_table_are_those_of_the_scene(record: dict[str, Any]) -> None:
     rows = table.rows_of(record, "primitive")
     spans = [table.frames_of(record, row) for row in rows]

@@ -85,7 +85,18 @@ def test_good_loops_come_first_and_are_saved(page):
         assert ranks[start:stop] == list(range(1, stop - start + 1))
     checked = window.get_by_role("checkbox", checked=True)
     assert checked.count() == len(bests)
+    plays = window.get_by_role("button", name="Play cluster")
+    plays.nth(1).click()
+    plays.first.click()
+    figure = window.get_by_role("img", name="round after round")
+    figure.wait_for()
+    assert window.get_by_role("button", name="Play cluster", pressed=True).count() == 1
+    first = figure.screenshot()
+    until(page, lambda: figure.screenshot() != first, "the loop plays")
     page.screenshot(path=os.environ.get("KINEME_SHOT", "/dev/null"), type="png")
+    window.get_by_role("button", name="Pause").click()
+    rest = picture_of(figure)
+    until(page, lambda: figure.screenshot() == rest, "the loop rests")
     checked.first.uncheck()
     with page.expect_download() as loops:
         window.get_by_role("button", name=f"Save {len(bests) - 1} as loops").click()

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import json
 import shutil
 import zipfile
+import zlib
 
 import numpy as np
 import pytest
 from studio_clients import Studio
 
 import kineme
+from kineme.clips.loops import Carry
+from kineme.formats.scenes.gltf_writer import write_animations
+from kineme.recordings.operations import turn
 from kineme.studio.folder import file_id
 from kineme.studio.overview import brief_of, saved_brief
 from kineme.web.encoding import to_json
@@ -168,6 +173,27 @@ def test_repetitions_are_ranked_as_loops(studio: Studio) -> None:
     assert all(each == sorted(each) for each in costs.values())
 
 
+def test_a_loop_plays_as_it_is_written(studio: Studio) -> None:
+    number = studio.get(f"/api/recordings/{studio.id}/loops").json()["loops"][0]["number"]
+    sent = studio.get(f"/api/recordings/{studio.id}/loops/{number}").json()
+    head, row = sent["motion"], studio.recording()["segmentation"]["segments"][number]
+    n, joints = head["n_samples"], len(head["joints"])
+    assert n == row["stop_frame"] - row["start_frame"] + 1
+    steps = np.frombuffer(zlib.decompress(base64.b64decode(sent["numbers"])), "<i2")
+    steps = np.cumsum(steps.reshape(3 * joints, n), axis=1, dtype=np.int16)
+    positions = head["origin"] + head["step"] * steps.T.reshape(n, joints, 3)
+    address = f"/api/recordings/{studio.id}/clips"
+    clips = studio.client.post(address, json={"rows": [number], "loops": True})
+    with zipfile.ZipFile(io.BytesIO(clips.content)) as files:
+        (name,) = (name for name in files.namelist() if name.endswith(".bvh"))
+        files.extract(name, studio.folder.parent)
+    written = kineme.read(studio.folder.parent / name).positions
+    assert np.abs(positions[:-1] - written).max() < 1e-3
+    carried = Carry(sent["turn"], sent["x"], sent["z"]).apply(positions[:1])
+    assert np.abs(positions[-1:] - carried).max() < 1e-3
+    assert studio.get(f"/api/recordings/{studio.id}/loops/9999").status_code == 400
+
+
 def test_a_video_lies_beside_and_keeps_its_offset(studio: Studio) -> None:
     address = f"/api/recordings/{studio.id}/video"
     assert studio.recording()["video"] is None
@@ -244,3 +270,38 @@ def test_one_of_several_people_is_chosen_from_a_list(studio: Studio) -> None:
     assert studio.client.post(f"{address}/reading", json=chosen).status_code == 200
     assert studio.get(address).json()["reading"] == {"person": "bob", "fps": 30.0}
     assert studio.get(f"{address}/people").json() == ["ann", "bob"]
+
+
+def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
+    motion = kineme.read(studio.path)
+    path = studio.folder / "takes.glb"
+    motions = {"walk": motion, "turned": turn(motion, 1.0), "short": motion[:200]}
+    write_animations(motions, path)
+    takes = Studio(studio.client, studio.folder)
+    takes.id = file_id(path)
+    address = f"/api/recordings/{takes.id}/reading"
+
+    def named(take: str) -> tuple[str | None, set[str]]:
+        """The take that is shown once it is asked for, and the names in its table."""
+        assert studio.client.post(address, json={"take": take}).status_code == 200
+        shown = takes.recording()
+        return shown["take"], {row["label"] for row in shown["segmentation"]["segments"]} - {""}
+
+    first = takes.recording()
+    assert (first["take"], first["takes"]) == ("walk", ["walk", "turned", "short"])
+    name = {"level": "activity", "frame": 0}
+    takes.done(first["revision"], "name_segment", **name, label="of walk")
+    assert named("turned") == ("turned", set())
+    takes.done(takes.recording()["revision"], "name_segment", **name, label="of turned")
+    assert named("walk") == ("walk", {"of walk"})
+    assert named("turned") == ("turned", {"of turned"})
+    tables = [path.with_name(f"takes.{kind}segments.json") for kind in ("", "glb.")]
+    assert [kineme.read_segments(each).provenance["input"]["take"] for each in tables] == [
+        "walk",
+        "turned",
+    ]
+    assert named("short") == ("short", set())
+    assert not any("left alone" in each for each in takes.recording()["warnings"])
+    refused = studio.client.post(address, json={"take": "run"})
+    assert (refused.status_code, refused.json()["reading"]) == (400, True)
+    assert takes.recording()["take"] == "short"

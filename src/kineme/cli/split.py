@@ -74,7 +74,7 @@ def split(
     constants: Constants = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
-    """Write each segment of a recording as a file of its own, and a list of them."""
+    """Write each segment as a file of its own, never retargeted to another skeleton, and a list."""
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)

@@ -4,8 +4,7 @@
 what each name means. Loops come first, those of a cluster together and the best first; what plays
 once follows in the order of time.
 
-A clip's name survives import in Blender, Unreal, Unity, Godot and three.js: ASCII letters, digits
-and ``_``, the first a letter, 63 characters at most, no two the same whatever the case.
+What clips are called is told in `kineme.clips.names`.
 """
 
 from __future__ import annotations
@@ -13,7 +12,6 @@ from __future__ import annotations
 import csv
 import json
 import math
-import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from math import degrees
@@ -35,8 +33,6 @@ SPANS = ("start_frame", "stop_frame", "start_s", "stop_s", "level", "kind", "clu
 RANKED = ("rank", "cost")
 CARRY = ("turn_deg", "x_m", "z_m")
 ANIMATION = "animation"
-LONGEST = 63
-"""Characters of a name: what Blender keeps."""
 DIGITS = 6
 """After the point, in JSON."""
 
@@ -59,25 +55,6 @@ class Clip:
     planted: Mapping[str, Sequence[tuple[int, int]]] | None = None
     poses: Mapping[str, Mapping[str, Any]] | None = None
     changes: tuple[str, ...] = ()
-
-
-def safe_name(stem: str, number: int, text: str) -> str:
-    """The name of a clip: its recording, its number and its label, in letters that survive.
-
-    Examples
-    --------
-    >>> safe_name("Take 1.final", 3, "Äpfel pflücken")
-    'Take_1_final_0003_Apfel_pflucken'
-    >>> safe_name("86_01", 12, "walk")
-    'clip_86_01_0012_walk'
-    """
-    middle = f"_{number:04d}_"
-    label = _ascii(text)[:24].strip("_") or "clip"
-    first = _ascii(stem)
-    if not first[:1].isalpha():
-        first = f"clip_{first}".rstrip("_")
-    first = first[: LONGEST - len(middle) - len(label)].rstrip("_")
-    return f"{first}{middle}{label}"
 
 
 def write_manifests(clips: Sequence[Clip], folder: Path, *, loops: bool, animations: bool) -> None:
@@ -177,11 +154,3 @@ def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bo
             if animations:
                 cells.append(clip.animation or "")
             table.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in cells])
-
-
-def _ascii(text: str) -> str:
-    """ASCII letters and digits, accents taken off, and single ``_`` for all else."""
-    parted = unicodedata.normalize("NFKD", text.replace("ß", "ss"))
-    bare = "".join(letter for letter in parted if not unicodedata.combining(letter))
-    kept = "".join(each if each.isascii() and each.isalnum() else " " for each in bare)
-    return "_".join(kept.split())

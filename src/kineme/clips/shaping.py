@@ -73,8 +73,9 @@ class Shape:
 
 @dataclass(frozen=True)
 class ShapedClip:
-    """A clip before it is written. ``carry`` is of loops only."""
+    """A clip before it is written, of the segment of that index. ``carry`` is of loops only."""
 
+    index: int
     segment: Segment
     motion: Motion
     carry: Carry | None
@@ -93,7 +94,7 @@ def shaped(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterator[Sh
     for index, row in enumerate(rows):
         rank = places.get(index)
         if shape.best is None or (rank is not None and rank <= shape.best):
-            yield _shaped(motion, row, shape, feet, qualities.get(index), rank)
+            yield _shaped(motion, index, row, shape, feet, qualities.get(index), rank)
 
 
 @dataclass(frozen=True)
@@ -121,6 +122,15 @@ def ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
         speed = root_motion(clip, carry_of(clip)).speed
         found.append(RankedLoop(index, places[index], qualities[index], speed))
     return found
+
+
+def played_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
+    """One round of a segment as a loop, its first frame again at the end, and what carries it on.
+
+    It is the loop that is written without further changes.
+    """
+    closed, carry = loop(cut(motion, row.start_frame, row.stop_frame))
+    return with_first_again(closed, carry), carry
 
 
 def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
@@ -184,6 +194,7 @@ def _places(rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]) -> di
 
 def _shaped(
     motion: Motion,
+    index: int,
     row: Segment,
     shape: Shape,
     feet: Feet,
@@ -205,6 +216,7 @@ def _shaped(
     if shape.close and quality is not None:
         clip = with_first_again(clip, carry)
     return ShapedClip(
+        index,
         row,
         clip,
         carry if quality is not None else None,

@@ -4,8 +4,7 @@ A clip of a motion is a BVH, or of another format that is asked for; a CSV of jo
 where it has no rotations (see `kineme.formats.tables`). Of a format that holds several motions,
 such as GLB, there is one file for each recording, with its clips as animations. A clip of signals
 is rows of their own file (see `kineme.formats.channels.writing`). Files are called
-``RECORDING_NUMBER_TEXT``, with the text of
-`kineme.labels.spans` and ``_`` for what file systems dislike.
+``RECORDING_NUMBER_TEXT`` (see `kineme.clips.names`), with the text of `kineme.labels.spans`.
 
 ``manifest.csv`` has a row per clip, in the order of the segments; ``manifest.json`` says more of
 it (see `kineme.clips.manifest`):
@@ -27,14 +26,16 @@ The folder appears whole or not at all, and nothing that was there is touched.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 from kineme._checks import check_flag, is_number, is_one_of
 from kineme._files import atomic_folder
-from kineme.clips.manifest import Clip, safe_name, write_manifests
+from kineme.clips.manifest import Clip, write_manifests
+from kineme.clips.names import file_name, safe_name, unlike
 from kineme.clips.shaping import Shape, ShapedClip, shaped
 from kineme.errors import MotionError, ParameterError
 from kineme.features import mirror as mirrored
@@ -172,22 +173,26 @@ def write_clips(
     target, chosen = Path(folder), _format(format)
     shape = _shape(loops, best, in_place, straight, mirror, close)
     entries: list[Clip] = []
+    several = chosen is not None and chosen.write_animations is not None
     with atomic_folder(target) as draft:
+        first, files = 0, set[str]()
         for recording, rows in clips:
+            run = _Run(recording, first, draft, shape.changes)
+            first += len(rows)
             if isinstance(recording, Signals):
                 _refuse_poses(shape, format)
-                entries += _write_rows(recording, rows, draft, len(entries))
+                entries += _write_rows(run, recording, rows)
                 continue
             motion = mirrored(recording) if mirror else recording
             made = shaped(motion, rows, shape)
-            if chosen is None or chosen.write_animations is None:
-                suffix = format or ("csv" if motion.rotations is None else "bvh")
-                entries += _write_files(motion, made, draft, suffix, len(entries), shape)
+            if chosen is not None and chosen.write_animations is not None:
+                file = unlike(run.stem, run.first, files)
+                files.add(file.casefold())
+                path = draft / f"{file}.{format}"
+                entries += _write_animations(run, made, path, chosen.write_animations)
             else:
-                entries += _write_animations(
-                    motion, made, draft, chosen, len(entries), shape, format
-                )
-        several = chosen is not None and chosen.write_animations is not None
+                suffix = format or ("csv" if motion.rotations is None else "bvh")
+                entries += _write_files(run, made, suffix)
         write_manifests(entries, draft, loops=loops, animations=several)
     return [target / clip.file for clip in entries]
 
@@ -241,111 +246,85 @@ def _format(suffix: str | None) -> Format | None:
     return found
 
 
-def _write_rows(signals: Signals, rows: Sequence[Segment], folder: Path, first: int) -> list[Clip]:
+@dataclass(frozen=True)
+class _Run:
+    """The clips of one recording, numbered from ``first`` in their folder."""
+
+    recording: Motion | Signals
+    first: int
+    folder: Path
+    changes: tuple[str, ...]
+
+    @property
+    def stem(self) -> str:
+        return Path(self._path or "recording").stem
+
+    def file(self, index: int, segment: Segment, suffix: str) -> str:
+        """The name of the file of one clip, the segment of that place among those given."""
+        return f"{file_name(self.stem, self.first + index, text_of(segment))}{suffix}"
+
+    def clip(self, index: int, segment: Segment, file: str, **fields: Any) -> Clip:
+        """What the lists say of it; the other fields are those of `Clip`."""
+        return Clip(
+            name=safe_name(self.stem, self.first + index, text_of(segment)),
+            file=file,
+            source=self._path.encode(errors="backslashreplace").decode(),
+            segment=segment,
+            fps=self.recording.fps,
+            **fields,
+        )
+
+    def shaped_clip(self, made: ShapedClip, file: str) -> Clip:
+        """The same of a motion that was made of it."""
+        return self.clip(
+            made.index,
+            made.segment,
+            file,
+            n_frames=made.motion.n_frames,
+            carry=made.carry,
+            quality=made.quality,
+            rank=made.rank,
+            root=made.root,
+            planted=made.planted,
+            poses=made.poses,
+            changes=self.changes,
+        )
+
+    @property
+    def _path(self) -> str:
+        return str(self.recording.provenance.path or "")
+
+
+def _write_rows(run: _Run, signals: Signals, rows: Sequence[Segment]) -> Iterator[Clip]:
     """Leave each clip in a file of its own: rows of the recording's."""
     shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
     file_rows = rows_of(signals, shortest=shortest)
-    entries = []
-    for number, row in enumerate(rows, first):
-        file = f"{_file_name(signals, row, number)}{file_rows.suffix}"
-        file_rows.write(folder / file, row.start_frame, row.stop_frame)
-        entries.append(
-            Clip(
-                safe_name(_stem(signals), number, text_of(row)),
-                file,
-                _source(signals),
-                row,
-                row.stop_frame - row.start_frame,
-                signals.fps,
-            )
-        )
-    return entries
+    for index, row in enumerate(rows):
+        file = run.file(index, row, file_rows.suffix)
+        file_rows.write(run.folder / file, row.start_frame, row.stop_frame)
+        yield run.clip(index, row, file, n_frames=row.stop_frame - row.start_frame)
 
 
-def _write_files(
-    motion: Motion,
-    made: Iterable[ShapedClip],
-    folder: Path,
-    suffix: str,
-    first: int,
-    shape: Shape,
-) -> list[Clip]:
+def _write_files(run: _Run, made: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
     """Leave each clip in a file of its own."""
-    entries = []
-    for number, clip in enumerate(made, first):
-        file = f"{_file_name(motion, clip.segment, number)}.{suffix}"
-        write(clip.motion, folder / file)
-        entries.append(_entry(motion, clip, number, file, shape))
-    return entries
+    for each in made:
+        file = run.file(each.index, each.segment, f".{suffix}")
+        write(each.motion, run.folder / file)
+        yield run.shaped_clip(each, file)
 
 
 def _write_animations(
-    motion: Motion,
+    run: _Run,
     made: Iterable[ShapedClip],
-    folder: Path,
-    chosen: Format,
-    first: int,
-    shape: Shape,
-    suffix: str | None,
+    path: Path,
+    write_all: Callable[[Mapping[str, Motion], Path], object],
 ) -> list[Clip]:
     """Leave all clips in one file."""
-    stem = _plain(_stem(motion))
-    path = folder / f"{stem}.{suffix}"
-    if path.exists():  # another recording of this name
-        path = folder / f"{stem}_{first:04d}.{suffix}"
-    entries: list[Clip] = []
-    animations: dict[str, Motion] = {}
-    for number, clip in enumerate(made, first):
-        entries.append(_entry(motion, clip, number, path.name, shape, animation=True))
-        animations[entries[-1].name] = clip.motion
-    if chosen.write_animations is not None and animations:
-        chosen.write_animations(animations, path)
-    return entries
-
-
-def _entry(
-    motion: Motion,
-    clip: ShapedClip,
-    number: int,
-    file: str,
-    shape: Shape,
-    *,
-    animation: bool = False,
-) -> Clip:
-    """What the lists say of a clip."""
-    name = safe_name(_stem(motion), number, text_of(clip.segment))
-    return Clip(
-        name,
-        file,
-        _source(motion),
-        clip.segment,
-        clip.motion.n_frames,
-        clip.motion.fps,
-        name if animation else None,
-        clip.carry,
-        clip.quality,
-        clip.rank,
-        clip.root,
-        clip.planted,
-        clip.poses,
-        shape.changes,
-    )
-
-
-def _stem(recording: Motion | Signals) -> str:
-    return Path(str(recording.provenance.path or "") or "recording").stem
-
-
-def _source(recording: Motion | Signals) -> str:
-    return str(recording.provenance.path or "").encode(errors="backslashreplace").decode()
-
-
-def _file_name(recording: Motion | Signals, row: Segment, number: int) -> str:
-    """The name of a clip's file, without a suffix."""
-    return f"{_plain(_stem(recording))}_{number:04d}_{_plain(text_of(row))}"
-
-
-def _plain(text: str) -> str:
-    """Letters, digits and ``_`` and ``-``; short enough for any file system."""
-    kept = "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in text)
-    return kept.encode(errors="replace")[:80].decode(errors="ignore")
+    clips, animations = list[Clip](), dict[str, Motion]()
+    for each in made:
+        clip = run.shaped_clip(each, path.name)
+        clips.append(replace(clip, animation=clip.name))
+        animations[clip.name] = each.motion
+    if animations:
+        write_all(animations, path)
+    return clips

@@ -63,6 +63,10 @@ class Provenance:
         Those marked in the file: seconds from its first frame, and the label.
     clock : Clock, optional
         What times the file has, where these are not those of frames counted from 0.
+    take : str, optional
+        The animation that was read, of a file that may have several.
+    takes : sequence of str
+        Those that could have been.
 
     Examples
     --------
@@ -76,15 +80,24 @@ class Provenance:
     notes: tuple[Note, ...] = ()
     events: tuple[tuple[float, str], ...] = ()
     clock: Clock | None = None
+    take: str | None = None
+    takes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "notes", _as_notes(self.notes))
         object.__setattr__(self, "events", tuple(self.events))
+        object.__setattr__(self, "takes", tuple(self.takes))
 
     @property
     def warnings(self) -> tuple[Note, ...]:
         """The notes of severity "warning"."""
         return tuple(note for note in self.notes if note.severity == "warning")
+
+    @property
+    def input(self) -> dict[str, str | None]:
+        """What a result says of where it was found: the file, and the take where it has several."""
+        file = {"path": self.path, "format": self.format, "sha256": self.sha256}
+        return {**file, "take": self.take} if len(self.takes) > 1 else file
 
     def noted(self, *notes: Note | str) -> Provenance:
         """The same with notes added; plain texts become notes of severity "info"."""
@@ -97,6 +110,10 @@ class Provenance:
     def timed(self, clock: Clock | None) -> Provenance:
         """The same with this clock in place of its own."""
         return replace(self, clock=clock)
+
+    def of_take(self, name: str, names: Iterable[str]) -> Provenance:
+        """The same of this take, one of those in the file."""
+        return replace(self, take=name, takes=tuple(names))
 
 
 def _as_notes(notes: Iterable[Note | str]) -> tuple[Note, ...]:

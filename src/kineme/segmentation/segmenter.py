@@ -259,7 +259,7 @@ def _result(
         "preset": preset.name,
         "method": preset.method,
         "parameters": {"unit": preset.unit, **preset.parameters()},
-        "input": {"path": source.path, "format": source.format, "sha256": source.sha256},
+        "input": source.input,
         "notes": [*map(str, source.notes), *view.notes, *found.doubts(columns, fps)],
     }
     if gaps := gaps_between(view.spans, n_frames):

@@ -7,21 +7,18 @@ import zipfile
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from io import BytesIO
-from math import isnan
 from pathlib import Path
 
 from kineme._checks import is_text
 from kineme.clips.split import split, write_clips
 from kineme.errors import ParameterError
 from kineme.labels import label_formats, write_segments
-from kineme.recordings import Motion
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
 from kineme.studio.http.bodies import safe_name
 from kineme.studio.open_recording import OpenRecording
-from kineme.web.messages import LoopRow, Loops
 
 
 def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str, bytes]:
@@ -68,31 +65,6 @@ def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tu
         raise ParameterError("choose the segments to write: some of these are not in the table")
     clips = [(opened.loaded.recording, [table.table[row] for row in rows])]
     return _written(stem, lambda to: write_clips(clips, to / stem, loops=loops))
-
-
-def loops_of(opened: OpenRecording) -> Loops:
-    """How good the repetitions of a recording would be as loops."""
-    from kineme.clips.shaping import ranked_loops
-
-    table, motion = opened.table, opened.loaded.recording
-    if not isinstance(motion, Motion):
-        raise ParameterError("signals have no pose to blend, so there are no loops")
-    numbers = [number for number, row in enumerate(table.table) if row.level == "primitive"]
-    found = ranked_loops(motion, [table.table[number] for number in numbers])
-    return Loops(
-        loops=[
-            LoopRow(
-                number=numbers[each.index],
-                rank=each.rank,
-                cost=each.quality.cost,
-                pose_m=each.quality.pose_m,
-                slide_m_s=None if isnan(each.quality.slide_m_s) else each.quality.slide_m_s,
-                turn_deg=each.quality.turn_deg,
-                speed_m_s=each.speed_m_s,
-            )
-            for each in found
-        ]
-    )
 
 
 def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]:

@@ -164,7 +164,7 @@ class LoadedRecording:
 
     def fits(self, segmentation: Segmentation) -> bool:
         """Whether a table is of this recording: as long, and made from it if it says from what."""
-        if segmentation.n_frames != self.n_frames:
+        if segmentation.n_frames != self.n_frames or self.is_of_another_take(segmentation):
             return False
         digest = digest_in(segmentation)
         if not digest:
@@ -172,10 +172,14 @@ class LoadedRecording:
         name = Path(str(segmentation.provenance["input"].get("path") or "")).name
         return digest == self.provenance.sha256 or name == self.path.name
 
+    def is_of_another_take(self, segmentation: Segmentation) -> bool:
+        """Whether a table says that it is of another take of the file."""
+        return _input_of(segmentation).get("take", self.provenance.take) != self.provenance.take
+
     def _one_segment(self, kind: Kind) -> Segmentation:
         read = self.provenance
         provenance = {
-            "input": {"path": read.path, "format": read.format, "sha256": read.sha256},
+            "input": read.input,
             "notes": [*read.notes],
         }
         return one_segment(kind, self.n_frames, self.fps, provenance)
@@ -183,8 +187,13 @@ class LoadedRecording:
 
 def digest_in(segmentation: Segmentation) -> str:
     """The digest of the recording that a table was made from, empty if it does not say."""
+    return str(_input_of(segmentation).get("sha256") or "")
+
+
+def _input_of(segmentation: Segmentation) -> dict[str, Any]:
+    """What a table says of the file it was made from."""
     read: Any = segmentation.provenance.get("input")
-    return str(read.get("sha256") or "") if isinstance(read, dict) else ""
+    return read if isinstance(read, dict) else {}
 
 
 def one_segment(

@@ -35,7 +35,7 @@ from kineme.studio.storage.sidecars import (
     options_of,
     video_message,
 )
-from kineme.studio.storage.tables import ChangedOnDiskError, saved_table
+from kineme.studio.storage.tables import ChangedOnDiskError, TableFile, saved_table
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
 from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 
@@ -74,7 +74,7 @@ class OpenRecording:
         self.loaded = LoadedRecording(path, cache)
         self._others = others
         self._lock = threading.RLock()
-        self._file, table, self._notes = saved_table(path, self.loaded.fits, others)
+        self._file, table, self._notes = self._saved_table()
         self._first: FirstSegments | None = None  # while they are being found
         if table is None and initial is not None and self.loaded.fits(initial):
             table = initial
@@ -141,6 +141,8 @@ class OpenRecording:
                 saved=self._saved,
                 video=video_message(self.path),
                 reading=options_of(self.path),
+                take=self.loaded.provenance.take,
+                takes=[*self.loaded.provenance.takes],
                 finding=self.finding,
                 warnings=[
                     *shown.warnings,
@@ -271,11 +273,18 @@ class OpenRecording:
 
     def _read_anew(self) -> bool:
         """The table that another program left; undo brings back the one from before."""
-        self._file, table, self._notes = saved_table(self.path, self.loaded.fits, self._others)
+        self._file, table, self._notes = self._saved_table()
         self._table = self._table if table is None else table
         self._journal = Journal(self._file.path, self._table)
         self.revision += 1
         return True
+
+    def _saved_table(self) -> tuple[TableFile, Segmentation | None, list[str]]:
+        """What is on the disk."""
+        loaded = self.loaded
+        return saved_table(
+            self.path, loaded.fits, self._others, of_another_take=loaded.is_of_another_take
+        )
 
     def _edited(self, notes: list[str]) -> Edited:
         from kineme.web.page_data import segments_message

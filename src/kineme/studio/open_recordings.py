@@ -23,7 +23,13 @@ from kineme.studio.loading import one_segment
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.overview import brief_of, saved_brief
 from kineme.studio.reading import ReadingOptions, RecordingCache
-from kineme.studio.storage.sidecars import keep_options, options_of, read_options, video_message
+from kineme.studio.storage.sidecars import (
+    OPTIONS,
+    keep_options,
+    options_of,
+    read_options,
+    video_message,
+)
 from kineme.studio.storage.tables import usual_table
 from kineme.web.messages import (
     BriefTable,
@@ -221,8 +227,9 @@ class OpenRecordings:
     def read_as(self, name: str, options: dict[str, Any]) -> None:
         """Read a recording otherwise from now on; its table is made anew, the one before kept.
 
-        Options have the names of `kineme.formats.ReadOptions`; others are as for all. KinemeError
-        where it cannot be read so: it is read as before.
+        Another take of the file has a table of its own, which is as it was left. Options have the
+        names of `kineme.formats.ReadOptions`; others are as for all. KinemeError where it cannot
+        be read so: it is read as before.
         """
         path = _found(self.folder.recordings(), name, "recording")
         before = options_of(path)
@@ -234,7 +241,10 @@ class OpenRecordings:
             raise
         former = self._open.get(name)
         opened = self._opened(name, path, former)
-        if opened.table_path.exists():
+        differ = {
+            option for option in OPTIONS if before.get(option) != options_of(path).get(option)
+        }
+        if opened.table_path.exists() and differ != {"take"}:
             shown = opened if former is None else former
             signals = not opened.loaded.is_motion
             opened.edit(opened.revision, same_again(shown.table, signals=signals), self)

@@ -49,6 +49,7 @@ from kineme.web.messages import (
     FolderTables,
     Listing,
     Loops,
+    PlayedLoop,
     Preview,
     Recording,
     ScoreMeaning,
@@ -100,6 +101,7 @@ class Api:
             route(f"{one}/export/{{format}}", self.export),
             route(f"{one}/clips", self.clips, ClipsRequest),
             route(f"{one}/loops", self.loops),
+            route(f"{one}/loops/{{number}}", self.loop),
             route(f"{one}/video", self.video),
             route(f"{one}/video", self.offset, VideoRequest),
             route(f"{one}/reading", self.reading, ReadingRequest),
@@ -279,9 +281,14 @@ class Api:
         return file_response(*files)
 
     def loops(self, request: Request) -> Loops:
-        from kineme.studio import downloads
+        from kineme.studio import loops
 
-        return downloads.loops_of(self._opened(request))
+        return loops.ranked(self._opened(request))
+
+    def loop(self, request: Request) -> PlayedLoop:
+        from kineme.studio import loops
+
+        return loops.played(self._opened(request), *_numbers(request, "number"))
 
     def video(self, request: Request) -> Response:
         found = video_of(self._opened(request).path)

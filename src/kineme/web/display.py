@@ -35,12 +35,16 @@ FINE, COARSE = 1e-4, 5e-4  # steps, as shares of the body's largest extent
 
 
 def display_motion(
-    motion: Motion, *, effectors: Names | None = None, most_bytes: int = MOST_BYTES
+    motion: Motion,
+    *,
+    effectors: Names | None = None,
+    rate: float = RATE,
+    most_bytes: int = MOST_BYTES,
 ) -> tuple[MotionHead, bytes]:
     """How to read the binary motion, and the binary motion, as described above.
 
-    ``effectors`` are as `kineme.features.end_effectors` takes them. Above ``most_bytes``, fewer
-    digits are sent, then fewer poses.
+    ``effectors`` are as `kineme.features.end_effectors` takes them, ``rate`` is how many poses a
+    second are sent at most. Above ``most_bytes``, fewer digits are sent, then fewer poses.
 
     Examples
     --------
@@ -50,7 +54,7 @@ def display_motion(
     >>> head.sample_fps
     30.0
     """
-    fps = min(motion.fps, RATE)
+    fps = min(motion.fps, rate)
     positions = sampled(motion, fps)
     # Fine numbers take more than a byte each, so that many of them need not be tried.
     for share in (FINE, COARSE) if positions.size <= most_bytes else (COARSE,):

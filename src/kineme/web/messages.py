@@ -185,6 +185,7 @@ class Recording(Struct, frozen=True, kw_only=True):
     """Everything a page needs of one recording but the binary parts.
 
     ``reading`` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+    ``takes`` the animations in its file, of which ``take`` is this one,
     ``levels`` the tables at all details, coarsest first, in a report; the studio's server is
     asked for them.
     While ``finding`` its segments are still to be found, and the table is a single transition.
@@ -201,6 +202,8 @@ class Recording(Struct, frozen=True, kw_only=True):
     levels: list[TableAtDetail]
     video: Video | None
     reading: dict[str, Any]
+    take: str | None = None
+    takes: list[str] = []
     revision: int
     can_undo: bool
     can_redo: bool
@@ -301,6 +304,20 @@ class Loops(Struct, frozen=True, kw_only=True):
     """The repetitions of a recording as loops, those of a cluster together, the best first."""
 
     loops: list[LoopRow]
+
+
+class PlayedLoop(Struct, frozen=True, kw_only=True):
+    """A round of a loop as it would be written, its first frame again at the end.
+
+    ``numbers`` are all its frames, as `kineme.web.display` has them, in base 64. The next round is
+    turned by ``turn`` radians about the vertical axis, then moved by ``x`` and ``z`` metres.
+    """
+
+    motion: MotionHead
+    numbers: str
+    turn: float
+    x: float
+    z: float
 
 
 class BriefTable(Struct, frozen=True, kw_only=True):

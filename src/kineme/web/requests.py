@@ -247,6 +247,7 @@ class ReadingRequest(Request, frozen=True, kw_only=True):
     """How a recording is read; empty: as the file says."""
 
     person: Text = ""
+    take: Text = ""
     fps: Number = 0
     unit: Text = ""
     up: Text = ""

@@ -63,9 +63,8 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         for number, models in enumerate(moved)
         if models & scene.bones or (models and not scene.bones)
     ]
-    number, notes = choose_take(
-        content, unique(take.name for take in scene.takes), lively, options.take
-    )
+    names = unique(take.name for take in scene.takes)
+    number, notes = choose_take(content, names, lively, options.take)
     take, nodes = scene.takes[number], scene.nodes(moved[number])
     character = character_of(content, nodes, options.person)
     joints = [scene.models[j].number for j in character.joints]
@@ -82,7 +81,9 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         fps,
         unit=options.unit or _unit(scene),
         turn=turn,
-        provenance=content.provenance("FBX", [*notes, *rated, *turned]),
+        provenance=content.provenance("FBX", [*notes, *rated, *turned]).of_take(
+            names[number], (names[each] for each in lively)
+        ),
     )
 
 

@@ -25,7 +25,7 @@ from kineme.web.messages import Video
 from kineme.web.requests import LARGEST
 
 FOLDER = ".kineme"
-OPTIONS = ("person", "fps", "unit", "up")
+OPTIONS = ("person", "take", "fps", "unit", "up")
 """Of the reader, those that the page asks for."""
 VIDEOS = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
 LABELS = "labels.json"
@@ -34,6 +34,7 @@ Content = TypeVar("Content")
 
 class _Reading(TypedDict, total=False):
     person: str | None
+    take: str | None
     fps: float | None
     unit: str | float | None
     up: str | None

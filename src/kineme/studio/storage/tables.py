@@ -65,12 +65,17 @@ class TableFile:
 
 
 def saved_table(
-    recording: Path, fits: Callable[[Segmentation], bool], others: set[Path]
+    recording: Path,
+    fits: Callable[[Segmentation], bool],
+    others: set[Path],
+    *,
+    of_another_take: Callable[[Segmentation], bool] = lambda _: False,
 ) -> tuple[TableFile, Segmentation | None, list[str]]:
     """Where the recording's table is saved, the table if it has been, and files left alone.
 
-    ``fits`` says whether a table is of this recording; ``others`` hold the tables of other
-    recordings. WriteError where no name is left.
+    ``fits`` says whether a table is of this recording, ``of_another_take`` whether it is of another
+    take of its file, which is no news; ``others`` hold the tables of other recordings. WriteError
+    where no name is left.
     """
     notes: list[str] = []
     for path in _candidates(recording):
@@ -87,7 +92,8 @@ def saved_table(
             continue
         if fits(table):
             return file, table, notes
-        notes.append(f"{path.name} was left alone: it is the table of another recording")
+        if not of_another_take(table):
+            notes.append(f"{path.name} was left alone: it is the table of another recording")
     raise WriteError(recording, "has no name left for its table")
 
 

@@ -209,6 +209,7 @@ export interface Video {
  * Everything a page needs of one recording but the binary parts.
  *
  * `reading` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+ * `takes` the animations in its file, of which `take` is this one,
  * `levels` the tables at all details, coarsest first, in a report; the studio's server is
  * asked for them.
  * While `finding` its segments are still to be found, and the table is a single transition.
@@ -225,6 +226,8 @@ export interface Recording {
   levels: TableAtDetail[];
   video: Video | null;
   reading: Record<string, unknown>;
+  take?: string | null;
+  takes?: string[];
   revision: number;
   can_undo: boolean;
   can_redo: boolean;
@@ -326,6 +329,20 @@ export interface LoopRow {
 /** The repetitions of a recording as loops, those of a cluster together, the best first. */
 export interface Loops {
   loops: LoopRow[];
+}
+
+/**
+ * A round of a loop as it would be written, its first frame again at the end.
+ *
+ * `numbers` are all its frames, as `kineme.web.display` has them, in base 64. The next round is
+ * turned by `turn` radians about the vertical axis, then moved by `x` and `z` metres.
+ */
+export interface PlayedLoop {
+  motion: MotionHead;
+  numbers: string;
+  turn: number;
+  x: number;
+  z: number;
 }
 
 /**
@@ -649,6 +666,7 @@ export interface VideoRequest {
 /** How a recording is read; empty: as the file says. */
 export interface ReadingRequest {
   person?: string;
+  take?: string;
   fps?: number;
   unit?: string;
   up?: string;

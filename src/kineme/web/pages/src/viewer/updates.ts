@@ -5,6 +5,7 @@ import type { Store } from "../store";
 import { onPaper, theme } from "../theme";
 import { ticker } from "../ticker";
 import type { FigureScene } from "./scene";
+import type { Stage } from "./stage";
 
 const TURN = Math.PI / 24; // of one key press
 const REST = 400; // milliseconds
@@ -72,7 +73,7 @@ export function keepUpToDate(
 }
 
 /** Alt and an arrow key turn the camera as a drag would. */
-export function turnByKey(event: KeyboardEvent, scene: FigureScene | null): void {
+export function turnByKey(event: KeyboardEvent, scene: { stage: Stage } | null): void {
   const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
   const turn = by[event.key as keyof typeof by];
   if (!event.altKey || !turn || !scene) return;

@@ -1,15 +1,17 @@
-/** The repetitions as loops, the best of each cluster first: looked at, and written as files. */
+/** The repetitions as loops, the best of each cluster first: played, and written as files. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
-import type { LoopRow } from "../../messages";
+import type { LoopRow, Segment } from "../../messages";
 import { NO_COLOR } from "../../colors";
 import { nameOf } from "../../segments";
 import { clock } from "../../view";
+import { unpackLoop, type Loop } from "../../viewer/loop";
 import { explain } from "../server/api";
 import { save } from "../server/save";
 import { Dialog } from "./Dialog";
+import { LoopPlayer } from "./LoopPlayer";
 
 interface Props {
   close: () => void;
@@ -22,6 +24,8 @@ export function LoopsDialog({ close }: Props): JSX.Element {
   const problem = useSignal("");
   const chosen = useSignal<ReadonlySet<number>>(new Set());
   const busy = useSignal(false);
+  const playing = useSignal<number | null>(null);
+  const loop = useSignal<Loop | null>(null);
   const opened = edited.value;
   useEffect(() => {
     if (!opened) return;
@@ -45,13 +49,30 @@ export function LoopsDialog({ close }: Props): JSX.Element {
     }
     busy.value = false;
   };
+  const play = async (number: number): Promise<void> => {
+    playing.value = number;
+    try {
+      const found = await unpackLoop(await api.loop(opened!.id, number));
+      if (playing.peek() === number) loop.value = found; // not another one since
+    } catch (error) {
+      problem.value = explain(error);
+    }
+  };
   const segments = store.recording.value?.segmentation.segments ?? [];
+  const shown = playing.value === null ? undefined : segments[playing.value];
   return (
     <Dialog title="Repetitions as loops" close={close}>
       <p class="quiet">
         The best of each cluster come first: their ends are close to each other, and planted feet
         stay where they are. Less is better, but for speed.
       </p>
+      {loop.value && shown && (
+        <LoopPlayer
+          loop={loop.value}
+          name={titleOf(shown)}
+          color={store.colorOf(shown) ?? NO_COLOR}
+        />
+      )}
       {problem.value && <p role="alert">{problem.value}</p>}
       {!problem.value && !found.value && <span class="busy" role="status" aria-label="Measuring" />}
       {found.value?.length === 0 && <p>There are no repetitions in this recording.</p>}
@@ -88,7 +109,7 @@ export function LoopsDialog({ close }: Props): JSX.Element {
               {found.value?.map((each) => {
                 const segment = segments[each.number];
                 if (!segment) return null;
-                const name = `${nameOf(segment)} at ${clock(segment.start_s, 2)}`;
+                const name = titleOf(segment);
                 return (
                   <tr key={each.number}>
                     <td>
@@ -113,7 +134,17 @@ export function LoopsDialog({ close }: Props): JSX.Element {
                     <td>
                       <button
                         type="button"
+                        aria-label={`Play ${name}`}
+                        aria-pressed={playing.value === each.number}
+                        title="As it will be written, round after round"
+                        onClick={() => void play(each.number)}
+                      >
+                        Play
+                      </button>{" "}
+                      <button
+                        type="button"
                         aria-label={`Show ${name}`}
+                        title="Where it is in the recording"
                         onClick={() => {
                           store.select(segment);
                           close();
@@ -131,6 +162,10 @@ export function LoopsDialog({ close }: Props): JSX.Element {
       )}
     </Dialog>
   );
+}
+
+function titleOf(segment: Segment): string {
+  return `${nameOf(segment)} at ${clock(segment.start_s, 2)}`;
 }
 
 function toggled(chosen: ReadonlySet<number>, number: number): ReadonlySet<number> {

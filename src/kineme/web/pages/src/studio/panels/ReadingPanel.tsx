@@ -15,6 +15,7 @@ export function ReadingPanel(): JSX.Element | null {
   const busy = useSignal(false);
   const id = unread?.id ?? recording?.id;
   const reading = (!unread && recording?.reading) || {};
+  const takes = (!unread && recording?.takes) || [];
   const option = (name: string): string => {
     const value = reading[name];
     return typeof value === "string" || typeof value === "number" ? String(value) : "";
@@ -39,6 +40,7 @@ export function ReadingPanel(): JSX.Element | null {
     busy.value = true;
     await session.readAs(id, {
       person: text("person"),
+      take: text("take"),
       fps: Number(text("fps")) || 0,
       unit: text("unit"),
       up: text("up"),
@@ -49,10 +51,20 @@ export function ReadingPanel(): JSX.Element | null {
     <details
       class="reading-panel"
       key={`${id} ${unread !== null}`}
-      open={unread !== null || Object.keys(reading).length > 0}
+      open={unread !== null || Object.keys(reading).length > 0 || takes.length > 1}
     >
       <summary>How {unread ? unread.name : "this file"} is read</summary>
       <form onSubmit={(event) => void read(event)}>
+        {takes.length > 1 && (
+          <Choice
+            name="take"
+            title={`Take, one of ${takes.length}`}
+            none={null}
+            values={takes}
+            value={recording?.take ?? ""}
+            onChange={(event) => event.currentTarget.form?.requestSubmit()}
+          />
+        )}
         {people.value.length > 0 ? (
           <Choice
             name="person"
@@ -101,14 +113,16 @@ function Choice(props: {
   title: string;
   values: readonly string[];
   value: string;
-  none?: string;
+  /** What stands for no choice; null where one is to be made. */
+  none?: string | null;
+  onChange?: (event: TargetedEvent<HTMLSelectElement, Event>) => void;
 }): JSX.Element {
   const { name, title, values, value, none = "as found" } = props;
   return (
     <label class="field">
       <span>{title}</span>
-      <select name={name} defaultValue={value}>
-        <option value="">{none}</option>
+      <select name={name} defaultValue={value} onChange={props.onChange}>
+        {none !== null && <option value="">{none}</option>}
         {values.map((each) => (
           <option key={each} value={each} selected={each === value}>
             {each}

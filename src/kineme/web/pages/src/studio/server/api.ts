@@ -26,6 +26,7 @@ import type {
   Loops,
   Level,
   Listing,
+  PlayedLoop,
   Preview,
   ReadingRequest,
   PreviewRequest,
@@ -148,6 +149,11 @@ export class Api {
   async loops(id: string): Promise<LoopRow[]> {
     const answer: Loops = await this.get("/api/recordings/{id}/loops", { id });
     return answer.loops;
+  }
+
+  /** A round of the loop that a row of the table would be written as. */
+  loop(id: string, number: number): Promise<PlayedLoop> {
+    return this.get("/api/recordings/{id}/loops/{number}", { id, number });
   }
 
   /** What a cluster is called holds in all recordings: by the library, or by the name it had. */

@@ -13,6 +13,7 @@ export type GetPath =
   | "/api/recordings/{id}/cycles/{cluster}"
   | "/api/recordings/{id}/export/{format}"
   | "/api/recordings/{id}/loops"
+  | "/api/recordings/{id}/loops/{number}"
   | "/api/recordings/{id}/matrix/{level}/{row}/{column}"
   | "/api/recordings/{id}/motion"
   | "/api/recordings/{id}/people"

@@ -1,0 +1,94 @@
+"""How clips and their files are called: ``RECORDING_NUMBER_TEXT``.
+
+``NUMBER`` has four digits or more, and no two segments of a run have the same: the first segment
+of a recording has as many before it as were given of the recordings before. What is left out, by
+``best``, keeps its number to itself, so that a segment is called the same with and without it.
+
+A word of the text that would look like a number, of four digits or more, has an ``n`` before it.
+So the last ``_NUMBER_`` of a name is its number, and no two names of a run are the same,
+whatever the case of their letters.
+
+The name of a clip survives import in Blender, Unreal, Unity, Godot and three.js: ASCII letters,
+digits and ``_``, the first a letter, 63 characters at most. That of a file keeps other letters.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Container
+from itertools import chain, count
+
+LONGEST = 63
+"""Characters of a name: what Blender keeps."""
+LONGEST_TEXT = 24
+"""Of these, for the label."""
+LONGEST_IN_FILE = 80
+"""Bytes of a recording's name or of a label in that of a file."""
+
+
+def safe_name(stem: str, number: int, text: str) -> str:
+    """The name of a clip: its recording, its number and its label, in letters that survive.
+
+    Examples
+    --------
+    >>> safe_name("Take 1.final", 3, "Äpfel pflücken")
+    'Take_1_final_0003_Apfel_pflucken'
+    >>> safe_name("86_01", 12, "walk 2024")
+    'clip_86_01_0012_walk_n2024'
+    """
+    middle = f"_{number:04d}_"
+    label = _without_numbers(_ascii(text))[:LONGEST_TEXT].strip("_") or "clip"
+    first = _ascii(stem)
+    if not first[:1].isalpha():
+        first = f"clip_{first}".rstrip("_")
+    first = first[: LONGEST - len(middle) - len(label)].rstrip("_")
+    return f"{first}{middle}{label}"
+
+
+def file_name(stem: str, number: int, text: str) -> str:
+    """The same for a file, without its suffix; letters of all scripts stay.
+
+    Examples
+    --------
+    >>> file_name("Take 1", 3, "Äpfel/Birnen")
+    'Take_1_0003_Äpfel_Birnen'
+    """
+    return f"{plain(stem)}_{number:04d}_{plain(_without_numbers(_plain_letters(text)))}"
+
+
+def unlike(stem: str, first: int, others: Container[str]) -> str:
+    """The name of a file of all clips of a recording, the first of which has that number.
+
+    A number follows where it would be one of the ``others``, which are in small letters.
+
+    Examples
+    --------
+    >>> unlike("Take 1", 12, {"take_1"})
+    'Take_1_0012'
+    """
+    names = chain([plain(stem)], (f"{plain(stem)}_{number:04d}" for number in count(first)))
+    return next(name for name in names if name.casefold() not in others)
+
+
+def plain(text: str) -> str:
+    """Letters, digits and ``_`` and ``-``; short enough for any file system."""
+    kept = _plain_letters(text).encode(errors="replace")[:LONGEST_IN_FILE]
+    return kept.decode(errors="ignore")
+
+
+def _plain_letters(text: str) -> str:
+    return "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in text)
+
+
+def _without_numbers(text: str) -> str:
+    """Words between ``_`` that have four digits or more and nothing else get a letter."""
+    return re.sub(r"(?<![^_])([0-9]{4,})(?![^_])", r"n\1", text)
+
+
+def _ascii(text: str) -> str:
+    """ASCII letters and digits, accents taken off, and single ``_`` for all else."""
+    parted = unicodedata.normalize("NFKD", text.replace("ß", "ss"))
+    bare = "".join(letter for letter in parted if not unicodedata.combining(letter))
+    kept = "".join(each if each.isascii() and each.isalnum() else " " for each in bare)
+    return "_".join(kept.split())

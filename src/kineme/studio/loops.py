@@ -1,0 +1,52 @@
+"""The repetitions of a recording as loops: how good each would be, and how it would play."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from math import isnan
+
+from kineme.clips.shaping import played_loop, ranked_loops
+from kineme.errors import ParameterError
+from kineme.recordings import Motion
+from kineme.studio.open_recording import OpenRecording
+from kineme.web.display import display_motion
+from kineme.web.messages import LoopRow, Loops, PlayedLoop
+
+
+def ranked(opened: OpenRecording) -> Loops:
+    """How good the repetitions of a recording would be as loops."""
+    table, motion = opened.table, _motion(opened)
+    numbers = [number for number, row in enumerate(table.table) if row.level == "primitive"]
+    found = ranked_loops(motion, [table.table[number] for number in numbers])
+    return Loops(
+        loops=[
+            LoopRow(
+                number=numbers[each.index],
+                rank=each.rank,
+                cost=each.quality.cost,
+                pose_m=each.quality.pose_m,
+                slide_m_s=None if isnan(each.quality.slide_m_s) else each.quality.slide_m_s,
+                turn_deg=each.quality.turn_deg,
+                speed_m_s=each.speed_m_s,
+            )
+            for each in found
+        ]
+    )
+
+
+def played(opened: OpenRecording, number: int) -> PlayedLoop:
+    """The loop that a row of the table would be written as."""
+    table, motion = opened.table, _motion(opened)
+    if not 0 <= number < len(table):
+        raise ParameterError("choose the segment to play: this one is not in the table")
+    closed, carry = played_loop(motion, table.table[number])
+    head, poses = display_motion(closed, effectors=opened.loaded.effectors, rate=closed.fps)
+    numbers = b64encode(poses).decode()
+    return PlayedLoop(motion=head, numbers=numbers, turn=carry.turn, x=carry.x, z=carry.z)
+
+
+def _motion(opened: OpenRecording) -> Motion:
+    motion = opened.loaded.recording
+    if not isinstance(motion, Motion):
+        raise ParameterError("signals have no pose to blend, so there are no loops")
+    return motion

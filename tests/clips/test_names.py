@@ -1,0 +1,71 @@
+"""What clips are called: letters that survive import, and no two names of a run the same."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from importlib.resources import files
+from pathlib import Path
+
+import jsonschema
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import kineme
+from kineme.clips.names import file_name, safe_name, unlike
+from kineme.clips.split import write_clips
+from kineme.recordings import Motion
+from kineme.recordings.operations import cut
+from kineme.segments.table import Segment
+
+SCHEMA = json.loads(files("kineme.clips").joinpath("manifest.schema.json").read_text("utf-8"))
+NAME = SCHEMA["properties"]["clips"]["items"]["properties"]["name"]
+
+words = st.sampled_from(["x", "X", "_", " ", "-", "1", "0000", "0001", "0002", "n0001", "é"])
+texts = st.lists(words, max_size=5).map("".join) | st.text(max_size=40)
+runs = st.lists(st.tuples(texts, st.lists(texts, max_size=4)), max_size=4)
+
+
+@given(st.text(max_size=40), st.integers(0, 99999), st.text(max_size=40))
+def test_names_survive_import_and_tell_the_number(stem: str, number: int, label: str) -> None:
+    name = safe_name(stem, number, label)
+    jsonschema.validate(name, NAME)
+    assert f"_{number:04d}_" in name
+
+
+@given(runs)
+def test_no_two_names_of_a_run_are_the_same_whatever_the_case(run) -> None:
+    names, clips, together = list[str](), list[str](), list[str]()
+    for stem, labels in run:
+        together.append(unlike(stem, len(names), set(together)).casefold())
+        for label in labels:
+            clips.append(file_name(stem, len(names), label).casefold())
+            names.append(safe_name(stem, len(names), label).lower())
+    for each in (names, clips, together):
+        assert len(set(each)) == len(each)
+
+
+@pytest.mark.parametrize("suffix", ["trc", "glb"])
+def test_clips_whose_names_read_the_same_are_files_of_their_own(tmp_path: Path, suffix) -> None:
+    whole = kineme.read(kineme.bundled_recording())
+    motion = cut(whole, 0, 20)
+    row = kineme.read_segments(kineme.bundled_recording().with_suffix(".json")).activities[0]
+
+    def recording(name: str, *labels: str) -> tuple[Motion, list[Segment]]:
+        provenance = replace(motion.provenance, path=f"{name}.bvh")
+        rows = [replace(row, stop_frame=10, label=label) for label in labels]
+        return replace(motion, provenance=provenance), rows
+
+    run = [
+        recording("x_0001", "0002 y"),
+        recording("x", "0002 y"),
+        recording("x_0001", "y"),
+        recording("X", "y", "y"),
+    ]
+    paths = write_clips(run, tmp_path / "clips", format=suffix)
+    told = json.loads((tmp_path / "clips" / "manifest.json").read_text(encoding="utf-8"))["clips"]
+    assert len({clip["name"].lower() for clip in told}) == len(told) == 5
+    assert len({path.name.lower() for path in paths}) == (5 if suffix == "trc" else 4)
+    for path, clip in zip(paths, told, strict=True):
+        assert kineme.read(path, take=clip["take"]).n_frames == 10
