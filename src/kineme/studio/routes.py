@@ -21,6 +21,7 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
+from kineme.studio.annotators import agreement_of, annotator_choices, lanes_of
 from kineme.studio.everywhere import call_everywhere
 from kineme.studio.folder import file_id, progress
 from kineme.studio.http.bodies import (
@@ -38,6 +39,12 @@ from kineme.studio.http.events import Hub
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels, video_of
+from kineme.web.annotator_messages import (
+    Agreement,
+    AgreementRequest,
+    AnnotatorChoice,
+    LabelLane,
+)
 from kineme.web.library_messages import CallEverywhere, TablesChanged
 from kineme.web.messages import (
     Comparison,
@@ -81,6 +88,8 @@ class Api:
             route("/api/names", self.names, CallEverywhere),
             route("/api/labels", self.labels, LabelsRequest),
             route("/api/knowledge", self.knowledge, KnowledgeRequest),
+            route("/api/annotators", self.annotators),
+            route("/api/agreement", self.agreement, AgreementRequest),
             route("/api/export/{format}", self.export_checked),
             Route("/api/recordings", self.upload, methods=["POST"]),
             route(one, self.recording),
@@ -93,6 +102,7 @@ class Api:
             route(f"{one}/versions", self.versions),
             route(f"{one}/versions/{{number}}", self.version),
             route(f"{one}/compare", self.compare, CompareRequest),
+            route(f"{one}/lanes", self.lanes, AgreementRequest),
             route(f"{one}/export/{{format}}", self.export),
             route(f"{one}/clips", self.clips, ClipsRequest),
             route(f"{one}/loops", self.loops),
@@ -250,6 +260,15 @@ class Api:
             },
             differences=differences(other, table),
         )
+
+    def annotators(self, _: Request) -> list[AnnotatorChoice]:
+        return annotator_choices(self._recordings)
+
+    def agreement(self, _: Request, sent: AgreementRequest) -> Agreement:
+        return agreement_of(self._recordings, sent.annotators)
+
+    def lanes(self, request: Request, sent: AgreementRequest) -> list[LabelLane]:
+        return lanes_of(self._recordings, request.path_params["id"], sent.annotators)
 
     def export(self, request: Request) -> Response:
         from kineme.studio import downloads

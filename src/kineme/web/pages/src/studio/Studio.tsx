@@ -107,6 +107,7 @@ function Stage(): JSX.Element {
     return (
       <>
         <Channels ruler />
+        <Video />
         <QueueBar />
       </>
     );
