@@ -173,8 +173,9 @@ class Api:
         names = [name for name, n in counts.items() if n and n.checked >= n.segments]
         if not names:
             raise ParameterError("no recording is checked yet: check all segments of one first")
-        files = [downloads.exported(self._recordings.get(name), kind, level) for name in names]
-        return file_response(*downloads.together(files, folder.root.name or "checked"))
+        opened = [self._recordings.get(name) for name in names]
+        found = downloads.exported_together(opened, folder.root.name or "folder", kind, level)
+        return file_response(*found)
 
     async def upload(self, request: Request) -> Response:
         length = request.headers.get("content-length", "")
