@@ -10,12 +10,14 @@ import csv
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from io import BytesIO, StringIO
 from math import isnan
 from pathlib import Path
 
 from kineme._checks import is_text
+from kineme._files import video_beside
 from kineme.clips.split import split, write_clips
 from kineme.errors import ParameterError
 from kineme.formats.delimited import as_text
@@ -27,6 +29,7 @@ from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
 from kineme.studio.http.bodies import safe_name
 from kineme.studio.open_recording import OpenRecording
+from kineme.studio.storage.sidecars import offset_of
 from kineme.web.messages import LoopRow, Loops
 
 LEVELS: Mapping[Level | None, str] = {
@@ -51,7 +54,7 @@ def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str
         name = loaded.path.name
         page = partial(write_report, loaded.recording, table, name=name, effectors=loaded.effectors)
         return _called(stem, kind, _written(stem, lambda to: page(to / f"{stem}.html")))
-    return table_file(table, stem, kind, level)
+    return table_file(_with_video(opened), stem, kind, level)
 
 
 def exported_together(
@@ -157,6 +160,15 @@ def _stem_of(opened: OpenRecording) -> str:
     """What downloads are called after: the recording, in letters that archives can hold."""
     stem = opened.path.stem
     return stem if is_text(stem) else safe_name(stem)
+
+
+def _with_video(opened: OpenRecording) -> Segmentation:
+    """The table, and in its provenance the video of the recording, if there is one."""
+    video = video_beside(opened.path)
+    if video is None:
+        return opened.table
+    place = {"path": str(video), "offset_s": offset_of(opened.path)}
+    return replace(opened.table, provenance={**opened.table.provenance, "video": place})
 
 
 def _what(kind: str, level: Level | None) -> str:

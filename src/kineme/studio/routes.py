@@ -16,6 +16,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 from starlette.routing import Route
 
+from kineme._files import video_beside
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
@@ -38,7 +39,7 @@ from kineme.studio.http.bodies import (
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels, video_of
+from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels
 from kineme.web.annotator_messages import (
     Agreement,
     AgreementRequest,
@@ -289,7 +290,7 @@ class Api:
         return downloads.loops_of(self._opened(request))
 
     def video(self, request: Request) -> Response:
-        found = video_of(self._opened(request).path)
+        found = video_beside(self._opened(request).path)
         if found is None:
             raise UnknownError("there is no video of that name beside the recording")
         return FileResponse(found)
