@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats import ReadOptions, read_analog, read_quietly
+from kineme.formats.options import NOBODY
 from kineme.studio.storage.sidecars import read_options
 
 if TYPE_CHECKING:
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
 
 MOST_IN_MEMORY = 3
 """Recordings; that of an hour can have most of a gigabyte."""
-NOBODY = "\0"
-"""Nobody is called that."""
 Stamp = tuple[int, int]
 Extent = tuple[int, float, "Clock | None"]
 """Frames, frames a second, and when they are."""
