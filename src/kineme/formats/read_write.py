@@ -125,6 +125,12 @@ def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, .
     """The people in a file, where there are several; those seen only in passing are left out.
 
     It is read for it. ReadError where it cannot be.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> people_in(kineme.bundled_recording())
+    ()
     """
     anybody = replace(options or ReadOptions(), person=None)
     try:
