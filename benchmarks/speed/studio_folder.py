@@ -6,8 +6,9 @@ In Chromium, which draws with the processor, as a person does it. Twenty recordi
 have ten borders between them that are wrong, by up to twelve frames, and have a low confidence:
 they are found and moved to where they were with keys alone, and checked. A library of twenty
 recordings, five of which somebody has corrected, gets names for all of its clusters, two of
-them split so that there are eight, and one action brings them into the corrected ones. Last a
-folder of 500 recordings with 100 segments each is shown and gone through.
+them split so that there are eight, and one action brings them into the corrected ones. Three
+people's labels of twenty recordings are compared, which gives kappas. Last a folder of 500
+recordings with 100 segments each is shown and gone through.
 What is counted is compared with what is on the disk then.
 """
 
@@ -15,6 +16,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+from itertools import pairwise
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -35,7 +37,8 @@ from studio import start
 
 TWENTY, WRONG, FIVE, EIGHT = few((20, 10, 5, 8), (4, 3, 2, 8))
 MANY, ROWS, STEPS = few((500, 100, 20), (10, 20, 4))
-MOST_KEYS, MOST_PAGE_S, MOST_STEP_S = 60, 1.0, 0.2
+MOST_KEYS, MOST_ACTIONS, MOST_PAGE_S, MOST_STEP_S = 60, 4, 1.0, 0.2
+PEOPLE = {"anna": 0, "ben": 4, "cleo": 40}  # frames by which their borders lie later
 LENGTH, WIDTH, FURTHEST = 1200, 100, 12  # frames: of a recording, of a segment, of a mistake
 PLACE = "window.kineme.name + JSON.stringify(window.kineme.selected)"
 
@@ -47,8 +50,8 @@ def main() -> None:
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
     with tempfile.TemporaryDirectory() as name, chromium(*FLAGS) as browser:
         tab = browser.new_page(viewport=SIZE)
-        for work, folder in ((mended, "mended"), (named, "named"), (shown, "shown")):
-            place = Path(name) / folder
+        for work in (mended, named, compared, shown):
+            place = Path(name) / work.__name__
             place.mkdir()
             work(tab, place)
 
@@ -135,6 +138,45 @@ def named(tab: Any, folder: Path) -> None:
     print(f"  {took:.2f} s for the {FIVE} that were corrected")
     record("studio_folder.names", len(names))
     record("studio_folder.names.tables", round(took, 2), unit="s")
+
+
+def compared(tab: Any, folder: Path) -> None:
+    """Three people's labels of twenty recordings, and how far they agree."""
+    edges = np.arange(0, LENGTH + 1, WIDTH)
+    for path in recordings(folder, TWENTY):
+        write_table(path, edges, np.full(len(edges) - 1, 0.9))
+        for who, later in PEOPLE.items():
+            (folder / who).mkdir(exist_ok=True)
+            starts = np.append(0, edges[1:] + later)
+            rows = "".join(
+                f"{start},{min(stop, LENGTH)},movement {i % 3}\n"
+                for i, (start, stop) in enumerate(pairwise(starts))
+            )
+            table = folder / who / f"{path.stem}.csv"
+            table.write_text(f"start_frame,stop_frame,label\n{rows}")
+    studio = start(folder)
+    tab.goto(f"{studio.base}/?token={studio.token}")
+    wait(tab, "document.querySelectorAll('.folder-row .gradient').length > 0")
+    actions = (
+        tab.get_by_role("button", name="Open session").first,
+        tab.get_by_role("button", name="Compare…").first,
+        tab.get_by_role("button", name=f"Compare {len(PEOPLE)} people"),
+    )
+    begun = perf_counter()
+    for action in actions:
+        action.click()
+    wait(tab, f"window.kineme.others.length === {len(PEOPLE)}")
+    took = perf_counter() - begun
+    rows = tab.locator(".scores tbody tr").all_inner_texts()
+    kappas = [float(row.split("\t")[1]) for row in rows]
+    if len(kappas) != len(PEOPLE) + 1 or not kappas[0] > max(kappas[1:]) > 0:
+        raise SystemExit(f"the agreement of these people is another: {rows}")
+    studio.end()
+    said = verdict(len(actions), MOST_ACTIONS)
+    print(
+        f"{len(PEOPLE)} people compared over {TWENTY} recordings: {len(actions)} clicks, ", end=""
+    )
+    print(f"{took:.1f} s; {said}")
 
 
 def shown(tab: Any, folder: Path) -> None:

@@ -21,6 +21,7 @@ HEAD = 4096
 """Bytes by which a file is known without reading it whole."""
 TAIL = 1 << 16
 """Bytes at the end of a Parquet file, where it names its columns."""
+VIDEOS = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
 if sys.platform != "win32":  # where an open file cannot be removed anyway
     import fcntl
 
@@ -169,6 +170,15 @@ def _is_waited_for(path: str | os.PathLike[str]) -> bool:
     except (OSError, ValueError):  # reading will say what is wrong
         return False
     return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+
+
+def video_beside(recording: Path) -> Path | None:
+    """The video of a recording: a file of its name beside it; None where there is none."""
+    for suffix in VIDEOS if recording.name else ():
+        for path in (recording.with_suffix(suffix), recording.with_suffix(suffix.upper())):
+            if path.is_file() and not path.is_symlink():
+                return path
+    return None
 
 
 def head_of(path: Path) -> bytes:

@@ -6,7 +6,7 @@
     (element.ariaLabel || element.textContent || element.className).trim().slice(0, 40);
   const shown = (element) => {
     const { width, height } = element.getBoundingClientRect();
-    return width > 0 && height > 0 && !element.closest(".unseen") && element.checkVisibility();
+    return width > 0 && height > 0 && !element.closest(".unseen, [inert]") && element.checkVisibility();
   };
   /** Whether a scrolling or clipping box around it keeps it from being seen as a whole. */
   const clippedBy = (element) => {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import kineme
@@ -182,6 +183,21 @@ def test_two_fingers_zoom_to_what_is_between_them(page, place):
     assert moved["stop_s"] - moved["start_s"] == pytest.approx(
         after["range"]["stop_s"] - after["range"]["start_s"]
     )
+
+
+def test_a_video_of_sensors_lies_beside_their_curves(page, server):
+    times = np.arange(900) / 60
+    path = server.folder / "gyro.csv"
+    table = np.column_stack([times, np.sin(6 * times)])
+    np.savetxt(path, table, delimiter=",", header="time,gyro_x", comments="")
+    shutil.copy(Path(__file__).with_name("clock.webm"), path.with_suffix(".webm"))
+    page.goto(server.address_of(path))
+    curves, video = page.locator(".channels canvas"), page.locator(".video video")
+    for each in (curves, video):
+        each.wait_for()
+    assert box_of(curves)["x"] + box_of(curves)["width"] < box_of(video)["x"]
+    for each in (path, path.with_suffix(".webm")):
+        each.unlink()
 
 
 def test_the_video_follows_the_playhead(page, take):

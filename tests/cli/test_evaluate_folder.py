@@ -112,3 +112,24 @@ def test_control_c_ends_it_quietly(corpus) -> None:
         os.killpg(process.pid, signal.SIGINT)
         out, err = process.communicate(timeout=60)
     assert (process.returncode, out, err) == (130, "", "")
+
+
+def test_several_labels_tell_how_far_people_agree(kineme, corpus, tmp_path) -> None:
+    labels = (corpus / "labels.csv").read_text()
+    (tmp_path / "anna.csv").write_text(labels)
+    (tmp_path / "ben.csv").write_text(labels.replace("b,20,40", "b,26,40"))
+    people = ("evaluate", corpus, "--labels", "anna.csv", "--labels", "ben.csv")
+    ran = kineme(*people, "-o", "agreement.csv")
+    assert ran.returncode == 0, ran.stderr
+    assert "broken.csv: " in ran.stderr
+    for text in ("agreement of 2 annotators, by names", "Cohen's kappa", "anna, ben"):
+        assert text in ran.stdout
+    rows = list(csv.DictReader((tmp_path / "agreement.csv").read_text().splitlines()))
+    assert [row["recording"] for row in rows] == ["*", "*", "a.csv", "b.csv"]
+    assert float(rows[2]["fleiss_kappa"]) == 1 > float(rows[0]["cohen_kappa"]) > 0.5
+    content = json.loads(kineme(*people, "--json").stdout)
+    said = [each["labels"] for each in content["recordings"][1]["differences"]]
+    assert said == [["fast", "slow"], ["fast", ""]]
+    ran = kineme(*people, "--method", "uniform")
+    assert ran.returncode == 2
+    assert "several --labels compare people" in ran.stderr

@@ -24,9 +24,12 @@ from keypoint_samples import (
     standing,
     world_landmarks,
 )
+from typer.testing import CliRunner
 
 import kineme
+from kineme.cli.app import app
 from kineme.errors import KinemeWarning, ReadError
+from kineme.formats import ReadOptions, people_in
 
 
 def read(folder: Path, name: str, content: str | bytes | list | dict, **options):
@@ -126,6 +129,26 @@ def test_a_folder_of_anything_else(tmp_path: Path) -> None:
     (tmp_path / "frame_1.json").write_text('{"people": [')
     with pytest.raises(ReadError, match="frame_1.json, line 1: is no whole JSON file"):
         kineme.read(tmp_path, fps=30)
+
+
+def test_all_people_get_a_table_each(tmp_path: Path) -> None:
+    one, other = (pixels(standing(OPENPOSE[25], 200), x) for x in (300, 1200))
+    frames = [openpose_frame(*both) for both in zip(one, other, strict=True)]
+    (tmp_path / "a.json").write_text(json.dumps(frames))
+    assert people_in(tmp_path / "a.json", ReadOptions(fps=25)) == ("0", "1")
+    asked = ["segment", f"{tmp_path / 'a.json'}", "--fps", "25", "--preset", "uniform"]
+    done = CliRunner().invoke(app, [*asked, "--person", "all", "-o", f"{tmp_path / 'a.csv'}"])
+    assert done.exit_code == 0, done.output
+    assert sorted(path.name for path in tmp_path.glob("a*.csv")) == ["a_0.csv", "a_1.csv"]
+    for who in ("0", "1"):
+        assert f"note: person {who} of 2" in done.output
+        table = kineme.read_segments(tmp_path / f"a_{who}.csv")
+        assert f"person {who} of 2" in table.provenance["notes"]
+    (tmp_path / "b.json").write_text(json.dumps(openpose(frames=200)))
+    asked[1] = f"{tmp_path / 'b.json'}"
+    done = CliRunner().invoke(app, [*asked, "--person", "all", "-o", f"{tmp_path / 'b.csv'}"])
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "b.csv").exists()  # one alone needs no number
 
 
 def test_one_of_several_people(tmp_path: Path) -> None:

@@ -7,7 +7,9 @@ import math
 import tracemalloc
 import warnings
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import pandas as pd
 import pytest
@@ -550,3 +552,24 @@ def test_clips_that_last_no_seconds_do_not_tell_the_rate(tmp_path: Path) -> None
     (tmp_path / "a.csv").write_text("file,start,stop,stop_s\nx.bvh,0,7,0.0\n", encoding="utf-8")
     with pytest.raises(ReadError, match="frame rate"):
         read_segments(tmp_path / "a.csv", format="clips")
+
+
+def test_elan_names_the_video_of_the_recording(tmp_path: Path) -> None:
+    source = {"input": {"path": str(tmp_path / "walk one.bvh")}}
+    columns = {"start_frame": [0], "stop_frame": [30], "level": ["activity"], "kind": ["activity"]}
+    found = Segmentation.from_columns(columns, n_frames=30, fps=30, provenance=source)
+
+    def media() -> list[dict[str, str]]:
+        write_segments(found, tmp_path / "walk.eaf")
+        read_segments(tmp_path / "walk.eaf")
+        root = ET.parse(tmp_path / "walk.eaf").getroot()
+        return [each.attrib for each in root.iter("MEDIA_DESCRIPTOR")]
+
+    assert media() == []
+    (tmp_path / "walk one.mp4").touch()
+    place = (tmp_path / "walk one.mp4").as_uri()
+    named = {"MEDIA_URL": place, "MIME_TYPE": "video/mp4", "RELATIVE_MEDIA_URL": "./walk one.mp4"}
+    assert media() == [named]
+    video = {"path": str(tmp_path / "walk one.mp4"), "offset_s": 1.25}
+    found = replace(found, provenance={**source, "video": video})
+    assert media() == [{**named, "TIME_ORIGIN": "1250"}]

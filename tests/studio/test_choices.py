@@ -104,7 +104,7 @@ def test_a_label_format_of_another_package_is_offered_and_written(
     offered = {each["name"]: each for each in state["export_formats"]}["toy"]
     assert offered == {"name": "toy", "suffix": ".toy", "help": "First frames, one a line"}
     answer = studio.get(f"/api/recordings/{studio.id}/export/toy?level=primitive")
-    assert answer.headers["content-disposition"].endswith("take.toy")
+    assert answer.headers["content-disposition"].endswith("take.primitives.toy")
     assert answer.text.split() == [str(start) for start in studio.starts("primitive")]
     studio.client.post("/api/recordings?name=said.toy", content=b"0\n")
     state = studio.get("/api/state").json()

@@ -37,7 +37,7 @@ def test_a_name_that_is_not_utf8_is_shown_and_downloaded(make_studio, folder: Pa
         answer = client.post(f"{one}/{address}", json=sent)
         assert answer.status_code == 200, (address, answer.text)
     told = client.get(f"{one}/export/json").headers["content-disposition"]
-    assert told == "attachment; filename*=UTF-8''w_.json"
+    assert told == "attachment; filename*=UTF-8''w_.segments.json"
 
 
 def test_a_folder_that_nothing_can_be_written_to_is_said(studio: Studio, folder: Path) -> None:

@@ -73,7 +73,13 @@ def test_checked_recordings_are_written_together_and_known_by_their_names(studio
     named = {"level": row["level"], "frame": row["start_frame"], "label": "walk"}
     studio.done(revision, "name_segment", **named)
     answer = studio.get("/api/export/json")
-    assert zipfile.ZipFile(io.BytesIO(answer.content)).namelist() == ["take.json"]
+    assert zipfile.ZipFile(io.BytesIO(answer.content)).namelist() == ["take.segments.json"]
+    assert answer.headers["content-disposition"].endswith("folder.checked.segments.json.zip")
+    answer = studio.get("/api/export/csv")
+    files = zipfile.ZipFile(io.BytesIO(answer.content))
+    assert files.namelist() == ["take.segments.csv", "folder.all.segments.csv"]
+    one, together = (files.read(name).decode().splitlines() for name in files.namelist())
+    assert together == [f"recording,{one[0]}", *(f"take.bvh,{row}" for row in one[1:])]
     wanted = {"name": "../moves", "recordings": [studio.id]}
     made = studio.client.post("/api/knowledge", json=wanted).json()
     assert made["name"] == "moves.npz"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,8 +13,9 @@ from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
-from kineme.cli.options.request import Request
-from kineme.cli.options.targets import check_writable
+from kineme.cli.options.request import Request, Stage
+from kineme.cli.options.targets import check_writable, of_person
+from kineme.errors import ReadError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 
@@ -65,7 +67,8 @@ def segment(
 
     An activity is one kind of movement for a while, such as walking; a transition leads from one
     to the next. Primitives are the movements that an activity repeats, such as each double step.
-    What is alike has the same cluster number. Each recording is printed as a table.
+    What is alike has the same cluster number. Each recording is printed as a table; with
+    --person all each of the people in it, whose results are called after them.
 
     For example: kineme segment walk.bvh --output walk.csv --plot walk.png
     """
@@ -79,16 +82,36 @@ def segment(
             check_writable(table, picture, page)
             with batch.progress(path) as stage:
                 stage("reading")
-                recording = request.read(path)
-                result, found = request.segment(recording, stage)
-            write_results(result, found, table, picture)
-            if page is not None:
-                from kineme.report.page import write_report
-
-                drawn = request.drawn(recording)
-                write_report(drawn, result, page, effectors=request.effectors)
-            print_segments(result, level, [table, picture, page], json=json, quiet=quiet)
+                people = request.of_each_person(path)
+            failures = []
+            for person, asked in people:
+                targets = [of_person(each, person) for each in (table, picture, page)]
+                try:
+                    with batch.progress(path) as stage:
+                        result = _segmented(path, asked, targets, stage)
+                except ReadError as error:  # which costs this person alone
+                    failures.append(error)
+                    continue
+                print_segments(result, level, targets, json=json, quiet=quiet)
+            if failures:
+                raise failures[0]
     batch.exit()
+
+
+def _segmented(
+    path: Path, request: Request, targets: Sequence[Path | None], stage: Stage
+) -> Segmentation:
+    """The segments of a recording, written as table, picture and page where these are wanted."""
+    table, picture, page = targets
+    stage("reading")
+    recording = request.read(path)
+    result, found = request.segment(recording, stage)
+    write_results(result, found, table, picture)
+    if page is not None:
+        from kineme.report.page import write_report
+
+        write_report(request.drawn(recording), result, page, effectors=request.effectors)
+    return result
 
 
 def write_results(

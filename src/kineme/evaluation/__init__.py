@@ -3,9 +3,15 @@
 A `Comparison` puts a truth and a result beside each other, frame by frame and span by span; a
 `Score` is a function of it. Which scores there are, `scores` tells; `register` adds more. Truths
 are the labels of people (`compare`), or have several annotators and uncertain borders (`Truth`,
-`evaluate`). Folders of recordings: `kineme.evaluation.folder`.
+`evaluate`). Several people beside each other: `annotator_agreement`. Folders of recordings:
+`kineme.evaluation.folder`.
 """
 
+from kineme.evaluation.annotators import (
+    AnnotatorAgreement,
+    annotator_agreement,
+    fleiss_kappa,
+)
 from kineme.evaluation.borders import (
     BorderScore,
     border_ratio,
@@ -42,6 +48,7 @@ from kineme.evaluation.variance import (
 
 __all__ = [
     "TRANSITION",
+    "AnnotatorAgreement",
     "BorderScore",
     "ClusterVariance",
     "Comparison",
@@ -50,6 +57,7 @@ __all__ = [
     "Score",
     "Spans",
     "Truth",
+    "annotator_agreement",
     "border_ratio",
     "border_score",
     "cluster_ratio",
@@ -62,6 +70,7 @@ __all__ = [
     "evaluate",
     "evaluate_segmentation",
     "feature_variance",
+    "fleiss_kappa",
     "frames_right",
     "labelling_of",
     "majority_accuracy",

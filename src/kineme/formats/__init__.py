@@ -8,13 +8,22 @@ One module per format; `register` adds more.
 
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
-from kineme.formats.read_write import read, read_analog, read_motion, read_quietly, sketch, write
+from kineme.formats.read_write import (
+    people_in,
+    read,
+    read_analog,
+    read_motion,
+    read_quietly,
+    sketch,
+    write,
+)
 from kineme.formats.registry import Format, register, supported_formats
 
 __all__ = [
     "FileContent",
     "Format",
     "ReadOptions",
+    "people_in",
     "read",
     "read_analog",
     "read_motion",

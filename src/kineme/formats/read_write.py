@@ -10,9 +10,10 @@ from typing import Any
 
 from kineme._checks import check_path, check_type
 from kineme._files import reading
-from kineme.errors import ReadError, WriteError
+from kineme.errors import ReadError, SeveralPeopleError, WriteError
 from kineme.formats.files import FileContent, load, warn
-from kineme.formats.options import AnyPath, ReadOptions
+from kineme.formats.keypoints.people import PASSING_NOTE
+from kineme.formats.options import NOBODY, AnyPath, ReadOptions
 from kineme.formats.registry import Sketch, recognise, supported_formats
 from kineme.recordings import Motion, Signals
 
@@ -118,6 +119,28 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
         if Path(path).is_dir():
             return _read_folder(Path(path), options)
         return _read_file(load(path), options)
+
+
+def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
+    """The people in a file, where there are several; those seen only in passing are left out.
+
+    It is read for it. ReadError where it cannot be.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> people_in(kineme.bundled_recording())
+    ()
+    """
+    anybody = replace(options or ReadOptions(), person=None)
+    try:
+        found = read_quietly(path, anybody)
+        if any(PASSING_NOTE in note for note in found.provenance.notes):
+            return ()
+        read_quietly(path, replace(anybody, person=NOBODY))
+    except SeveralPeopleError as error:
+        return error.people if len(error.people) > 1 else ()
+    return ()
 
 
 def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:

@@ -5,6 +5,9 @@ Frame rate and length go into document properties (``kineme.fps``,
 label, scores never. Recordings at 1000 frames per second or more are refused:
 a millisecond would hold several frames.
 
+The video of the recording is named as its medium: that of ``provenance["video"]``, with the second
+of it at which the recording starts, else a file of the recording's name beside it.
+
 Read are the tiers called ``activity`` and ``primitive``; in a file without
 them the only tier that has annotations. Annotations that hang on other ones
 have no time of their own and are ignored.
@@ -23,7 +26,7 @@ from pathlib import Path
 from typing import Any, get_args
 from xml.etree import ElementTree as ET
 
-from kineme._files import atomic_write
+from kineme._files import atomic_write, video_beside
 from kineme.errors import ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
@@ -31,6 +34,13 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
 PER_SECOND = 1000
+MEDIA_TYPES = {
+    ".mp4": "video/mp4",
+    ".m4v": "video/mp4",
+    ".mov": "video/quicktime",
+    ".webm": "video/webm",
+    ".ogv": "video/ogg",
+}
 SCHEMA = {
     "{http://www.w3.org/2001/XMLSchema-instance}noNamespaceSchemaLocation": (
         "http://www.mpi.nl/tools/elan/EAFv3.0.xsd"
@@ -49,6 +59,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
     root = ET.Element("ANNOTATION_DOCUMENT", AUTHOR="kineme", DATE="1970-01-01T00:00:00+00:00")
     root.attrib |= {"FORMAT": "3.0", "VERSION": "3.0", **SCHEMA}
     header = ET.SubElement(root, "HEADER", MEDIA_FILE="", TIME_UNITS="milliseconds")
+    _name_medium(header, segmentation)
     for name, value in (("fps", repr(segmentation.fps)), ("n_frames", segmentation.n_frames)):
         ET.SubElement(header, "PROPERTY", NAME=f"kineme.{name}").text = str(value)
     times = sorted({time for row in rows for time in _milliseconds(row)})
@@ -98,6 +109,21 @@ def read(path: Path) -> Labels:
     fps = _property(root, "kineme.fps", path)
     n_frames = _property(root, "kineme.n_frames", path)
     return Labels(spans, "seconds", fps, n_frames / fps if n_frames and fps else None)
+
+
+def _name_medium(header: ET.Element, segmentation: Segmentation) -> None:
+    """Say which video the annotations are of, where one is known."""
+    source, video = (segmentation.provenance.get(name) or {} for name in ("input", "video"))
+    given = Path(video.get("path") or "")
+    place = given if given.is_file() else video_beside(Path(source.get("path") or ""))
+    if place is None:
+        return
+    medium = ET.SubElement(header, "MEDIA_DESCRIPTOR", MEDIA_URL=place.absolute().as_uri())
+    medium.set("MIME_TYPE", MEDIA_TYPES.get(place.suffix.lower(), "video/*"))
+    medium.set("RELATIVE_MEDIA_URL", f"./{place.name}")
+    origin = round(PER_SECOND * float(video.get("offset_s") or 0))
+    if origin:
+        medium.set("TIME_ORIGIN", str(origin))
 
 
 def chosen_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:

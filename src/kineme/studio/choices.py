@@ -28,6 +28,10 @@ CLIPS, REPORT = "motions", "report"
 """What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""
 
 
+UNITS = {"body sizes": "body heights"}
+"""What a page calls units that need knowledge of the package; a body's size is about its height."""
+
+
 def presets() -> list[PresetChoice]:
     """The presets, the default first."""
     return [
@@ -122,7 +126,7 @@ def _parameter(declared: Constant, slider: Slider) -> Parameter:
         minimum=declared.value - below * slider.step,
         maximum=slider.maximum,
         step=slider.step,
-        unit=declared.unit,
+        unit=UNITS.get(declared.unit, declared.unit),
     )
 
 

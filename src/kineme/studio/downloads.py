@@ -1,17 +1,25 @@
-"""Segments as a file to download: written to a folder of its own, which is gone afterwards."""
+"""Segments as a file to download: written to a folder of its own, which is gone afterwards.
+
+A download is called after the recording and what of it is in it, so that none takes the place of
+another: ``walk.segments.csv``, ``walk.activities.boris.csv``, ``walk.loops.zip``.
+"""
 
 from __future__ import annotations
 
+import csv
 import tempfile
 import zipfile
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
-from io import BytesIO
+from io import BytesIO, StringIO
 from pathlib import Path
 
 from kineme._checks import is_text
+from kineme._files import video_beside
 from kineme.clips.split import split, write_clips
 from kineme.errors import ParameterError
+from kineme.formats.delimited import as_text
 from kineme.labels import label_formats, write_segments
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
@@ -19,6 +27,14 @@ from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
 from kineme.studio.http.bodies import safe_name
 from kineme.studio.open_recording import OpenRecording
+from kineme.studio.storage.sidecars import offset_of
+
+LEVELS: Mapping[Level | None, str] = {
+    None: "segments",
+    "activity": "activities",
+    "primitive": "primitives",
+}
+PACKED = ".zip"
 
 
 def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str, bytes]:
@@ -28,13 +44,41 @@ def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str
     """
     loaded, table, stem = opened.loaded, opened.table, _stem_of(opened)
     if kind == CLIPS:
-        motion = loaded.motion
-        return _written(stem, lambda to: split(motion, table, to / stem, level=level or "activity"))
+        motion, of_level = loaded.motion, level or "activity"
+        found = _written(stem, lambda to: split(motion, table, to / stem, level=of_level))
+        return _called(stem, _what(kind, of_level), found)
     if kind == REPORT:
-        stem, name = loaded.path.stem, loaded.path.name
+        name = loaded.path.name
         page = partial(write_report, loaded.recording, table, name=name, effectors=loaded.effectors)
-        return _written(stem, lambda to: page(to / f"{stem}.html"))
-    return table_file(table, stem, kind, level)
+        return _called(stem, kind, _written(stem, lambda to: page(to / f"{stem}.html")))
+    return table_file(_with_video(opened), stem, kind, level)
+
+
+def exported_together(
+    opened: Sequence[OpenRecording], stem: str, kind: str, level: Level | None
+) -> tuple[str, bytes]:
+    """Name and bytes of a ZIP with what is downloaded of each of some recordings.
+
+    Of tables as CSV there is one of all of them, too, with a column ``recording``.
+    """
+    files = [exported(each, kind, level) for each in opened]
+    what = files[0][0].removeprefix(_stem_of(opened[0])).removesuffix(PACKED)
+    if kind == "csv":
+        names = [each.path.name for each in opened]
+        tables = [content for _, content in files]
+        files.append((f"{stem}.all{what}", table_of_all(names, tables)))
+    return together(files, f"{stem}.checked{what}")
+
+
+def table_of_all(names: Sequence[str], tables: Sequence[bytes]) -> bytes:
+    """Tables in CSV as one, the name of its recording in each row."""
+    joined = StringIO()
+    writer = csv.writer(joined, lineterminator="\n")
+    for number, (name, table) in enumerate(zip(names, tables, strict=True)):
+        head, *rows = csv.reader(StringIO(table.decode("utf-8-sig")))
+        writer.writerows([["recording", *head]] if not number else [])
+        writer.writerows([as_text(name), *row] for row in rows)
+    return joined.getvalue().encode()
 
 
 def table_file(
@@ -55,7 +99,9 @@ def table_file(
         write_segments(segmentation, place / file, format=name, level=of_level)
 
     # Where it is one file, that holds as provenance what else lies there.
-    return _written(stem, write, None if found.several else file)
+    content = _written(stem, write, None if found.several else file)
+    shown = "activity" if found.holds == "level" and of_level is None else of_level
+    return _called(stem, _what(name, shown), content)
 
 
 def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tuple[str, bytes]:
@@ -64,7 +110,8 @@ def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tu
     if not rows or not all(0 <= row < len(table) for row in rows):
         raise ParameterError("choose the segments to write: some of these are not in the table")
     clips = [(opened.loaded.recording, [table.table[row] for row in rows])]
-    return _written(stem, lambda to: write_clips(clips, to / stem, loops=loops))
+    found = _written(stem, lambda to: write_clips(clips, to / stem, loops=loops))
+    return _called(stem, "loops" if loops else "clips", found)
 
 
 def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]:
@@ -78,13 +125,37 @@ def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]
                 number += 1
             names.add(name)
             parts.writestr(name, content)
-    return f"{stem}.zip", packed.getvalue()
+    return f"{stem}{PACKED}", packed.getvalue()
 
 
 def _stem_of(opened: OpenRecording) -> str:
     """What downloads are called after: the recording, in letters that archives can hold."""
     stem = opened.path.stem
     return stem if is_text(stem) else safe_name(stem)
+
+
+def _with_video(opened: OpenRecording) -> Segmentation:
+    """The table, and in its provenance the video of the recording, if there is one."""
+    video = video_beside(opened.path)
+    if video is None:
+        return opened.table
+    place = {"path": str(video), "offset_s": offset_of(opened.path)}
+    return replace(opened.table, provenance={**opened.table.provenance, "video": place})
+
+
+def _what(kind: str, level: Level | None) -> str:
+    """What a download holds: which segments, and the format where its suffix is also another's."""
+    formats = label_formats()
+    suffix = formats[kind].download_suffix if kind in formats else PACKED
+    first = next((name for name, each in formats.items() if each.download_suffix == suffix), kind)
+    is_clear = kind == first and suffix != PACKED
+    return LEVELS[level] if is_clear else f"{LEVELS[level]}.{kind}"
+
+
+def _called(stem: str, what: str, file: tuple[str, bytes]) -> tuple[str, bytes]:
+    """The file under the name of a download."""
+    name, content = file
+    return f"{stem}.{what}{Path(name).suffix}", content
 
 
 def _written(

@@ -64,6 +64,14 @@ class Folder:
         found = [path for path in self._listed() if path not in tables and holds_labels(path)]
         return {file_id(path): path for path in found}
 
+    def folders(self) -> list[Path]:
+        """The folders in it, where people may keep their labels."""
+        try:
+            inside = sorted(self.root.iterdir())
+        except OSError:
+            return []
+        return [path for path in inside if path.is_dir() and not path.name.startswith(".")]
+
     def first_table(self, path: Path) -> Segmentation | None:  # noqa: ARG002 (of a library)
         """The table of a recording for which nobody has saved one, where it is known."""
         return None

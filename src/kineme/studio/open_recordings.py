@@ -22,7 +22,7 @@ from kineme.studio.folder import Folder
 from kineme.studio.loading import one_segment
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.overview import brief_of, saved_brief
-from kineme.studio.reading import ReadingOptions, RecordingCache
+from kineme.studio.reading import Extent, ReadingOptions, RecordingCache
 from kineme.studio.storage.sidecars import (
     OPTIONS,
     keep_options,
@@ -249,6 +249,10 @@ class OpenRecordings:
             signals = not opened.loaded.is_motion
             opened.edit(opened.revision, same_again(shown.table, signals=signals), self)
         self._changed(name, opened.revision)
+
+    def extent(self, path: Path) -> Extent:
+        """How long the recording in a file is, as `RecordingCache.extent`."""
+        return self._cache.extent(path)
 
     def people(self, name: str) -> list[str]:
         """The people in a recording of whom one was chosen."""

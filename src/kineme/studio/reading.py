@@ -10,17 +10,19 @@ from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats import ReadOptions, read_analog, read_quietly
+from kineme.formats.options import NOBODY
 from kineme.studio.storage.sidecars import read_options
 
 if TYPE_CHECKING:
+    from kineme._clock import Clock
     from kineme.features import Names
     from kineme.recordings import Motion, Signals
 
 MOST_IN_MEMORY = 3
 """Recordings; that of an hour can have most of a gigabyte."""
-NOBODY = "\0"
-"""Nobody is called that."""
 Stamp = tuple[int, int]
+Extent = tuple[int, float, "Clock | None"]
+"""Frames, frames a second, and when they are."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,7 @@ class RecordingCache:
         self._lock = threading.Lock()
         self._reading: dict[tuple[Path, Stamp, str], threading.Lock] = {}
         self._recent: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
+        self._extents: dict[tuple[Path, Stamp, str], Extent] = {}
 
     def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, read if it is not in memory; ReadError where it cannot be.
@@ -60,6 +63,14 @@ class RecordingCache:
                     self._recent.popitem(last=False)
                 self._reading.pop(key, None)
         return found
+
+    def extent(self, path: Path) -> Extent:
+        """How long a recording is, for which it is read once."""
+        key = path, stamp_of(path), repr(read_options(path, self.options.file))
+        if key not in self._extents:
+            found = self.read(path)
+            self._extents[key] = found.n_frames, found.fps, found.provenance.clock
+        return self._extents[key]
 
     def people(self, path: Path) -> list[str]:
         """Those one of whom was chosen, where people said which; read for it."""

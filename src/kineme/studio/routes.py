@@ -16,11 +16,13 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 from starlette.routing import Route
 
+from kineme._files import video_beside
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
+from kineme.studio.annotators import agreement_of, annotator_choices, lanes_of
 from kineme.studio.everywhere import call_everywhere
 from kineme.studio.folder import file_id, progress
 from kineme.studio.http.bodies import (
@@ -37,7 +39,13 @@ from kineme.studio.http.bodies import (
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels, video_of
+from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels
+from kineme.web.annotator_messages import (
+    Agreement,
+    AgreementRequest,
+    AnnotatorChoice,
+    LabelLane,
+)
 from kineme.web.library_messages import CallEverywhere, TablesChanged
 from kineme.web.messages import (
     ClusterCurves,
@@ -84,6 +92,8 @@ class Api:
             route("/api/names", self.names, CallEverywhere),
             route("/api/labels", self.labels, LabelsRequest),
             route("/api/knowledge", self.knowledge, KnowledgeRequest),
+            route("/api/annotators", self.annotators),
+            route("/api/agreement", self.agreement, AgreementRequest),
             route("/api/export/{format}", self.export_checked),
             Route("/api/recordings", self.upload, methods=["POST"]),
             route(one, self.recording),
@@ -98,6 +108,7 @@ class Api:
             route(f"{one}/versions", self.versions),
             route(f"{one}/versions/{{number}}", self.version),
             route(f"{one}/compare", self.compare, CompareRequest),
+            route(f"{one}/lanes", self.lanes, AgreementRequest),
             route(f"{one}/export/{{format}}", self.export),
             route(f"{one}/clips", self.clips, ClipsRequest),
             route(f"{one}/loops", self.loops),
@@ -169,8 +180,9 @@ class Api:
         names = [name for name, n in counts.items() if n and n.checked >= n.segments]
         if not names:
             raise ParameterError("no recording is checked yet: check all segments of one first")
-        files = [downloads.exported(self._recordings.get(name), kind, level) for name in names]
-        return file_response(*downloads.together(files, folder.root.name or "checked"))
+        opened = [self._recordings.get(name) for name in names]
+        found = downloads.exported_together(opened, folder.root.name or "folder", kind, level)
+        return file_response(*found)
 
     async def upload(self, request: Request) -> Response:
         length = request.headers.get("content-length", "")
@@ -268,6 +280,15 @@ class Api:
             differences=differences(other, table),
         )
 
+    def annotators(self, _: Request) -> list[AnnotatorChoice]:
+        return annotator_choices(self._recordings)
+
+    def agreement(self, _: Request, sent: AgreementRequest) -> Agreement:
+        return agreement_of(self._recordings, sent.annotators)
+
+    def lanes(self, request: Request, sent: AgreementRequest) -> list[LabelLane]:
+        return lanes_of(self._recordings, request.path_params["id"], sent.annotators)
+
     def export(self, request: Request) -> Response:
         from kineme.studio import downloads
 
@@ -291,7 +312,7 @@ class Api:
         return loops.played(self._opened(request), *_numbers(request, "number"))
 
     def video(self, request: Request) -> Response:
-        found = video_of(self._opened(request).path)
+        found = video_beside(self._opened(request).path)
         if found is None:
             raise UnknownError("there is no video of that name beside the recording")
         return FileResponse(found)

@@ -1,4 +1,4 @@
-"""The options of ``kineme evaluate``, and which of its three kinds of run they ask for."""
+"""The options of ``kineme evaluate``, and which of its kinds of run they ask for."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ def evaluate(
         ),
     ] = None,
     labels: Annotated[
-        Path | None,
+        list[Path] | None,
         option(
             FOLDER,
             "What people say of the recordings: a table with recording, start_s, stop_s, "
-            "label; or a folder with a label file for each.",
+            "label; or a folder of label files. Several: how far people agree.",
             metavar="FILE|FOLDER",
         ),
     ] = None,
@@ -141,8 +141,17 @@ def evaluate(
         _check_output(output)
         names = [*_listed(*(method or ()))]
         if what != BENCHMARK and Path(what).is_dir():
-            if labels is None:
+            if not labels:
                 raise typer.BadParameter("--labels FILE or FOLDER is needed for a folder")
+            if len(labels) > 1:
+                if names or constants or clusters is not None or mapping != "recording":
+                    raise typer.BadParameter(
+                        "several --labels compare people, and run no method: leave out its options"
+                    )
+                from kineme.cli.evaluate.people import run_people
+
+                run_people(Path(what), labels, output=output, as_json=as_json, quiet=quiet)
+                raise typer.Exit
             if clusters is not None and mapping != "folder":
                 raise typer.BadParameter("--clusters N is of --mapping folder")
             from kineme.cli.evaluate.folder import run_folder
@@ -150,7 +159,7 @@ def evaluate(
 
             scored = run_folder(
                 Path(what),
-                labels,
+                labels[0],
                 names or [DEFAULT],
                 mapping=mapping,
                 n_clusters=clusters,

@@ -28,7 +28,11 @@ Up = Annotated[
 ]
 Person = Annotated[
     str | None,
-    option(UNSAID, "Which of several people in the file, by name or number.", metavar="NAME"),
+    option(
+        UNSAID,
+        "Which of several people in the file, by name or number.",
+        metavar="NAME",
+    ),
 ]
 Confidence = Annotated[
     float | None,

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation
 
 Stage = Callable[[str], None]
+EVERYBODY = "all"
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,21 @@ class Request:
         from kineme.formats import read
 
         return read(path, **self.reading)
+
+    def of_each_person(self, path: Path) -> list[tuple[str, Request]]:
+        """The people in a file where all are asked for, and what is asked of each of them.
+
+        A single one, or the one who was named, goes without a name.
+        """
+        if self.reading.get("person") != EVERYBODY:
+            return [("", self)]
+        from kineme.formats import ReadOptions, people_in
+
+        others = {name: value for name, value in self.reading.items() if name != "person"}
+        people = people_in(path, ReadOptions(**others))
+        if not people:
+            return [("", replace(self, reading=others))]
+        return [(who, replace(self, reading={**others, "person": who})) for who in people]
 
     def read_motion(self, path: Path) -> Motion:
         """The motion in a file; ReadError for signals, which have no body to compare."""

@@ -89,6 +89,15 @@ def check_writable(
         make_folder_of(path)
 
 
+def of_person(path: Path | None, person: str) -> Path | None:
+    """Where the result of one of several people goes: ``walk_anna.csv`` beside ``walk.csv``."""
+    if path is None or not person:
+        return path
+    name = re.sub(r"[^\w.-]+", "_", person).strip("._") or "person"
+    ending = CORRECTED if path.name.endswith(CORRECTED) else path.suffix
+    return path.with_name(f"{path.name.removesuffix(ending)}_{name}{ending}")
+
+
 def make_folder_of(path: Path) -> None:
     """Make the folder that a file or a folder is to lie in; WriteError if that cannot be."""
     try:

@@ -24,6 +24,9 @@ Rows = NDArray[np.intp]
 PASSING = 0.1
 """Share of the frames of the one seen most below which somebody is passed over."""
 
+PASSING_NOTE = "seen only in passing are left out"
+"""How a note on them ends."""
+
 _STRIDE = 0.5  # of the body's size that someone may be away from the frame before,
 _STRAY = 0.1  # and for each frame that passed since
 _REMEMBERED = 50  # people last seen, who may come back
@@ -68,7 +71,7 @@ def rows_of_person(
         )
     ((name, rows),) = staying.items()
     passing = len(people) - 1
-    notes = [f"person {name}; {passing} seen only in passing are left out"] if passing else []
+    notes = [f"person {name}; {passing} {PASSING_NOTE}"] if passing else []
     return rows, notes
 
 

@@ -17,7 +17,7 @@ from typing import Annotated, Any, TypedDict, TypeVar
 
 from msgspec import Meta, Struct
 
-from kineme._files import atomic_write, refuse_link
+from kineme._files import atomic_write, refuse_link, video_beside
 from kineme._json import loaded
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
@@ -27,7 +27,6 @@ from kineme.web.requests import LARGEST
 FOLDER = ".kineme"
 OPTIONS = ("person", "take", "fps", "unit", "up")
 """Of the reader, those that the page asks for."""
-VIDEOS = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
 LABELS = "labels.json"
 Content = TypeVar("Content")
 
@@ -61,18 +60,9 @@ def keep_options(recording: Path, options: dict[str, Any]) -> None:
     write_file(_sidecar(recording, "reading"), json.dumps(given).encode())
 
 
-def video_of(recording: Path) -> Path | None:
-    """The video beside a recording; None where there is none."""
-    for suffix in VIDEOS:
-        for path in (recording.with_suffix(suffix), recording.with_suffix(suffix.upper())):
-            if path.is_file() and not path.is_symlink():
-                return path
-    return None
-
-
 def video_message(recording: Path) -> Video | None:
     """What a page is told of the video."""
-    found = video_of(recording)
+    found = video_beside(recording)
     return Video(name=found.name, offset_s=offset_of(recording)) if found else None
 
 

@@ -3,7 +3,8 @@
     python src/kineme/web/pages/make_messages.py
 
 writes ``src/messages.ts`` beside this file from `kineme.web.messages`,
-`kineme.web.requests` and `kineme.web.library_messages`: the same names, with
+`kineme.web.requests`, `kineme.web.annotator_messages` and
+`kineme.web.library_messages`: the same names, with
 their docstrings. Generators that start from JSON Schema lose the names of
 ``Level`` and ``Edit`` and need a node package more; this one reads
 ``msgspec.inspect``. ``src/studio/server/paths.ts`` has the paths of
@@ -27,7 +28,7 @@ from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.table import COLUMNS, Kind, Level, Segment
 from kineme.studio.library_routes import LibraryApi
 from kineme.studio.routes import Api
-from kineme.web import library_messages, messages, requests
+from kineme.web import annotator_messages, library_messages, messages, requests
 
 SOURCES = Path(__file__).parent / "src"
 HEAD = "// Made from kineme/web (messages, requests) by make_messages.py; change them there.\n"
@@ -173,7 +174,7 @@ def _comment(text: str) -> str:
 def messages_typescript() -> str:
     """What ``messages.ts`` holds."""
     of_table = {"Level": Level, "Kind": Kind, "Segment": Segment, "Annotation": Annotation}
-    types = types_of(messages, requests, library_messages)
+    types = types_of(messages, requests, annotator_messages, library_messages)
     return f"{typescript(of_table | types)}\n{_bare()}"
 
 

@@ -678,6 +678,63 @@ export interface CompareRequest {
   annotation?: string;
 }
 
+/** Somebody who labelled so many recordings of the folder. */
+export interface AnnotatorChoice {
+  id: string;
+  name: string;
+  recordings: number;
+}
+
+/** Who is to be compared, by their ids. */
+export interface AgreementRequest {
+  annotators: string[];
+}
+
+/** How far two people agree, on the recordings that both labelled. */
+export interface AgreementPair {
+  annotators: [string, string];
+  cohen_kappa: number | null;
+  border_f1: number | null;
+  recordings: number;
+}
+
+/** A span in seconds in which not all say the same, and what each says; empty is nothing. */
+export interface Difference {
+  start_s: number;
+  stop_s: number;
+  labels: string[];
+}
+
+/** How far those agree who labelled a recording, and where they differ. */
+export interface RecordingAgreement {
+  id: string;
+  name: string;
+  annotators: string[];
+  fleiss_kappa: number | null;
+  differences: Difference[];
+}
+
+/**
+ * How far people agree over the folder.
+ *
+ * With `by_names` classes are names; else those of one stand for those of another by the best
+ * mapping. `failures` are sentences on labels that could not be read.
+ */
+export interface Agreement {
+  annotators: string[];
+  by_names: boolean;
+  fleiss_kappa: number | null;
+  pairs: AgreementPair[];
+  recordings: RecordingAgreement[];
+  failures: string[];
+}
+
+/** What somebody says of the open recording. */
+export interface LabelLane {
+  name: string;
+  segmentation: Segments;
+}
+
 /** A recording of a library; `id` is what the studio opens it by, empty where it is gone. */
 export interface LibraryRecording {
   recording: string;

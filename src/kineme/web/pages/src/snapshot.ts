@@ -22,6 +22,7 @@ export interface Snapshot {
   readonly finding: boolean;
   readonly hasMotion: boolean;
   readonly other: string | null;
+  readonly others: readonly string[];
   /** Pictures drawn within the last second, and in all. */
   readonly rate: number;
   readonly drawn: number;
@@ -57,7 +58,8 @@ export function snapshotOf(store: Store): Snapshot {
     n_segments: recording?.segmentation.segments.length ?? 0,
     finding: recording?.finding ?? false,
     hasMotion: Boolean(store.active.value?.motion.value),
-    other: store.other.value?.name ?? null,
+    other: store.others.value[0]?.name ?? null,
+    others: store.others.value.map(({ name }) => name),
     rate: ticker.rate(),
     drawn: ticker.drawn,
   });

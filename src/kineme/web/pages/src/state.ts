@@ -76,7 +76,8 @@ export class State {
   readonly trails = signal(true);
   /** The span of time that the timeline and the matrix show; null: all of it. */
   readonly zoom = signal<Span | null>(null);
-  readonly other = signal<OtherResult | null>(null);
+  /** Other results of the recording, which lie below it. */
+  readonly others = signal<readonly OtherResult[]>([]);
   /** Whether curves are shown under the timeline. */
   readonly curves = signal(false);
   /** null where there is one detail only. */
@@ -99,11 +100,11 @@ export class State {
   readonly frame = computed(() => this.frameAt(this.playhead.value));
   readonly activities = computed(() => this.rows("activity"));
   readonly primitives = computed(() => this.rows("primitive"));
-  /** The colour of each label of the result, and of the one beside it. */
+  /** The colour of each label of the result, and of those beside it. */
   readonly labelColors = computed(() =>
     labelColors([
       ...(this.recording.value?.segmentation.segments ?? []),
-      ...(this.other.value?.segmentation.segments ?? []),
+      ...this.others.value.flatMap(({ segmentation }) => segmentation.segments),
     ]),
   );
   readonly clusters: ReadonlySignal<Cluster[]> = computed(() =>

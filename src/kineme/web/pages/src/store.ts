@@ -162,7 +162,7 @@ export class Store extends State {
       this.selection.value = null;
       this.loop.value = null;
       this.cluster.value = null;
-      this.other.value = null;
+      this.others.value = [];
       this.inStep.value = false;
       this.ghost.value = null;
       this.zoom.value = null;

@@ -37,7 +37,7 @@ beforeEach(() => {
     orderClusters: () => undefined,
   };
   const { activities, primitives } = store;
-  lanes = layOut({ activities: activities.value, primitives: primitives.value, other: null }, 160);
+  lanes = layOut({ activities: activities.value, primitives: primitives.value, others: [] }, 160);
   gestures = new Gestures(
     store,
     () => lanes,

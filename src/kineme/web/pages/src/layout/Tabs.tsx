@@ -41,7 +41,10 @@ export function Tabs({ label, tabs, open }: Props): JSX.Element {
             aria-selected={each === tab}
             aria-controls={`panel-${each.id}`}
             tabIndex={each === tab ? 0 : -1}
-            onClick={() => (shown.value = each.id)}
+            onClick={(event) => {
+              shown.value = each.id;
+              bringUp(event.currentTarget);
+            }}
           >
             {each.title}
           </button>
@@ -60,4 +63,10 @@ export function Tabs({ label, tabs, open }: Props): JSX.Element {
       )}
     </div>
   );
+}
+
+/** Where the page itself scrolls, a panel that is asked for gets the height of the window. */
+function bringUp(tab: Element): void {
+  if (document.documentElement.scrollHeight > innerHeight)
+    tab.closest(".tabs")?.scrollIntoView({ block: "start" });
 }

@@ -109,6 +109,7 @@ function Stage(): JSX.Element {
     return (
       <>
         <Channels ruler />
+        <Video />
         <QueueBar />
       </>
     );

@@ -18,6 +18,7 @@ import { openInAddress, openToAddress, secondsInAddress } from "./server/address
 import { ServerData } from "./server/serverData";
 import { shareToken } from "./server/token";
 import { Bulletin } from "./news";
+import { People } from "./people/people";
 import { RecordingList } from "./recordingList";
 
 const NO_ANSWER =
@@ -61,6 +62,7 @@ export class Session {
   readonly unsent = computed(() => this.recordings.value.flatMap((edited) => edited.unsent()));
 
   readonly beside: Beside;
+  readonly people: People;
   private retrying = 0;
   private started = false;
 
@@ -70,6 +72,7 @@ export class Session {
   ) {
     this.bulletin = new Bulletin(() => tableOf(store.recording.value));
     this.beside = new Beside(this);
+    this.people = new People(this);
     effect(() => {
       void tableOf(store.recording.value);
       untracked(() => BESIDE.forEach((what) => this.bulletin.solved(what)));

@@ -1,4 +1,4 @@
-/** The lanes: activities, primitives, labels, and another result below them. */
+/** The lanes: activities, primitives, labels, and other results below them. */
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
@@ -33,7 +33,7 @@ export function Timeline(): JSX.Element {
   const given = (): Parameters<typeof layOut>[0] => ({
     activities: store.activities.value,
     primitives: store.primitives.value,
-    other: store.other.value,
+    others: store.others.value,
   });
   return (
     <div class="timeline">

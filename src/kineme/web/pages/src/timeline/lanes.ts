@@ -21,20 +21,23 @@ const GAP = 4;
 interface Given {
   activities: readonly Segment[];
   primitives: readonly Segment[];
-  other: { name: string; segmentation: Segments; marked?: boolean } | null;
+  others: readonly { name: string; segmentation: Segments; marked?: boolean }[];
 }
 
 const SAME = 0.1; // seconds from a border to one that counts as the same
 const NONE: ReadonlySet<number> = new Set();
 
 /** The lanes from top to bottom, sharing what height there is. */
-export function layOut({ activities, primitives, other }: Given, height: number): Lane[] {
-  const others = {
-    activity: other ? laneOf(other.segmentation, "activity") : [],
-    primitive: other ? laneOf(other.segmentation, "primitive") : [],
-  };
-  const only = (mine: readonly Segment[], counterpart: readonly Segment[]): ReadonlySet<number> =>
-    other?.marked ? without(mine, counterpart) : NONE;
+export function layOut({ activities, primitives, others }: Given, height: number): Lane[] {
+  const below = others.map(({ name, segmentation, marked }) => ({
+    name,
+    marked,
+    activity: laneOf(segmentation, "activity"),
+    primitive: laneOf(segmentation, "primitive"),
+  }));
+  const marked = below.find((each) => each.marked);
+  const only = (mine: readonly Segment[], counterpart?: readonly Segment[]): ReadonlySet<number> =>
+    marked && counterpart ? without(mine, counterpart) : NONE;
   const rows: (Omit<Lane, "top" | "height"> & { share: number })[] = [
     {
       id: "activity",
@@ -42,7 +45,7 @@ export function layOut({ activities, primitives, other }: Given, height: number)
       segments: activities,
       level: "activity",
       share: 1,
-      differences: only(activities, others.activity),
+      differences: only(activities, marked?.activity),
     },
     {
       id: "primitive",
@@ -50,7 +53,7 @@ export function layOut({ activities, primitives, other }: Given, height: number)
       segments: primitives,
       level: "primitive",
       share: 1.2,
-      differences: only(primitives, others.primitive),
+      differences: only(primitives, marked?.primitive),
     },
     {
       id: "label",
@@ -61,24 +64,25 @@ export function layOut({ activities, primitives, other }: Given, height: number)
       differences: NONE,
     },
   ];
-  if (other) {
+  below.forEach((other, i) => {
     rows.push({
-      id: "other-activity",
+      id: `other-activity-${i}`,
       title: other.name,
-      segments: others.activity,
+      segments: other.activity,
       level: null,
       share: 0.8,
-      differences: only(others.activity, activities),
+      differences: other.marked ? without(other.activity, activities) : NONE,
     });
+    if (below.length > 1 && !other.primitive.length) return; // room for those who have some
     rows.push({
-      id: "other-primitive",
+      id: `other-primitive-${i}`,
       title: "",
-      segments: others.primitive,
+      segments: other.primitive,
       level: null,
       share: 0.8,
-      differences: only(others.primitive, primitives),
+      differences: other.marked ? without(other.primitive, primitives) : NONE,
     });
-  }
+  });
   const total = rows.reduce((sum, row) => sum + row.share, 0);
   const room = Math.max(height - RULER - GAP * rows.length, 0);
   let top = RULER;

@@ -30,7 +30,7 @@ afterEach(cleanup);
 /** Where the primitives are at a frame. */
 function at(frame: number): PointerEventInit {
   const { activities, primitives } = page.store;
-  const given = { activities: activities.value, primitives: primitives.value, other: null };
+  const given = { activities: activities.value, primitives: primitives.value, others: [] };
   const lane = layOut(given, HEIGHT).find(({ id }) => id === "primitive")!;
   const clientX = GUTTER + ((WIDTH - GUTTER) * frame) / FRAMES;
   return { clientX, clientY: lane.top + lane.height / 2, button: 0, pointerId: 1 };

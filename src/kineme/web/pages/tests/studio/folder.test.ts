@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 import type { BriefTable, Segments } from "../../src/messages";
 import { leastOf, stripOf, tableOf, tallyOf } from "../../src/studio/folder/briefTables";
-import { ordered, rowOf } from "../../src/studio/folder/rows";
+import { COLUMNS, fitting, ordered, rowOf } from "../../src/studio/folder/rows";
 import { brief, listing } from "./briefs";
 
 it("tells of a table what its row shows", () => {
@@ -29,4 +29,11 @@ it("orders recordings by a column; those without a table come last", () => {
       .map(({ listing: { id } }) => id)
       .join("");
   expect([names(false), names(true)]).toEqual(["cab", "acb"]);
+});
+
+it("leaves columns out that the width has no room for, never the places of lowest confidence", () => {
+  const shown = (width: number) => fitting(COLUMNS, width).map(({ id }) => id);
+  expect(shown(1100)).toHaveLength(COLUMNS.length);
+  expect(shown(830)).toEqual(["name", "strip", "segments", "checked", "least", "status"]);
+  expect(shown(10)).toEqual(["name", "strip", "checked", "least"]);
 });

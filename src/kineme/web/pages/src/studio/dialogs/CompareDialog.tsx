@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { CompareRequest } from "../../messages";
+import { PeopleChoice } from "../people/PeopleChoice";
 import { Dialog } from "./Dialog";
 
 interface Props {
@@ -23,6 +24,8 @@ export function CompareDialog({ close }: Props): JSX.Element {
   return (
     <Dialog title="Compare with another result" close={close}>
       <p class="quiet">Its segments are laid below the shown ones, with how well they agree.</p>
+      <h2>Several people’s labels, over the folder</h2>
+      <PeopleChoice close={close} />
       <h2>What a preset finds</h2>
       <table class="methods">
         <tbody>

@@ -33,11 +33,13 @@ interface Around {
 export class Beside {
   /** A segmentation that is shown, but not made; only as long as it lies beside the table. */
   readonly proposal = computed(() =>
-    this.proposed.value?.shown === this.around.store.other.value ? this.proposed.value : null,
+    this.proposed.value?.shown === this.around.store.others.value[0] ? this.proposed.value : null,
   );
   /** Another result beside the shown one. */
   readonly comparison = computed(() =>
-    this.proposal.value ? null : (this.compared.value.get(this.around.store.other.value!) ?? null),
+    this.proposal.value
+      ? null
+      : (this.compared.value.get(this.around.store.others.value[0]!) ?? null),
   );
 
   private readonly proposed = signal<Proposal | null>(null);
@@ -59,7 +61,7 @@ export class Beside {
       if (turn !== this.asked || this.around.edited.peek() !== edited) return;
       const shown = { name: "Preview", segmentation: preview.segmentation, marked: true };
       this.proposed.value = { choice, keep, preview, shown, revision };
-      this.around.store.other.value = shown;
+      this.around.store.others.value = [shown];
       this.around.bulletin.solved("preview");
     } catch (error) {
       if (turn === this.asked) this.around.bulletin.problem(explain(error), "preview");
@@ -83,7 +85,7 @@ export class Beside {
 
   discard(): void {
     this.asked += 1;
-    if (this.proposal.value) this.around.store.other.value = null;
+    if (this.proposal.value) this.around.store.others.value = [];
     this.proposed.value = null;
   }
 
@@ -105,10 +107,10 @@ export class Beside {
   lay(comparison: Comparison, marked = false): void {
     const shown = { name: comparison.name, segmentation: comparison.segmentation, marked };
     this.compared.value.set(shown, comparison);
-    this.around.store.other.value = shown;
+    this.around.store.others.value = [shown];
   }
 
   stop(): void {
-    this.around.store.other.value = null;
+    this.around.store.others.value = [];
   }
 }

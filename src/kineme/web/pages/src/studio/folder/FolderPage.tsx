@@ -12,12 +12,14 @@ import { useStudio } from "../context";
 import type { Status } from "../recordingList";
 import { FolderProgress } from "./FolderProgress";
 import { FolderRow } from "./FolderRow";
-import { COLUMNS, gridOf, ordered, rowOf, type Column } from "./rows";
+import { COLUMNS, fitting, gridOf, ordered, rowOf, type Column } from "./rows";
 import { shownColumns, showColumn } from "./shownColumns";
 
 const BELOW =
   ".place-viewer, .place-matrix, .place-side, .place-transport, .place-timeline, .place-curves";
-const HEIGHT = 30; // pixels of a row
+const [HEIGHT, LOW] = [30, 26]; // pixels of a row: as usual, in a low window
+const LOW_WINDOW = 480; // pixels, as in folder.css
+const HEAD = 40; // of the bar on top, where it is one line
 const MORE = 6; // rows drawn above and below what is seen
 
 export function FolderPage(): JSX.Element | null {
@@ -35,6 +37,8 @@ function Page(): JSX.Element {
   const order = useSignal<[Column, boolean]>(["name", false]);
   const top = useSignal(0);
   const height = useSignal(600);
+  const width = useSignal(Infinity);
+  const head = useSignal(HEAD);
   const place = useRef<HTMLDivElement>(null);
   const rows = useMemo(
     () =>
@@ -52,16 +56,28 @@ function Page(): JSX.Element {
   );
   useEffect(() => {
     void folder.refresh();
-    const sized = new ResizeObserver(() => (height.value = place.current?.clientHeight ?? 600));
-    if (place.current) sized.observe(place.current);
+    const bar = document.querySelector<HTMLElement>(".place-header");
+    const sized = new ResizeObserver(() => {
+      height.value = place.current?.clientHeight ?? 600;
+      width.value = place.current?.clientWidth ?? Infinity;
+      head.value = bar?.offsetHeight ?? HEAD;
+    });
+    for (const each of [place.current, bar]) if (each) sized.observe(each);
     return () => sized.disconnect();
-  }, [folder, height]);
+  }, [folder, height, width, head]);
   useOver();
-  const columns = COLUMNS.filter(({ id }) => shownColumns.value.includes(id));
+  const chosen = COLUMNS.filter(({ id }) => shownColumns.value.includes(id));
+  const columns = fitting(chosen, width.value);
   const [widths, least] = gridOf(columns);
-  const grid = { "--columns": widths, "--least": `${least}px` };
-  const from = Math.max(Math.floor(top.value / HEIGHT) - MORE, 0);
-  const to = Math.ceil((top.value + height.value) / HEIGHT) + MORE;
+  const rowHeight = innerHeight > LOW_WINDOW ? HEIGHT : LOW;
+  const grid = {
+    "--columns": widths,
+    "--least": `${least}px`,
+    "--row": `${rowHeight}px`,
+    "--head": `${head.value}px`,
+  };
+  const from = Math.max(Math.floor(top.value / rowHeight) - MORE, 0);
+  const to = Math.ceil((top.value + height.value) / rowHeight) + MORE;
   const isOpen = session.store.opened.value.length > 0;
   return (
     <section class="folder-page" aria-label="Folder" style={{ ...sizeStyle(), ...grid }}>
@@ -103,7 +119,15 @@ function Page(): JSX.Element {
           {rows.value.length} of {folder.members.value.length} recordings
         </span>
         <details class="column-choice">
-          <summary>Columns</summary>
+          <summary>
+            Columns
+            {columns.length < chosen.length && (
+              <span class="quiet">
+                {" "}
+                ({columns.length} of {chosen.length} fit)
+              </span>
+            )}
+          </summary>
           <fieldset>
             {COLUMNS.slice(1).map(({ id, title, help }) => (
               <label key={id} title={help}>
@@ -146,13 +170,13 @@ function Page(): JSX.Element {
             );
           })}
         </div>
-        <div role="rowgroup" style={{ height: `${rows.value.length * HEIGHT}px` }}>
+        <div role="rowgroup" style={{ height: `${rows.value.length * rowHeight}px` }}>
           {rows.value.slice(from, to).map((row, i) => (
             <FolderRow
               key={row.listing.id}
               row={row}
               at={from + i}
-              top={(from + i) * HEIGHT}
+              top={(from + i) * rowHeight}
               columns={columns.map(({ id }) => id)}
             />
           ))}

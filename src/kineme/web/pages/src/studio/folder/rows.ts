@@ -32,7 +32,7 @@ export const COLUMNS: readonly {
   {
     id: "least",
     title: "Lowest confidence",
-    least: 200,
+    least: 212,
     help: "The places of lowest confidence that nobody has checked",
   },
   { id: "notes", title: "Notes", least: 54, help: "Comments on its segments" },
@@ -40,6 +40,7 @@ export const COLUMNS: readonly {
 ];
 
 const GAP = 10; // pixels between columns
+const YIELDING: readonly Column[] = ["rate", "length", "notes", "segments", "status"];
 
 /** Columns of these as a grid has them, and the pixels that they need. */
 export function gridOf(columns: readonly (typeof COLUMNS)[number][]): [string, number] {
@@ -47,6 +48,19 @@ export function gridOf(columns: readonly (typeof COLUMNS)[number][]): [string, n
     share ? `minmax(${least}px, ${share}fr)` : `${least}px`,
   );
   return [widths.join(" "), columns.reduce((sum, { least }) => sum + least + GAP, GAP)];
+}
+
+/** Those of the columns that a width has room for; what says least is left out first. */
+export function fitting(
+  columns: readonly (typeof COLUMNS)[number][],
+  width: number,
+): readonly (typeof COLUMNS)[number][] {
+  let kept = columns;
+  for (const id of YIELDING) {
+    if (gridOf(kept)[1] <= width) break;
+    kept = kept.filter((each) => each.id !== id);
+  }
+  return kept;
 }
 
 export interface Row extends Member {

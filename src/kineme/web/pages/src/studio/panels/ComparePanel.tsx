@@ -5,14 +5,19 @@ import type { Comparison, Segment } from "../../messages";
 import { laneOf, nameOf, segmentAt } from "../../segments";
 import { clock } from "../../view";
 import { useStudio } from "../context";
+import { AgreementPanel } from "../people/AgreementPanel";
 
 export function ComparePanel(): JSX.Element {
   const { session, front } = useStudio();
   const comparison = session.beside.comparison.value;
+  const agreement = session.people.agreement.value;
+  if (!comparison && agreement) return <AgreementPanel agreement={agreement} />;
   if (!comparison)
     return (
       <div class="compare-panel">
-        <p class="quiet">Lay another preset’s result, or an annotation, below this one.</p>
+        <p class="quiet">
+          Lay another preset’s result, or what one or more people say, below this one.
+        </p>
         <p>
           <button
             type="button"

@@ -7,6 +7,9 @@
  */
 
 import type {
+  Agreement,
+  AgreementRequest,
+  AnnotatorChoice,
   CallEverywhere,
   Changed,
   ClipsRequest,
@@ -21,6 +24,7 @@ import type {
   FileChoice,
   FolderTables,
   KnowledgeRequest,
+  LabelLane,
   LabelsRequest,
   LoopRow,
   Loops,
@@ -127,6 +131,21 @@ export class Api {
 
   compare(id: string, request: CompareRequest): Promise<Comparison> {
     return this.post("/api/recordings/{id}/compare", { id }, request);
+  }
+
+  /** Who labelled recordings of the folder. */
+  annotators(): Promise<AnnotatorChoice[]> {
+    return this.get("/api/annotators", {});
+  }
+
+  /** How far people agree, over the folder. */
+  agreement(request: AgreementRequest): Promise<Agreement> {
+    return this.post("/api/agreement", {}, request);
+  }
+
+  /** What they say of a recording. */
+  lanes(id: string, request: AgreementRequest): Promise<LabelLane[]> {
+    return this.post("/api/recordings/{id}/lanes", { id }, request);
   }
 
   /** The segments of a level, or of all that the format holds, as a file named by the server. */

@@ -2,6 +2,7 @@
 
 /** What is asked for; names in braces are filled in. */
 export type GetPath =
+  | "/api/annotators"
   | "/api/events"
   | "/api/export/{format}"
   | "/api/library"
@@ -25,6 +26,7 @@ export type GetPath =
 
 /** Where something is sent to. */
 export type PostPath =
+  | "/api/agreement"
   | "/api/knowledge"
   | "/api/labels"
   | "/api/library/edits"
@@ -37,6 +39,7 @@ export type PostPath =
   | "/api/recordings/{id}/clips"
   | "/api/recordings/{id}/compare"
   | "/api/recordings/{id}/edits"
+  | "/api/recordings/{id}/lanes"
   | "/api/recordings/{id}/preview"
   | "/api/recordings/{id}/reading"
   | "/api/recordings/{id}/video";

@@ -1,0 +1,80 @@
+"""``kineme evaluate FOLDER --labels A --labels B``: how far people agree about recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import typer
+
+from kineme.cli.messages import progress
+from kineme.cli.tables import show_table
+from kineme.cli.terminal import harmless
+from kineme.errors import ReadError
+from kineme.evaluation.annotator_files import (
+    Extent,
+    annotator_names,
+    extent_of,
+    labels_of_annotators,
+)
+from kineme.evaluation.annotators import AnnotatorAgreement, annotator_agreement
+from kineme.evaluation.recordings import recordings_below
+from kineme.evaluation.tables import shown, write_records, write_text
+from kineme.labels.collections import labels_of
+
+BY = {
+    "names": "by names",
+    "mapping": "by the best mapping: names are missing, or differ between people",
+}
+
+
+def run_people(
+    folder: Path, labels: Sequence[Path], *, output: Path | None, as_json: bool, quiet: bool
+) -> None:
+    """Print and write how far those agree who labelled the recordings of a folder."""
+    with progress(folder, quiet=quiet or as_json) as stage:
+        stage("looking for recordings")
+        recordings = recordings_below(folder)
+        names = annotator_names(labels)
+        sources = {
+            name: labels_of(recordings, path) for name, path in zip(names, labels, strict=True)
+        }
+
+        def extent(path: Path) -> Extent:
+            stage(f"reading {path.name}")
+            return extent_of(path)
+
+        labelled, failures = labels_of_annotators(sources, extent)
+    for failure in failures:
+        typer.echo(harmless(failure), err=True)
+    if not any(len(sides) > 1 for sides in labelled.values()):
+        raise ReadError(folder, "has no recording of which two people have labels")
+    result = annotator_agreement(labelled)
+    if as_json:
+        typer.echo(result.to_json())
+    elif not quiet:
+        _show(result)
+    if output is not None and output.suffix.lower() == ".json":
+        write_text(result.to_json(), output)
+    elif output is not None:
+        write_records(result.records(), output)
+
+
+def _show(result: AnnotatorAgreement) -> None:
+    """Print a row for any two people, one for all, and one for each recording."""
+    pairs = [
+        (f"{first}, {second}", [shown(kappa), shown(f1), "", str(recordings)])
+        for first, second, kappa, f1, recordings in result.pairs
+    ]
+    together = sum(len(one.annotators) == len(result.annotators) for one in result.recordings)
+    over_all = ("all together", ["", "", shown(result.fleiss_kappa), str(together)])
+    show_table(
+        f"agreement of {len(result.annotators)} annotators, {BY[result.by]}",
+        ["Cohen's kappa", "border F1", "Fleiss' kappa", "recordings"],
+        [("", [*pairs, over_all])],
+    )
+    rows = [
+        (one.recording, [shown(one.fleiss_kappa), str(len(one.differences))])
+        for one in result.recordings
+    ]
+    show_table("by recording", ["Fleiss' kappa", "differences"], [("", rows)])

@@ -1,0 +1,166 @@
+"""People who labelled the recordings of a folder: who there is, and how far they agree.
+
+A person is a folder in it, with a label file for a recording or more (``anna/walk.eaf``); a table
+with a column ``recording``; what files beside the recordings have in their names behind that of
+the recording (``walk.anna.eaf``, ``walk_anna.csv``); and whoever works here: the saved tables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+
+from kineme.errors import KinemeError, ParameterError
+from kineme.labels.collections import LabelSource, labels_of
+from kineme.studio.folder import file_id
+from kineme.studio.open_recordings import OpenRecordings, UnknownError
+from kineme.studio.storage.tables import usual_table
+from kineme.web.annotator_messages import (
+    Agreement,
+    AgreementPair,
+    AnnotatorChoice,
+    Difference,
+    LabelLane,
+    RecordingAgreement,
+)
+
+TABLES_HERE = "tables"
+BEHIND = "._- "
+"""What parts the name of a recording from that of a person."""
+
+
+@dataclass(frozen=True)
+class Annotator:
+    """Who labelled recordings, and where."""
+
+    name: str
+    sources: Mapping[Path, LabelSource]
+
+
+def annotators_of(recordings: OpenRecordings) -> dict[str, Annotator]:
+    """The people who labelled recordings of the folder by id; whoever works here last."""
+    paths = [*recordings.folder.recordings().values()]
+    if not paths:
+        return {}
+    files = recordings.folder.annotations(paths).values()
+    found: dict[str, Annotator] = {}
+    for place in (*recordings.folder.folders(), *files):
+        try:
+            sources = labels_of(paths, place)
+        except (KinemeError, OSError):
+            continue  # of other recordings, or of one that it does not name
+        name = place.stem if place.is_file() else place.name
+        found[file_id(place)] = Annotator(name, sources)
+    beside: dict[str, dict[Path, LabelSource]] = {}
+    for path in files:
+        if file_id(path) not in found and (named := _named(path, paths)):
+            beside.setdefault(named[0], {})[named[1]] = LabelSource(path)
+    found |= {f"beside {name}": Annotator(name, sources) for name, sources in beside.items()}
+    saved = {path: LabelSource(table) for path in paths if (table := usual_table(path))}
+    if saved:
+        found[TABLES_HERE] = Annotator("Tables of this studio", saved)
+    return found
+
+
+def annotator_choices(recordings: OpenRecordings) -> list[AnnotatorChoice]:
+    """Who there is to compare."""
+    return [
+        AnnotatorChoice(id=name, name=each.name, recordings=len(each.sources))
+        for name, each in annotators_of(recordings).items()
+    ]
+
+
+def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
+    """How far some of them agree, over all recordings for which two of them have labels."""
+    from kineme.evaluation.annotator_files import Extent, labels_of_annotators
+    from kineme.evaluation.annotators import annotator_agreement
+
+    people = _chosen(recordings, chosen)
+    labelled, failures = labels_of_annotators(
+        {who.name: who.sources for who in people},
+        lambda path: Extent(*recordings.extent(path)),
+    )
+    if not any(len(sides) > 1 for sides in labelled.values()):
+        reason = f": {failures[0]}" if failures else ""
+        raise ParameterError(f"there is no recording of which two of them have labels{reason}")
+    found = annotator_agreement(labelled)
+    listed = recordings.folder.recordings().items()
+    ids = {text: name for name, path in listed for text in (str(path), path.name)}
+    return Agreement(
+        annotators=list(found.annotators),
+        by_names=found.by == "names",
+        fleiss_kappa=_finite(found.fleiss_kappa),
+        pairs=[
+            AgreementPair(
+                annotators=(pair.first, pair.second),
+                cohen_kappa=_finite(pair.cohen_kappa),
+                border_f1=_finite(pair.border_f1),
+                recordings=pair.recordings,
+            )
+            for pair in found.pairs
+        ],
+        recordings=[
+            RecordingAgreement(
+                id=ids[one.recording],
+                name=one.recording,
+                annotators=list(one.annotators),
+                fleiss_kappa=_finite(one.fleiss_kappa),
+                differences=[Difference(**each._asdict()) for each in one.differences],
+            )
+            for one in found.recordings
+        ],
+        failures=failures,
+    )
+
+
+def lanes_of(recordings: OpenRecordings, name: str, chosen: Sequence[str]) -> list[LabelLane]:
+    """What some of them say of a recording, one lane each."""
+    from kineme.web.page_data import segments_message
+
+    path = recordings.get(name).path
+    n_frames, fps, clock = recordings.extent(path)
+    return [
+        LabelLane(
+            name=who.name,
+            segmentation=segments_message(
+                who.sources[path].of(n_frames=n_frames, fps=fps, clock=clock)
+            ),
+        )
+        for who in _chosen(recordings, chosen)
+        if path in who.sources
+    ]
+
+
+def _chosen(recordings: OpenRecordings, chosen: Sequence[str]) -> list[Annotator]:
+    """Those of that id, with names that tell them apart."""
+    present = annotators_of(recordings)
+    if not set(chosen) <= present.keys():
+        raise UnknownError("one of these people has no labels any more; look who there is now")
+    found: dict[str, Annotator] = {}
+    for each in (present[name] for name in dict.fromkeys(chosen)):
+        name, number = each.name, 2
+        while name in found:
+            name, number = f"{each.name} {number}", number + 1
+        found[name] = Annotator(name, each.sources)
+    return [*found.values()]
+
+
+def _named(labels: Path, recordings: Sequence[Path]) -> tuple[str, Path] | None:
+    """Person and recording that the name of a label file tells, if it does."""
+    stem = labels.stem
+    fitting = [
+        path
+        for path in recordings
+        if stem.startswith(path.stem) and stem[len(path.stem) :][:1] in tuple(BEHIND)
+    ]
+    if not fitting:
+        return None
+    recording = max(fitting, key=lambda path: len(path.stem))
+    person = stem[len(recording.stem) :].strip(BEHIND)
+    return (person, recording) if person else None
+
+
+def _finite(value: float) -> float | None:
+    return value if isfinite(value) else None

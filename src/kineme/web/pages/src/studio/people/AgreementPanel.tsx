@@ -1,0 +1,157 @@
+/** How far people agree: any two of them, all together, by recording, and where they differ. */
+import type { JSX } from "preact";
+import { useStore } from "../../context";
+import type { Agreement, RecordingAgreement } from "../../messages";
+import { clock } from "../../view";
+import { useStudio } from "../context";
+
+const BY_NAMES = "Names are compared, in capitals or small letters.";
+const BY_MAPPING =
+  "Names are missing or differ, so one person’s stand for another’s as they agree best.";
+
+export function AgreementPanel({ agreement }: { agreement: Agreement }): JSX.Element {
+  const { session } = useStudio();
+  const here = session.people.ofRecording.value;
+  return (
+    <div class="compare-panel">
+      <div class="panel-head">
+        <b class="name">{agreement.annotators.length} people</b>
+        <span class="spacer" />
+        <button type="button" onClick={() => session.people.stop()}>
+          Stop comparing
+        </button>
+      </div>
+      <p class="quiet">
+        {agreement.by_names ? BY_NAMES : BY_MAPPING} 1 is equal; of kappa, 0 is what chance gives.
+      </p>
+      <Pairs agreement={agreement} />
+      {here && <Differences recording={here} />}
+      {agreement.recordings.length > 1 && <ByRecording agreement={agreement} />}
+      {agreement.failures.map((failure) => (
+        <p class="quiet" key={failure}>
+          {failure}
+        </p>
+      ))}
+      <p class="quiet">All this is of the labels as they were when you compared.</p>
+    </div>
+  );
+}
+
+function Pairs({ agreement }: { agreement: Agreement }): JSX.Element {
+  const all = agreement.recordings.filter(
+    (each) => each.annotators.length === agreement.annotators.length,
+  );
+  return (
+    <table class="scores number">
+      <caption>Over the folder</caption>
+      <thead>
+        <tr>
+          <td />
+          <td title="Frames that both say the same of, beyond what chance would give">
+            Cohen’s kappa
+          </td>
+          <td title="Borders of either that the other has within 0.25 s">Border F1</td>
+          <td>Recordings</td>
+        </tr>
+      </thead>
+      <tbody>
+        {agreement.pairs.map(({ annotators, cohen_kappa, border_f1, recordings }) => (
+          <tr key={annotators.join()}>
+            <th scope="row">{annotators.join(", ")}</th>
+            <td>{shown(cohen_kappa)}</td>
+            <td>{shown(border_f1)}</td>
+            <td>{recordings}</td>
+          </tr>
+        ))}
+        <tr>
+          <th scope="row">
+            All <small class="quiet">Fleiss’ kappa</small>
+          </th>
+          <td>{shown(agreement.fleiss_kappa)}</td>
+          <td />
+          <td>{all.length}</td>
+        </tr>
+      </tbody>
+    </table>
+  );
+}
+
+/** Where not all say the same; a click goes there. */
+function Differences({ recording }: { recording: RecordingAgreement }): JSX.Element {
+  const store = useStore();
+  return (
+    <table class="differences number">
+      <caption>Where they differ in this recording</caption>
+      <thead>
+        <tr>
+          <th scope="col">From</th>
+          <th scope="col">Seconds</th>
+          {recording.annotators.map((name) => (
+            <th scope="col" key={name}>
+              {name}
+            </th>
+          ))}
+        </tr>
+      </thead>
+      <tbody>
+        {recording.differences.map(({ start_s, stop_s, labels }) => (
+          <tr key={start_s}>
+            <td>
+              <button type="button" class="link" onClick={() => store.seek(start_s)}>
+                {clock(start_s, 2)}
+              </button>
+            </td>
+            <td>{(stop_s - start_s).toFixed(2)}</td>
+            {labels.map((label, i) => (
+              <td key={recording.annotators[i]}>{label || "–"}</td>
+            ))}
+          </tr>
+        ))}
+        {recording.differences.length === 0 && (
+          <tr>
+            <td colSpan={2 + recording.annotators.length}>Nowhere for more than 0.25 s.</td>
+          </tr>
+        )}
+      </tbody>
+    </table>
+  );
+}
+
+/** Fleiss' kappa of each recording; a click opens it. */
+function ByRecording({ agreement }: { agreement: Agreement }): JSX.Element {
+  const { session } = useStudio();
+  return (
+    <table class="differences number">
+      <caption>By recording</caption>
+      <thead>
+        <tr>
+          <th scope="col">Recording</th>
+          <th scope="col">Fleiss’ kappa</th>
+          <th scope="col">Differences</th>
+        </tr>
+      </thead>
+      <tbody>
+        {agreement.recordings.map(({ id, name, fleiss_kappa, differences }) => (
+          <tr key={id}>
+            <td>
+              <button
+                type="button"
+                class="link"
+                aria-current={id === session.store.recording.value?.id}
+                onClick={() => void session.open(id)}
+              >
+                {name}
+              </button>
+            </td>
+            <td>{shown(fleiss_kappa)}</td>
+            <td>{differences.length}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function shown(score: number | null): string {
+  return score === null ? "–" : score.toFixed(3);
+}

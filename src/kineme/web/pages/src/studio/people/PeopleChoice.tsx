@@ -1,0 +1,72 @@
+/** Whose labels are compared with each other: all that are there, unless one says otherwise. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+import { useStudio } from "../context";
+import { counted } from "../editing/words";
+import type { AnnotatorChoice } from "../../messages";
+import { explain } from "../server/api";
+
+const TABLES_HERE = "tables"; // the id of whoever works here
+
+export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
+  const { session, front } = useStudio();
+  const people = useSignal<AnnotatorChoice[]>([]);
+  const ticked = useSignal<ReadonlySet<string>>(new Set());
+  const busy = useSignal(false);
+  useEffect(() => {
+    session.api
+      .annotators()
+      .then((found) => {
+        const others = found.filter(({ id }) => id !== TABLES_HERE);
+        people.value = found;
+        ticked.value = new Set((others.length > 1 ? others : found).map(({ id }) => id));
+      })
+      .catch((error: unknown) => session.bulletin.problem(explain(error), "agreement"));
+  }, [session, people, ticked]);
+  const compare = async (): Promise<void> => {
+    busy.value = true;
+    if (await session.people.compare([...ticked.value])) {
+      front.tab.value = "compare";
+      front.folder.value = null;
+      close();
+    }
+    busy.value = false;
+  };
+  const toggle = (id: string, chosen: boolean): void => {
+    const others = [...ticked.value].filter((each) => each !== id);
+    ticked.value = new Set(chosen ? [...others, id] : others);
+  };
+  if (people.value.length < 2)
+    return (
+      <p class="quiet">
+        None yet. Put the label files of each person into a folder of its own here (anna/walk.eaf),
+        or their names behind that of the recording (walk.anna.eaf).
+      </p>
+    );
+  return (
+    <div class="choices">
+      <fieldset class="people">
+        {people.value.map(({ id, name, recordings }) => (
+          <label key={id}>
+            <input
+              type="checkbox"
+              checked={ticked.value.has(id)}
+              onChange={(event) => toggle(id, event.currentTarget.checked)}
+            />{" "}
+            {name} <span class="quiet">{counted(recordings, "recording")}</span>
+          </label>
+        ))}
+      </fieldset>
+      <button
+        type="button"
+        class="primary"
+        disabled={busy.value || ticked.value.size < 2}
+        onClick={() => void compare()}
+      >
+        Compare {ticked.value.size} people
+        {busy.value && <span class="busy" />}
+      </button>
+    </div>
+  );
+}
