@@ -208,8 +208,8 @@ def _as_text(column: NDArray[Any]) -> list[str]:
     values = _values(column)
     if column.dtype.kind != "U":
         return json.dumps(values)[1:-1].split(", ") if values else []
-    known = {text: json.dumps(text) for text in {*values}}
-    return [known[text] for text in values]
+    quoted = {text: json.dumps(text) for text in {*values}}
+    return [quoted[text] for text in values]
 
 
 def _values(column: NDArray[Any]) -> list[Any]:
