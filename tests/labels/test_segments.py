@@ -15,7 +15,7 @@ from pyarrow import parquet
 
 from kineme.datasets import bundled_truth
 from kineme.errors import MissingDependencyError, ReadError, WriteError
-from kineme.labels import read_segments, write_segments
+from kineme.labels import json_table, read_segments, write_segments
 from kineme.labels.csv_table import provenance_path
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
@@ -46,6 +46,13 @@ def test_what_was_written_is_read_again(folder: Path, suffix: str, result: Segme
     path = folder / f"table{suffix}"
     write_segments(result, path)
     assert read_segments(path) == result
+
+
+@given(segmentations())
+def test_each_row_is_a_line_of_json(result: Segmentation) -> None:
+    lines = json_table.dumps(result).split('"segments": [\n')[-1].splitlines()[:-2]
+    rows = json_table.as_object(result)["segments"]
+    assert [line.strip().removesuffix(",") for line in lines] == [json.dumps(row) for row in rows]
 
 
 @given(segmentations())

@@ -14,13 +14,16 @@ import pytest
 import kineme
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions, sketch
+from kineme.segments import editing
 from kineme.studio.downloads import exported
 from kineme.studio.folder import Folder
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.reading import RecordingCache
+from kineme.studio.storage.identities import Identities
 from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
+from kineme.web.table_changes import table_change
 
 
 def held_back(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
@@ -183,3 +186,41 @@ def test_what_is_drawn_of_recordings_left_long_ago_is_not_kept(tmp_path, monkeyp
     gc.collect()
     assert [each() is None for each in drawn] == [True, False, False]
     assert to_json(recordings.message(names[0])) == to_json(first)
+
+
+def test_a_brief_answer_tells_what_is_other_or_the_table_that_replaced_ours(studio):
+    before = studio.recording()
+    address = f"/api/recordings/{studio.id}/edits"
+    edit = {"kind": "name_segment", "level": "activity", "frame": 0, "label": "hop"}
+    sent = {"revision": before["revision"], "edit": edit, "name": "a name", "brief": True}
+    made = studio.client.post(address, json=sent).json()
+    assert (made["segmentation"], made["change"]["of"]) == (None, before["revision"])
+    assert made["change"]["cells"] == [{"column": "label", "value": "hop", "rows": [0]}]
+    now = studio.recording()["segmentation"]["segments"]
+    again = studio.client.post(address, json=sent).json()  # nobody knows what the asker has by now
+    assert again["segmentation"]["segments"] == now
+    anew = {"kind": "segment", "preset": "voegele2014", "parameters": {}}
+    other = {"revision": made["revision"], "edit": anew, "brief": True}
+    assert studio.client.post(address, json=other).json()["segmentation"]["segments"] != now
+
+
+def test_a_brief_answer_is_brief_whatever_the_length(tmp_path):
+    n = 4000
+    frames = np.arange(n + 1) * 10
+    columns = {
+        "level": ["activity"] * n,
+        "kind": ["activity"] * n,
+        "start_frame": frames[:-1],
+        "stop_frame": frames[1:],
+        "cluster": np.arange(n) % 8,
+    }
+    table = kineme.Segmentation.from_columns(columns, n_frames=10 * n, fps=60.0)
+    ids = Identities().of(table)
+    marked = editing.check(table, "activity", frames[:-1:2].tolist(), checked=True)
+    for edit, most in [
+        (lambda: editing.move_border(marked, "activity", 500, 503), 1500),
+        (lambda: editing.name_segment(marked, "activity", 500, "hop"), 1500),
+        (lambda: editing.name_cluster(marked, 3, "hop"), 8 * n / 8 + 500),
+        (lambda: editing.check(marked, "activity", [510], checked=True), 500),
+    ]:
+        assert len(to_json(table_change(marked, edit(), (ids, ids), revision=1))) < most

@@ -34,10 +34,12 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
-from dataclasses import asdict, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
+
+from numpy.typing import NDArray
 
 from kineme._files import atomic_write
 from kineme._json import decoded
@@ -47,7 +49,7 @@ from kineme.labels.label_format import LabelFormat
 from kineme.segments.annotation import Annotation, parted
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment, lacking, present_names
+from kineme.segments.table import COLUMNS, Segment, SegmentTable, lacking, present_names
 
 SCHEMA = "kineme.segments/2"
 OLDER = ("kineme.segments/1",)
@@ -69,13 +71,13 @@ def dumps(segmentation: Segmentation) -> str:
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
         head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
-    rows = ",\n".join(f"    {json.dumps(_cells(row))}" for row in segmentation)
+    rows = ",\n".join(f"    {row}" for row in _rows_as_text(segmentation.table))
     return f'{head},\n  "segments": [\n{rows}\n  ]\n}}\n'
 
 
 def as_object(segmentation: Segmentation) -> dict[str, Any]:
     """What the JSON text holds, as Python has it."""
-    return head_of(segmentation) | {"segments": [_cells(row) for row in segmentation]}
+    return head_of(segmentation) | {"segments": [*_rows(segmentation.table)]}
 
 
 def read(path: Path) -> Segmentation:
@@ -158,9 +160,7 @@ def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
         levels.append({"detail": detail})
         if detail != hierarchy.detail:
             columns = table.columns()
-            levels[-1]["columns"] = {
-                name: [_cell(value) for value in columns[name].tolist()] for name in INDEPENDENT
-            }
+            levels[-1]["columns"] = {name: _values(columns[name]) for name in INDEPENDENT}
     return {"detail": hierarchy.detail, "levels": levels}
 
 
@@ -191,12 +191,33 @@ def _or_nan(value: Any, name: str) -> Any:
     return math.nan if value is None and COLUMNS[name].type is float else value
 
 
-def _cells(row: Segment) -> dict[str, Any]:
-    return {name: _cell(value) for name, value in asdict(row).items()}
+def _rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
+    """One object per row."""
+    columns = [_values(column) for column in table.columns().values()]
+    return (dict(zip(COLUMNS, cells, strict=True)) for cells in zip(*columns, strict=True))
 
 
-def _cell(value: Any) -> Any:
-    return None if isinstance(value, float) and math.isnan(value) else value
+def _rows_as_text(table: SegmentTable) -> Iterator[str]:
+    """What `json.dumps` writes for each of `_rows`, column by column: tables have many rows."""
+    columns = map(_as_text, table.columns().values())
+    line = "{" + ", ".join(f'"{name}": %s' for name in COLUMNS) + "}"
+    return map(line.__mod__, zip(*columns, strict=True))
+
+
+def _as_text(column: NDArray[Any]) -> list[str]:
+    values = _values(column)
+    if column.dtype.kind != "U":
+        return json.dumps(values)[1:-1].split(", ") if values else []
+    quoted = {text: json.dumps(text) for text in {*values}}
+    return [quoted[text] for text in values]
+
+
+def _values(column: NDArray[Any]) -> list[Any]:
+    """The cells of a column; a number that nobody knows is None."""
+    values: list[Any] = column.tolist()
+    if column.dtype.kind != "f":
+        return values
+    return [None if value != value else value for value in values]  # noqa: PLR0124 (nan)
 
 
 FORMAT = LabelFormat(

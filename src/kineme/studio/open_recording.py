@@ -29,6 +29,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.loading import LoadedRecording, digest_in
 from kineme.studio.reading import RecordingCache
+from kineme.studio.storage.identities import Identities
 from kineme.studio.storage.journal import Change, Journal
 from kineme.studio.storage.sidecars import (
     notes_on_sidecars,
@@ -153,9 +154,18 @@ class OpenRecording:
             )
             return message, anew
 
-    def edit(self, revision: int, edit: Edit, files: Surroundings, *, name: str = "") -> Edited:
+    def edit(
+        self,
+        revision: int,
+        edit: Edit,
+        files: Surroundings,
+        *,
+        name: str = "",
+        brief: bool = False,
+    ) -> Edited:
         """The table after an edit of that revision, which is on the disk.
 
+        Where it is ``brief``, only what is other than at that revision, unless that is most of it.
         An edit whose name has been made is not made again. ConflictError where the table is of
         another revision, or the file not the one last read or written here; KinemeError where the
         edit cannot be made or saved.
@@ -171,8 +181,9 @@ class OpenRecording:
             change, notes = self._after(edit, files, name or uuid.uuid4().hex)
             if self._file.changed():
                 raise self._changed_elsewhere()
+            before = (self._table, self._journal.ids) if brief else None
             self._write(change, name)
-            return self._edited(notes)
+            return self._edited(notes, before)
 
     def renew(self, initial: Segmentation) -> bool:
         """Show another table where nobody has saved one; whether it is another."""
@@ -286,15 +297,25 @@ class OpenRecording:
             self.path, loaded.fits, self._others, of_another_take=loaded.is_of_another_take
         )
 
-    def _edited(self, notes: list[str]) -> Edited:
+    def _edited(
+        self, notes: list[str], before: tuple[Segmentation, Identities] | None = None
+    ) -> Edited:
+        """The present table; or what is other in it than ``before``, one revision ago."""
         from kineme.web.page_data import segments_message
+        from kineme.web.table_changes import table_change
 
+        ids, change = self._journal.ids.of(self._table), None
+        if before is not None:
+            table, others = before
+            both = others.of(table), ids
+            change = table_change(table, self._table, both, revision=self.revision - 1)
         return Edited(
             revision=self.revision,
-            segmentation=segments_message(self._table),
+            segmentation=None if change else segments_message(self._table),
+            ids=[] if change else ids,
+            change=change,
             can_undo=self._journal.can_undo,
             can_redo=self._journal.can_redo,
-            ids=self._journal.ids.of(self._table),
             saved=self._saved,
             notes=notes,
         )

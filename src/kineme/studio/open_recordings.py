@@ -219,8 +219,13 @@ class OpenRecordings:
         """The recording's table after an edit, as `OpenRecording.edit` makes it."""
         if sent.revision == OF_SKETCH:
             raise ParameterError(STILL_FINDING)
-        edit_name = "" if sent.name is UNSET else sent.name
-        result = self.get(name).edit(sent.revision, sent.edit, self, name=edit_name)
+        result = self.get(name).edit(
+            sent.revision,
+            sent.edit,
+            self,
+            name="" if sent.name is UNSET else sent.name,
+            brief=False if sent.brief is UNSET else sent.brief,
+        )
         self._changed(name, result.revision)
         return result
 

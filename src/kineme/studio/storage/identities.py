@@ -19,7 +19,7 @@ from typing import get_args
 
 from kineme.segments.editing.annotating import span_of
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level, Segment
+from kineme.segments.table import Level
 
 LONGEST_ORIGIN = 8
 """Characters of an edit's name that are part of the identities of what it made."""
@@ -46,7 +46,7 @@ class Identities:
         >>> Identities().of(kineme.read_segments(bundled_truth(), fps=60))[:2]
         ['a:0', 'a:326']
         """
-        return [self.others.get(_place(row), _identity(self.origin, row)) for row in table]
+        return [self.others.get(at, _identity(self.origin, at)) for at in _places(table)]
 
     def after(
         self, before: Segmentation, now: Segmentation, edit: str, *, replaced: bool = False
@@ -57,22 +57,24 @@ class Identities:
         where it did, and of the others who started nearest by.
         """
         edit = edit[:LONGEST_ORIGIN]
-        identities = dict(zip(map(_key, before), self.of(before), strict=True))
+        identities = dict(zip(_places(before), self.of(before), strict=True))
         if replaced:
             spans = {span_of(row) for row in before}
-            same = {_key(row): _key(row) for row in now if span_of(row) in spans}
+            same = {at: at for row, at in zip(now, _places(now), strict=True)
+                    if span_of(row) in spans}  # fmt: skip
         else:
             same = {}
             for level in get_args(Level):
                 starts = (table.level(level).start_frame.tolist() for table in (before, now))
-                same |= {(level, n): (level, was) for n, was in descent(*starts).items()}
+                moves = descent(*starts).items()
+                same |= {f"{level[0]}{start}": f"{level[0]}{was}" for start, was in moves}
         origin = edit if replaced else self.origin
         others = {}
-        for row in now:
-            former = same.get(_key(row))
-            identity = _identity(edit, row) if former is None else identities[former]
-            if identity != _identity(origin, row):
-                others[_place(row)] = identity
+        for at in _places(now):
+            former = same.get(at)
+            identity = _identity(edit, at) if former is None else identities[former]
+            if identity != _identity(origin, at):
+                others[at] = identity
         return Identities(origin, others)
 
 
@@ -98,13 +100,12 @@ def descent(before: Sequence[int], now: Iterable[int]) -> dict[int, int]:
     return dict(sorted(found.items()))
 
 
-def _key(row: Segment) -> tuple[Level, int]:
-    return row.level, row.start_frame
+def _places(table: Segmentation) -> list[str]:
+    """Level and first frame of each row: ``p150``."""
+    of_level = {level: level[0] for level in get_args(Level)}
+    rows = zip(table.table.level.tolist(), table.table.start_frame.tolist(), strict=True)
+    return [f"{of_level[level]}{start}" for level, start in rows]
 
 
-def _place(row: Segment) -> str:
-    return f"{row.level[0]}{row.start_frame}"
-
-
-def _identity(origin: str, row: Segment) -> str:
-    return f"{row.level[0]}{origin}:{row.start_frame}"
+def _identity(origin: str, place: str) -> str:
+    return f"{place[0]}{origin}:{place[1:]}"

@@ -26,11 +26,12 @@ from pathlib import Path
 import msgspec
 
 from kineme.errors import ParameterError, ReadError
-from kineme.labels import json_table, read_segments
+from kineme.labels import read_segments
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.identities import Identities
 from kineme.studio.storage.sidecars import FOLDER, read_sidecar, write_file
+from kineme.studio.storage.tables import content_of
 from kineme.web.requests import Edit
 
 MOST_KEPT = 200
@@ -72,10 +73,11 @@ class Record:
 
 @dataclass(frozen=True)
 class Change:
-    """A history that has not been written yet, and its present table."""
+    """A history that has not been written yet, its present table, and what files hold of that."""
 
     record: Record
     table: Segmentation
+    content: bytes
 
 
 class Journal:
@@ -89,9 +91,9 @@ class Journal:
     def __init__(self, table_path: Path, table: Segmentation):
         self.folder = table_path.parent / FOLDER / table_path.name.removesuffix(".json")
         self._record, self.notes = read_record(self.folder)
-        self._unsaved: dict[int, Segmentation] = {}
+        self._unsaved: dict[int, Change] = {}
         history, steps = self._record.history, self._record.steps
-        digest = _digest(table)
+        digest = sha256(content_of(table)).hexdigest()
         if steps and steps[history.present].n_frames == table.n_frames:
             for step in (history, _or_none(history.undone), _or_none(history.redone)):
                 if step is not None and self._is(step.present, table, digest):
@@ -142,7 +144,7 @@ class Journal:
     def table(self, number: int) -> Segmentation:
         """A table of the history; ReadError where it is not there any more."""
         if number in self._unsaved:
-            return self._unsaved[number]
+            return self._unsaved[number].table
         return read_segments(self._path(number), format="json")
 
     def changed(
@@ -162,15 +164,16 @@ class Journal:
         number = max([0, *steps, *self._numbers()]) + 1
         before = [*history.future[-1:], *([history.present] if replaced else [])]
         at = datetime.now(UTC).isoformat(timespec="seconds")
-        step = Step(at, _digest(table), table.n_frames, edit, ids)
-        self._unsaved[number] = table
+        content = content_of(table)
+        step = Step(at, sha256(content).hexdigest(), table.n_frames, edit, ids)
         record = replace(
             self._record,
             history=history.followed_by(number),
             kept=tuple(dict.fromkeys([*self._record.kept, *before]))[-MOST_KEPT:],
             steps={**steps, number: step},
         )
-        return Change(record, table)
+        change = self._unsaved[number] = Change(record, table, content)
+        return change
 
     def undone(self) -> Change:
         """The history one step back; ParameterError where there is nothing to undo."""
@@ -183,12 +186,12 @@ class Journal:
     def write(
         self,
         change: Change,
-        save: Callable[[Segmentation], None],
+        save: Callable[[bytes], None],
         *,
         revision: int,
         name: str = "",
     ) -> None:
-        """Have a change on the disk, and then what ``save`` does with its table.
+        """Have a change on the disk, and then what ``save`` does with the content of its table.
 
         Where that raises, the change has not been made. From then on the table has this revision,
         and the edit is known by its name.
@@ -197,7 +200,7 @@ class Journal:
         record = pruned(replace(change.record, revision=revision, names=names))
         try:
             self._write(record)
-            save(change.table)
+            save(change.content)
         finally:
             if not self.folder.parent.is_symlink():
                 for place in (self.folder, self.folder.parent):  # empty where nothing was written
@@ -211,12 +214,12 @@ class Journal:
 
     def _write(self, record: Record) -> None:
         for number in self._unsaved.keys() & record.steps.keys():
-            table = self._unsaved[number]
-            write_file(self._path(number), json_table.dumps(table).encode())
+            write_file(self._path(number), self._unsaved[number].content)
         write_record(self.folder, record)
 
     def _moved_to(self, history: History[int]) -> Change:
-        return Change(replace(self._record, history=history), self.table(history.present))
+        table = self.table(history.present)
+        return Change(replace(self._record, history=history), table, content_of(table))
 
     def _ids_of_another(self, table: Segmentation, digest: str) -> Identities:
         """Who the segments of a table are that another program put in the present one's place."""
@@ -275,7 +278,3 @@ def _or_none(step: Callable[[], History[int]]) -> History[int] | None:
         return step()
     except ParameterError:
         return None
-
-
-def _digest(table: Segmentation) -> str:
-    return sha256(json_table.dumps(table).encode()).hexdigest()

@@ -48,20 +48,24 @@ class TableFile:
         self._stamp, self._digest = _stamp(self.path), _digest(self.path)
         return read_segments(self.path, format="json")
 
-    def write(self, segmentation: Segmentation) -> None:
-        """Save the table, on the disk; all of it, or nothing.
+    def write(self, content: bytes) -> None:
+        """Save a table, as `content_of` has it, on the disk; all of it, or nothing.
 
         ChangedOnDiskError where somebody else has changed the file, which stays as it is;
         WriteError where it cannot be written, or is a link to elsewhere.
         """
-        text = json_table.dumps(segmentation).encode()
         with atomic_write(self.path) as draft:
             with draft.open("wb") as file:
-                file.write(text)
+                file.write(content)
             if self.changed():
                 raise ChangedOnDiskError
             stamp = _stamp(draft)  # which stays with it under its name; later it may be another's
-        self._stamp, self._digest = stamp, sha256(text).digest()
+        self._stamp, self._digest = stamp, sha256(content).digest()
+
+
+def content_of(table: Segmentation) -> bytes:
+    """What a file holds of a table."""
+    return json_table.dumps(table).encode()
 
 
 def saved_table(

@@ -3,9 +3,10 @@
     python src/kineme/web/pages/make_edits.py
 
 writes ``tests/studio/edits.json``: tables, and after each of a chain of random edits the rows,
-who they are, and what people said of them. The pages show an edit before the server has
-answered (``src/studio/editing/foreseen``); their tests hold them to this file, and a test of the
-package holds the file to the package.
+who they are, what people said of them, and what an answer tells of the edit. The pages show an
+edit before the server has answered (``src/studio/editing/foreseen``), and make the table of its
+answer (``changes.ts``); their tests hold them to this file, and a test of the package holds the
+file to the package.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from kineme.studio.storage.identities import Identities
 from kineme.web.encoding import from_json, to_json
 from kineme.web.page_data import segments_message
 from kineme.web.requests import EditRequest
+from kineme.web.table_changes import table_change
 
 TARGET = Path(__file__).parent / "tests" / "studio" / "edits.json"
 CHAINS, LENGTH = 6, 24
@@ -41,7 +43,8 @@ def chains() -> list[dict[str, Any]]:
     Returns
     -------
     list of dict
-        ``after`` is null where an edit cannot be made.
+        ``after`` is null where an edit cannot be made; ``changes`` are what an answer tells of it,
+        and of its undoing.
     """
     return [_chain(random.Random(seed), seed) for seed in range(CHAINS)]  # noqa: S311
 
@@ -62,15 +65,23 @@ def _chain(chance: Chance, seed: int) -> dict[str, Any]:
         sent = json.dumps({"revision": 0, "edit": said}).encode()
         edit = from_json(sent, EditRequest).edit
         after: dict[str, Any] | None = None
+        changes: list[Any] = []
         try:
             made = edited(table, edit, None, None, None).table  # type: ignore[arg-type]
-            table, ids = made, ids.after(table, made, name)
+            before, (table, ids) = (table, ids), (made, ids.after(table, made, name))
             after = _told(table, ids)
             del after["annotation"]
+            changes = [_change(before, (table, ids)), _change((table, ids), before)]
         except ParameterError:
             pass
-        steps.append({"edit": said, "name": name, "after": after})
+        steps.append({"edit": said, "name": name, "after": after, "changes": changes})
     return {"start": start, "steps": steps}
+
+
+def _change(before: tuple[Segmentation, Identities], now: tuple[Segmentation, Identities]) -> Any:
+    """What a page is told of a table in place of all of it."""
+    ids = before[1].of(before[0]), now[1].of(now[0])
+    return json.loads(to_json(table_change(before[0], now[0], ids, revision=0)))
 
 
 def _told(table: Segmentation, ids: Identities) -> dict[str, Any]:

@@ -237,11 +237,50 @@ export interface Recording {
   warnings: string[];
 }
 
-/** The table after an edit, already on the disk as `saved`; `ids` as of a `Recording`. */
+/** Rows, by their numbers, that have this value in a column. */
+export interface Cells {
+  column: string;
+  value: string | number | null;
+  rows: number[];
+}
+
+/** Spans that are among others now, and those that are not any more. */
+export interface SpansChange {
+  added: [Level, number, number][];
+  removed: [Level, number, number][];
+}
+
+/**
+ * What is other in a table than at the revision `of`; see `kineme.web.table_changes`.
+ *
+ * `removed` are numbers of rows of that table, all others are those of this one: `at` of the
+ * rows in `added`, in `cells` of rows that have another value, and in `ids` with who they
+ * are. The rest is of the annotation; null: as it was.
+ */
+export interface TableChange {
+  of: number;
+  removed: number[];
+  at: number[];
+  added: Segment[];
+  cells: Cells[];
+  ids: [number, string][];
+  checked: SpansChange;
+  by_hand: SpansChange;
+  comments: [Level, number, string][] | null;
+  cluster_names: Record<number, string> | null;
+  corrections: number;
+}
+
+/**
+ * The table after an edit, already on the disk as `saved`; `ids` as of a `Recording`.
+ *
+ * Where there is a `change`, it is told in place of both.
+ */
 export interface Edited {
   revision: number;
-  segmentation: Segments;
+  segmentation: Segments | null;
   ids: string[];
+  change?: TableChange | null;
   can_undo: boolean;
   can_redo: boolean;
   saved: string;
@@ -251,8 +290,9 @@ export interface Edited {
 /** Why an edit was refused that was made on another table than the present one, and that. */
 export interface Conflict {
   revision: number;
-  segmentation: Segments;
+  segmentation: Segments | null;
   ids: string[];
+  change?: TableChange | null;
   can_undo: boolean;
   can_redo: boolean;
   saved: string;
@@ -625,12 +665,14 @@ export interface Together {
 /**
  * An edit of the table as it was at `revision`.
  *
- * `name` is the edit's own: one that is sent again, for want of an answer, is made once.
+ * `name` is the edit's own: one that is sent again, for want of an answer, is made once. With
+ * `brief` the answer need not have the whole table, but what is other than at `revision`.
  */
 export interface EditRequest {
   revision: number;
   edit: Edit;
   name?: string;
+  brief?: boolean;
 }
 
 /** A segmentation to look at, as `SegmentAgain` would make it. */

@@ -1,5 +1,5 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
-import type { Edit, Recording } from "../../src/messages";
+import type { Edit, Edited, Recording } from "../../src/messages";
 import type { Api } from "../../src/studio/server/api";
 import { Server } from "./server";
 import { row, starts } from "./tables";
@@ -38,6 +38,17 @@ function open(): Promise<InstanceType<typeof EditedRecording>> {
   });
 }
 
+/** The answer to an edit that named the second primitive, as of a table of that revision. */
+function renamedAt(of: number, value: string): Edited {
+  const none = { added: [], removed: [] };
+  const cells = [{ column: "label", value, rows: [2] }];
+  const rows = { removed: [], at: [], added: [], cells, ids: [] };
+  const annotation = { checked: none, by_hand: none, comments: null, cluster_names: null };
+  const change = { of, ...rows, ...annotation, corrections: 1 };
+  const rest = { can_undo: true, can_redo: false, saved: "take.segments.json", notes: [] };
+  return { revision: of + 1, segmentation: null, ids: [], change, ...rest };
+}
+
 const settled = () => new Promise((resolve) => setTimeout(resolve, 5));
 
 beforeEach(() => {
@@ -67,6 +78,25 @@ describe("while the server answers", () => {
     await settled();
     expect(server.got).toEqual([MOVE, SPLIT]);
     expect(edited.confirmed.value.revision).toBe(2);
+  });
+
+  it("the table is made of what the answer tells of it", async () => {
+    const edited = await open();
+    vi.spyOn(server, "edit").mockResolvedValueOnce(renamedAt(0, "hop"));
+    await edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
+    const { revision, segmentation, ids } = edited.confirmed.value;
+    expect(revision).toBe(1);
+    expect(segmentation.segments.map((each) => each.label)).toEqual(["", "", "hop", ""]);
+    expect(segmentation.annotation.corrections).toBe(1);
+    expect(ids).toEqual(server.now.ids);
+  });
+
+  it("what an answer tells of a table that is not ours is not taken over", async () => {
+    const edited = await open();
+    vi.spyOn(server, "edit").mockResolvedValueOnce(renamedAt(7, "hop"));
+    server.now = { ...server.now, revision: 9 };
+    await edited.edit(MOVE);
+    expect(edited.confirmed.value).toEqual(server.now);
   });
 
   it("a command is one of the table that the edits before it leave", async () => {

@@ -1,8 +1,9 @@
-/** What the page foresees is what the package makes: each edit of edits.json (make_edits.py). */
+/** What the page foresees, or makes of an answer, is what the package makes (make_edits.py). */
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, it } from "vitest";
-import type { Edit, Segment, Segments } from "../../src/messages";
+import type { Edit, Segment, Segments, TableChange } from "../../src/messages";
+import { changedBy } from "../../src/studio/editing/changes";
 import { foreseen } from "../../src/studio/editing/foreseen/foreseen";
 import {
   idsAfter,
@@ -22,7 +23,14 @@ interface Edits {
 }
 interface Chain {
   start: Said & Pick<Segments, "annotation">;
-  steps: { edit: Edit; name: string; after: Said | null }[];
+  steps: Step[];
+}
+interface Step {
+  edit: Edit;
+  name: string;
+  after: Said | null;
+  /** What an answer tells of it and of its undoing; null where that is the whole table. */
+  changes: (TableChange | null)[];
 }
 
 const FPS = 30;
@@ -60,6 +68,26 @@ it.each(chains.map((chain, i) => [i, chain] as const))(
       const { annotation } = now;
       expect(known, JSON.stringify(edit)).toEqual(knownOf({ ...after, annotation }));
       before = known;
+    }
+  },
+);
+
+it.each(chains.map((chain, i) => [i, chain] as const))(
+  "the tables of chain %i are made of what answers tell",
+  (_, { start, steps }) => {
+    let before = knownOf(start);
+    for (const { edit, after, changes } of steps) {
+      if (!after) continue;
+      const [change, undoing] = changes;
+      const { annotation } = foreseen(before.segmentation, edit)!;
+      let now = knownOf({ ...after, annotation });
+      if (change) {
+        const made = changedBy(change, before);
+        now = knownOf({ ...after, annotation: made.segmentation.annotation });
+        expect(made, JSON.stringify(edit)).toEqual(now);
+      }
+      if (undoing) expect(changedBy(undoing, now), JSON.stringify(edit)).toEqual(before);
+      before = now;
     }
   },
 );

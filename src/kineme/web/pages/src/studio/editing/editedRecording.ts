@@ -12,8 +12,9 @@
  */
 
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
-import type { Edit, Edited, Recording } from "../../messages";
+import type { Edit, Edited, Recording, Segments } from "../../messages";
 import { type Api, Refused, Unreachable } from "../server/api";
+import { changedBy } from "./changes";
 import { madeOn, readdressed, type IdentifiedTable } from "./identities";
 import { Outlook } from "./outlook";
 import { replacesTable, undoneBy } from "./story";
@@ -219,21 +220,18 @@ export class EditedRecording {
     const edit = before.finding ? first.edit : readdressed(first.edit, on, tableOf(before));
     try {
       const revision = edit ? (base ?? before.revision) : NO_REVISION;
-      const edited = await this.around.api.edit(this.id, {
-        revision,
-        edit: edit ?? first.edit,
-        name,
-      });
+      const sent = { revision, edit: edit ?? first.edit, name, brief: true };
+      const edited = await this.around.api.edit(this.id, sent);
+      const now = await this.after(edited);
       const made = this.whenMade.get(name);
       this.whenMade.delete(name);
       batch(() => {
-        const now = { ...this.confirmed.peek(), ...edited, finding: false };
         this.outlook.confirm(first, this.confirmed.peek(), now);
         this.confirmed.value = now;
         this.advance();
         made?.();
       });
-      this.report(first.edit, edited);
+      this.report(first.edit, now.segmentation, edited.notes);
       return true;
     } catch (error) {
       if (!(error instanceof Refused) || error.status === 403) this.around.lost();
@@ -243,6 +241,17 @@ export class EditedRecording {
       else this.hold(error.message);
       return false;
     }
+  }
+
+  /** The recording once an edit is made; asked for where the answer is of another table than ours. */
+  private async after({ change, ...edited }: Edited): Promise<Recording> {
+    const before = this.confirmed.peek();
+    const all = edited.segmentation && { segmentation: edited.segmentation, ids: edited.ids };
+    const table = change?.of === before.revision ? changedBy(change, tableOf(before)) : all;
+    if (!table) return this.around.api.recording(this.id);
+    const { revision, can_undo, can_redo, saved } = edited;
+    const now = { segmentation: table.segmentation, ids: [...table.ids], finding: false };
+    return { ...before, ...now, revision, can_undo, can_redo, saved };
   }
 
   private advance(): void {
@@ -306,7 +315,7 @@ export class EditedRecording {
     }
   }
 
-  private report(edit: Edit, { segmentation, notes }: Edited): void {
+  private report(edit: Edit, segmentation: Segments, notes: string[]): void {
     const undo = replacesTable(edit) ? (): void => this.undo() : undefined;
     const found = edit.kind === "segment" ? [foundIn(segmentation)] : [];
     const text = [...found, ...notes.filter((note) => !found.length || isLoss(note))].join(" ");

@@ -63,7 +63,7 @@ function made(draft: Draft, edit: ByHand): Draft {
 }
 
 /** The message of a table, with what follows from its rows and its annotation. */
-function tableOf(before: Segments, draft: Draft): Segments {
+export function tableOf(before: Segments, draft: Draft): Segments {
   const segments = [...allRows(draft)];
   const [checked, byHand] = [markedIn(draft, "checked"), markedIn(draft, "by_hand")];
   const among = (keys: ReadonlySet<string>): number[] =>

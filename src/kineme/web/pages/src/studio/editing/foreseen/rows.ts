@@ -30,14 +30,15 @@ export function allRows({ activity, primitive }: Draft): Rows {
 /** The same recording with these rows; seconds and parents follow from their frames. */
 export function withRows(draft: Draft, activities: Rows, primitives: Rows): Draft {
   const derived = (row: Segment): Segment => {
+    const [start_s, stop_s] = [row.start_frame / draft.fps, row.stop_frame / draft.fps];
     const activity = Math.max(indexAt(activities, row.start_frame), 0);
-    return {
-      ...row,
-      start_s: row.start_frame / draft.fps,
-      stop_s: row.stop_frame / draft.fps,
-      activity,
-      action: activities[activity]?.cluster ?? -1,
-    };
+    const action = activities[activity]?.cluster ?? -1;
+    const same =
+      row.start_s === start_s &&
+      row.stop_s === stop_s &&
+      row.activity === activity &&
+      row.action === action;
+    return same ? row : { ...row, start_s, stop_s, activity, action };
   };
   return { ...draft, activity: activities.map(derived), primitive: primitives.map(derived) };
 }
