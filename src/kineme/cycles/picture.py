@@ -116,34 +116,6 @@ def plot_sides(
     return axes
 
 
-def _check(cycles: Cycles, channel: str) -> None:
-    if channel not in cycles.channels:
-        raise ParameterError(f"no channel {channel!r}; there are {', '.join(cycles.channels)}")
-
-
-def _add_mean(axes: Axes, curves: Floats, color: str, label: str, style: str = "-") -> None:
-    """Mean of curves, with their deviation; nothing where there are none."""
-    if len(curves) == 0:
-        return
-    percent, mean = np.linspace(0, 100, curves.shape[1]), curves.mean(axis=0)
-    axes.plot(percent, mean, style, color=color, label=label)
-    if len(curves) > 1:
-        sd = curves.std(axis=0, ddof=1)
-        axes.fill_between(percent, mean - sd, mean + sd, color=color, alpha=0.2, linewidth=0)
-
-
-def _name_axes(axes: Axes, cycles: Cycles, channel: str, name: str) -> None:
-    unit = cycles.units[cycles.channels.index(channel)]
-    axes.set_xlabel("cycle (%)")
-    axes.set_ylabel(f"{name} ({unit})" if unit else name)
-    axes.set_xlim(0, 100)
-    if unit == "%":
-        axes.set_ylim(-5, 105)
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(frameon=False)
-    return axes
-
-
 def plot_sessions(
     curves: Columns, channel: str, group: str, *, unit: str = "", ax: Axes | None = None
 ) -> Axes:
@@ -192,3 +164,30 @@ def plot_sessions(
     axes.set_ylabel(f"{channel} ({unit})" if unit else channel)
     axes.set_xlim(0, 100)
     return axes
+
+
+def _check(cycles: Cycles, channel: str) -> None:
+    if channel not in cycles.channels:
+        raise ParameterError(f"no channel {channel!r}; there are {', '.join(cycles.channels)}")
+
+
+def _add_mean(axes: Axes, curves: Floats, color: str, label: str, style: str = "-") -> None:
+    """Mean of curves, with their deviation; nothing where there are none."""
+    if len(curves) == 0:
+        return
+    percent, mean = np.linspace(0, 100, curves.shape[1]), curves.mean(axis=0)
+    axes.plot(percent, mean, style, color=color, label=label)
+    if len(curves) > 1:
+        sd = curves.std(axis=0, ddof=1)
+        axes.fill_between(percent, mean - sd, mean + sd, color=color, alpha=0.2, linewidth=0)
+
+
+def _name_axes(axes: Axes, cycles: Cycles, channel: str, name: str) -> None:
+    unit = cycles.units[cycles.channels.index(channel)]
+    axes.set_xlabel("cycle (%)")
+    axes.set_ylabel(f"{name} ({unit})" if unit else name)
+    axes.set_xlim(0, 100)
+    if unit == "%":
+        axes.set_ylim(-5, 105)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(frameon=False)
