@@ -185,6 +185,13 @@ def checks(key: str) -> Check:
     return check
 
 
+def cancels(screen: Screen) -> None:
+    for key in (",", "Escape"):
+        screen.page.keyboard.press(key)
+    screen.page.wait_for_timeout(800)
+    assert screen.state["other"] is None  # the preview that was to come
+
+
 def opens_the_next(screen: Screen) -> None:
     name = screen.state["name"]
     state(screen, f"k.name !== '{name}' && k.hasMotion", "PageDown")
@@ -235,5 +242,6 @@ CHECKS: dict[str, Check] = {
     "T": shows_a_dialog("t"),
     "C": shows_a_dialog("c"),
     "E": shows_a_dialog("e"),
+    "Escape": cancels,
     "?": shows_a_dialog("?"),
 }

@@ -6,7 +6,9 @@ import gc
 import queue
 import shutil
 import threading
+import time
 import weakref
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -20,10 +22,13 @@ from kineme.studio.folder import Folder
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.reading import RecordingCache
+from kineme.studio.running import SHARES, Run
 from kineme.studio.storage.identities import Identities
 from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
 from kineme.web.table_changes import table_change
+
+COST = kineme.PRESETS["kineme"].segment_cost
 
 
 def held_back(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
@@ -224,3 +229,89 @@ def test_a_brief_answer_is_brief_whatever_the_length(tmp_path):
         (lambda: editing.check(marked, "activity", [510], checked=True), 500),
     ]:
         assert len(to_json(table_change(marked, edit(), (ids, ids), revision=1))) < most
+
+
+def held_at(monkeypatch: pytest.MonkeyPatch, name: str) -> tuple[threading.Event, threading.Event]:
+    """Segmentations wait at the end of a stage; the events say that one has come, and may go on."""
+    there, wanted, stage = threading.Event(), threading.Event(), Run.stage
+
+    def waiting(run: Run, following: str) -> None:
+        if run.progress().stage == name:
+            there.set()
+            wanted.wait(60)
+        stage(run, following)
+
+    monkeypatch.setattr(Run, "stage", waiting)
+    return there, wanted
+
+
+def test_a_first_segmentation_that_is_cancelled_leaves_a_table_to_work_on(studio, monkeypatch):
+    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
+    there, wanted = held_at(monkeypatch, "views")
+    one = f"/api/recordings/{studio.id}"
+    assert studio.get(f"{one}/progress").json() == {"stage": "", "share": None}
+    assert studio.get(one).json()["finding"]
+    assert there.wait(60)
+    progress = studio.get(f"{one}/progress").json()
+    assert progress["stage"] == "views"
+    assert 0 < progress["share"] < 0.2
+    assert studio.client.post(f"{one}/cancel").status_code == 204
+    wanted.set()
+    left = studio.recording()
+    assert [row["kind"] for row in left["segmentation"]["segments"]] == ["transition"]
+    assert "not segmented: it was cancelled" in left["warnings"]
+    assert studio.get(f"{one}/progress").json()["stage"] == ""
+    asked = {"preset": "kineme", "parameters": {}, "keep": True}
+    preview = studio.client.post(f"{one}/preview", json=asked).json()
+    made = studio.done(left["revision"], "segment", preset="kineme", parameters={})
+    assert made["segmentation"]["segments"] == preview["segmentation"]["segments"]
+    assert len(made["segmentation"]["segments"]) > 1
+
+
+def test_a_segmentation_that_is_cancelled_leaves_what_stood(studio, monkeypatch):
+    before = studio.recording()
+    there, wanted = held_at(monkeypatch, "features")
+    again = {"preset": "kineme", "parameters": {"segment_cost": 0.9 * COST}}
+    with ThreadPoolExecutor() as pool:
+        answer = pool.submit(studio.edit, before["revision"], "segment", **again)
+        assert there.wait(60)
+        studio.client.post(f"/api/recordings/{studio.id}/cancel")
+        wanted.set()
+        refused = answer.result()
+    assert (refused.status_code, refused.json()["error"]) == (400, "it was cancelled")
+    assert studio.recording()["segmentation"] == before["segmentation"]
+    studio.done(before["revision"], "segment", **again)
+
+
+def test_a_newer_preview_ends_the_one_before(studio, monkeypatch):
+    studio.recording()
+    there, wanted = held_at(monkeypatch, "features")
+    address = f"/api/recordings/{studio.id}/preview"
+    asked = {"preset": "kineme", "parameters": {"segment_cost": 0.9 * COST}, "keep": True}
+    with ThreadPoolExecutor() as pool:
+        first = pool.submit(studio.client.post, address, json=asked)
+        assert there.wait(60)
+        newer = {**asked, "parameters": {"segment_cost": 0.8 * COST}}
+        second = pool.submit(studio.client.post, address, json=newer)
+        time.sleep(0.5)
+        wanted.set()
+        assert (first.result().status_code, second.result().status_code) == (400, 200)
+
+
+def test_how_far_a_segmentation_is_follows_from_its_stages_and_its_pace():
+    seconds = 0.0
+    run = Run("kineme", clock=lambda: seconds)
+    assert run.progress().stage == ""
+    run.stage("features")
+    assert run.progress().share == 0
+    seconds = 4.0
+    run.stage("views")
+    assert run.progress().share == pytest.approx(0.08)
+    seconds = 5.0
+    assert run.progress().share == pytest.approx(0.1)
+    seconds = 50.0
+    assert run.progress().share == pytest.approx(0.13)  # the stage takes longer than others
+    assert sum(SHARES["kineme"].values()) == pytest.approx(1)
+    other = Run("of another package")
+    other.stage("thinking")
+    assert (other.progress().stage, other.progress().share) == ("thinking", None)

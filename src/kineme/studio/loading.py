@@ -19,6 +19,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind
 from kineme.studio.choices import check_offered
 from kineme.studio.reading import RecordingCache, stamp_of
+from kineme.studio.running import Run, Runs
 
 if TYPE_CHECKING:
     from kineme.recordings import Signals
@@ -51,6 +52,8 @@ class LoadedRecording:
         self._page_data: PageData | None = None
         self._curves: Curves | None = None
         self._cycle_curves: CycleCurves | None = None
+        self._found: tuple[tuple[object, ...], Segmentation] | None = None
+        self.runs = Runs()
 
     @property
     def recording(self) -> Motion | Signals:
@@ -91,7 +94,7 @@ class LoadedRecording:
     def forget_pictures(self) -> None:
         """Let go of what pages draw, until one asks again."""
         with self._lock:
-            self._page_data = self._curves = self._cycle_curves = None
+            self._page_data = self._curves = self._cycle_curves = self._found = None
 
     def curves(self) -> Curves:
         """What is drawn over time."""
@@ -125,13 +128,32 @@ class LoadedRecording:
         preset: str = DEFAULT,
         parameters: Mapping[str, float] | None = None,
         detail: float = DEFAULT_DETAIL,
+        run: Run | None = None,
     ) -> Segmentation:
-        """The segments by a preset, with some of the constants it offers changed."""
+        """The segments by a preset, with some of the constants it offers changed.
+
+        Those found last are kept: what was looked at is often taken, or looked at in another
+        detail. CancelledError where ``run`` was cancelled, or all of them (`runs`).
+        """
         from kineme.segmentation.segmenter import segment
 
-        found, changed = self.recording, dict[str, Any](parameters or {})
-        check_offered(preset, changed, signals=not isinstance(found, Motion))
-        segments = segment(found, preset=preset, effectors=self.effectors, **changed)
+        changed = dict[str, Any](parameters or {})
+        check_offered(preset, changed, signals=not self.is_motion)
+        key = preset, *sorted(changed.items())
+        former = self._found
+        if former is not None and former[0] == key and not self.changed():
+            segments = former[1]
+        else:
+            found = self.recording
+            with self.runs.one(run or Run(preset)) as present:
+                segments = segment(
+                    found,
+                    preset=preset,
+                    effectors=self.effectors,
+                    progress=present.stage,
+                    **changed,
+                )
+            self._found = key, segments
         return segments if detail == DEFAULT_DETAIL else segments.level(detail)
 
     def first_table(self) -> tuple[Segmentation, list[str]]:

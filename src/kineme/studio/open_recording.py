@@ -22,6 +22,7 @@ from pathlib import Path
 from msgspec import UNSET, structs
 
 from kineme.errors import KinemeError, ParameterError
+from kineme.methods.presets import DEFAULT
 from kineme.segments import editing
 from kineme.segments.editing.carrying import names_of
 from kineme.segments.hierarchy import DEFAULT_DETAIL
@@ -29,6 +30,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.loading import LoadedRecording, digest_in
 from kineme.studio.reading import RecordingCache
+from kineme.studio.running import Run
 from kineme.studio.storage.identities import Identities
 from kineme.studio.storage.journal import Change, Journal
 from kineme.studio.storage.sidecars import (
@@ -77,6 +79,7 @@ class OpenRecording:
         self._lock = threading.RLock()
         self._file, table, self._notes = self._saved_table()
         self._first: FirstSegments | None = None  # while they are being found
+        self._previewed = Run(DEFAULT)  # the last of those that were asked for
         if table is None and initial is not None and self.loaded.fits(initial):
             table = initial
         if table is None:
@@ -213,11 +216,16 @@ class OpenRecording:
             return True
 
     def preview(self, request: PreviewRequest) -> Preview:
-        """What segmenting again would make of the table, which stays as it is."""
+        """What segmenting again would make of the table, which stays as it is.
+
+        CancelledError where it is not wanted any more, or another one is.
+        """
         from kineme.web.page_data import segments_message
 
         detail = DEFAULT_DETAIL if request.detail is UNSET else request.detail
-        found = self.loaded.segment(request.preset, request.parameters, detail)
+        former, self._previewed = self._previewed, Run(request.preset)
+        former.cancel()
+        found = self.loaded.segment(request.preset, request.parameters, detail, self._previewed)
         result = editing.carried(self.table, found)
         lost = [f"{result.corrections} corrections and {result.names} names"]
         return Preview(

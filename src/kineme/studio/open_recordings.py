@@ -23,6 +23,7 @@ from kineme.studio.loading import one_segment
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.overview import brief_of, saved_brief
 from kineme.studio.reading import Extent, ReadingOptions, RecordingCache
+from kineme.studio.running import NOTHING, READING
 from kineme.studio.storage.sidecars import (
     OPTIONS,
     keep_options,
@@ -37,6 +38,7 @@ from kineme.web.messages import (
     FolderRecording,
     FolderTables,
     MatrixHead,
+    Progress,
     Recording,
 )
 from kineme.web.requests import EditRequest
@@ -258,6 +260,20 @@ class OpenRecordings:
     def extent(self, path: Path) -> Extent:
         """How long the recording in a file is, as `RecordingCache.extent`."""
         return self._cache.extent(path)
+
+    def progress(self, name: str) -> Progress:
+        """What is being computed for a recording, which nobody opens for it."""
+        opened = self._open.get(name)
+        if opened is not None:
+            return opened.loaded.runs.progress()
+        instead = self._sketches.get(name)
+        return READING if instead is not None and instead.reading else NOTHING
+
+    def cancel(self, name: str) -> None:
+        """Have what is being computed for a recording end."""
+        opened = self._open.get(name)
+        if opened is not None:
+            opened.loaded.runs.cancel()
 
     def people(self, name: str) -> list[str]:
         """The people in a recording of whom one was chosen."""

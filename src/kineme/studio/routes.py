@@ -59,6 +59,7 @@ from kineme.web.messages import (
     Loops,
     PlayedLoop,
     Preview,
+    Progress,
     Recording,
     ScoreMeaning,
     State,
@@ -105,6 +106,8 @@ class Api:
             route(f"{one}/cycles/{{cluster}}", self.cycle_curves),
             route(f"{one}/edits", self.edit, EditRequest),
             route(f"{one}/preview", self.preview, PreviewRequest),
+            route(f"{one}/progress", self.progress),
+            Route(f"{one}/cancel", self.cancel, methods=["POST"]),
             route(f"{one}/versions", self.versions),
             route(f"{one}/versions/{{number}}", self.version),
             route(f"{one}/compare", self.compare, CompareRequest),
@@ -242,6 +245,13 @@ class Api:
 
     def preview(self, request: Request, sent: PreviewRequest) -> Preview:
         return self._opened(request).preview(sent)
+
+    def progress(self, request: Request) -> Progress:
+        return self._recordings.progress(request.path_params["id"])
+
+    async def cancel(self, request: Request) -> Response:
+        self._recordings.cancel(request.path_params["id"])
+        return Response(status_code=204)
 
     def versions(self, request: Request) -> Versions:
         return Versions(versions=self._opened(request).versions())

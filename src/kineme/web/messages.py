@@ -394,6 +394,16 @@ class FolderTables(Struct, frozen=True, kw_only=True):
     recordings: list[FolderRecording]
 
 
+class Progress(Struct, frozen=True, kw_only=True):
+    """What is being computed for a recording, and how much of that is done, 0 to 1.
+
+    ``stage`` is empty where nothing is, ``share`` null where nobody knows.
+    """
+
+    stage: str
+    share: float | None
+
+
 class Changed(Struct, frozen=True, kw_only=True):
     """Sent to every page when a recording's table changed or a file came."""
 

@@ -46,7 +46,7 @@ def table_change(
     >>> ids = [str(number) for number in range(len(table))]
     >>> change = table_change(table, moved, (ids, ids), revision=4)
     >>> change.removed, [row.stop_frame for row in change.added]
-    ([0, 1, 13, 14], [330, 380, 330, 380])
+    ([0, 1, 17, 18], [330, 380, 330, 380])
     """
     if _head(before) != _head(now):
         return None

@@ -417,6 +417,16 @@ export interface FolderTables {
   recordings: FolderRecording[];
 }
 
+/**
+ * What is being computed for a recording, and how much of that is done, 0 to 1.
+ *
+ * `stage` is empty where nothing is, `share` null where nobody knows.
+ */
+export interface Progress {
+  stage: string;
+  share: number | null;
+}
+
 /** Sent to every page when a recording's table changed or a file came. */
 export interface Changed {
   recording: string;

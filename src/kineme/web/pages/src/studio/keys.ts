@@ -24,6 +24,7 @@ export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
   ["T", "Labels from a knowledge base"],
   ["C", "Compare with another result"],
   ["E", "Export"],
+  ["Escape", "Cancel the segmentation that is running"],
   ["?", "This help"],
 ];
 
@@ -62,6 +63,7 @@ export function commandOf(
     e: () => front.show("export"),
     "?": () => front.show("help"),
   };
+  if (session.segmenting.value) commands["Escape"] = () => session.cancel();
   return commands[key];
 }
 

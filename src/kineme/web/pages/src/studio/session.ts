@@ -61,6 +61,13 @@ export class Session {
   /** Edits of all recordings that the server has not confirmed. */
   readonly unsent = computed(() => this.recordings.value.flatMap((edited) => edited.unsent()));
 
+  /** Whether the server is finding segments of the recording in front. */
+  readonly segmenting = computed(() => {
+    const { edited } = this;
+    const finding = edited.value?.busy.value || edited.value?.confirmed.value.finding;
+    return Boolean(finding) || this.beside.draft.value !== null;
+  });
+
   readonly beside: Beside;
   readonly people: People;
   private retrying = 0;
@@ -167,6 +174,12 @@ export class Session {
     const index = this.store.opened.value.findIndex((each) => each.recording.value.id === id);
     if (index >= 0) this.store.close(index);
     this.forgetClosed();
+  }
+
+  /** Has the server leave what it is finding; what is there stays. */
+  cancel(): void {
+    this.beside.cancel();
+    this.edited.value?.cancel();
   }
 
   /** Nobody answers, or not to us: ask again every second until that has changed. */

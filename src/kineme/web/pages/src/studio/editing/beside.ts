@@ -42,6 +42,9 @@ export class Beside {
       : (this.compared.value.get(this.around.store.others.value[0]!) ?? null),
   );
 
+  /** What a preview is being found for. */
+  readonly draft = signal<Choice | null>(null);
+
   private readonly proposed = signal<Proposal | null>(null);
   private readonly compared = signal(new WeakMap<OtherResult, Comparison>());
   private asked = 0;
@@ -53,6 +56,7 @@ export class Beside {
     const edited = this.around.edited.value;
     if (!edited) return;
     const turn = ++this.asked;
+    this.draft.value = choice;
     const { revision } = edited.confirmed.peek();
     try {
       const { preset, values: parameters, detail } = choice;
@@ -65,7 +69,15 @@ export class Beside {
       this.around.bulletin.solved("preview");
     } catch (error) {
       if (turn === this.asked) this.around.bulletin.problem(explain(error), "preview");
+    } finally {
+      if (turn === this.asked) this.draft.value = null;
     }
+  }
+
+  /** The preview that is being found is not wanted any more; what was shown before stays. */
+  cancel(): void {
+    this.asked += 1;
+    this.draft.value = null;
   }
 
   /** Makes the shown segmentation the table. */
@@ -84,7 +96,7 @@ export class Beside {
   }
 
   discard(): void {
-    this.asked += 1;
+    this.cancel();
     if (this.proposal.value) this.around.store.others.value = [];
     this.proposed.value = null;
   }

@@ -55,6 +55,8 @@ export class EditedRecording {
   private readonly pending = computed(() => this.waiting.value.slice(this.ofAnother.value));
   private sending = false;
   private announced = 0;
+  /** The name of an edit that is not wanted any more. */
+  private cancelled = "";
   private readonly whenMade = new Map<string, () => void>();
   private readonly commands: (() => void)[] = [];
   private readonly stopKeeping: () => void;
@@ -115,6 +117,13 @@ export class EditedRecording {
   settled(): Promise<void> {
     if (!this.sending) return Promise.resolve();
     return new Promise((resolve) => this.commands.push(resolve));
+  }
+
+  /** What the server computes is not wanted any more, nor is the edit that waits for it. */
+  cancel(): void {
+    const first = this.waiting.peek()[0];
+    if (first && replacesTable(first.edit)) this.cancelled = first.name;
+    void this.around.api.cancel(this.id).catch(() => undefined); // then it is made
   }
 
   /** Takes back the last edit. */
@@ -268,7 +277,8 @@ export class EditedRecording {
     const isStep = first.edit.kind === "undo" || first.edit.kind === "redo";
     batch(() => {
       this.waiting.value = isStep ? rest : rest.filter((_, i) => i !== back);
-      if (isStep || back >= 0 || first.hopeless) this.around.tell(reason);
+      const isDone = isStep || back >= 0 || first.hopeless || first.name === this.cancelled;
+      if (isDone) this.around.tell(reason);
       else this.refused.value = [...this.refused.peek(), { ...first, refused: reason }];
     });
     this.whenMade.delete(first.name);

@@ -70,8 +70,9 @@ export function counted(n: number, one: string, many = `${one}s`): string {
   return `${n} ${n === 1 ? one : many}`;
 }
 
-/** What a segmentation found, and in what time. */
+/** What a segmentation found, and in what time; that it found nothing where it was cancelled. */
 export function foundIn(table: Segments): string {
+  if (!Object.keys(table.timings).length) return "Not segmented.";
   const count = (level: Level): number =>
     table.segments.filter((row) => row.level === level && row.kind !== "transition").length;
   const seconds = Object.values(table.timings).reduce((sum, each) => sum + each, 0);

@@ -12,6 +12,7 @@ import { DetailSlider } from "../../layout/DetailSlider";
 import type { Choice } from "../editing/beside";
 import { ParameterSlider } from "./ParameterSlider";
 import { Proposed } from "./Proposed";
+import { RunProgress } from "./RunProgress";
 
 /** Whether the constants are shown, beside preset and detail: of all recordings. */
 const advanced = signal(false);
@@ -46,12 +47,12 @@ interface Props {
 
 function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
   const { session } = useStudio();
-  const draft = useSignal<Choice | null>(null);
+  const { draft } = session.beside;
   const keep = useSignal(true);
   const timer = useRef(0);
   const { revision, segmentation: table } = edited.confirmed.value;
   const proposal = session.beside.proposal.value;
-  const busy = edited.busy.value || draft.value !== null;
+  const busy = session.segmenting.value;
   const used = usedBy(table, presets, fallback);
   const { preset, values, detail } = draft.value ?? proposal?.choice ?? used;
   const choice = presets.find((each) => each.name === preset)!;
@@ -61,14 +62,18 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
       draft.value = next;
       window.clearTimeout(timer.current);
       timer.current = window.setTimeout(() => {
-        void session.beside.propose(next, keep.value).then(() => {
-          if (draft.value === next) draft.value = null;
-        });
+        if (draft.peek() === next) void session.beside.propose(next, keep.value); // else cancelled
       }, pause);
     },
     [session, draft, keep],
   );
-  useEffect(() => () => window.clearTimeout(timer.current), []);
+  useEffect(
+    () => () => {
+      window.clearTimeout(timer.current);
+      session.beside.cancel();
+    },
+    [session],
+  );
   useEffect(() => {
     if (proposal && proposal.revision !== revision) again(draft.peek() ?? proposal.choice, 0); // of another table
   }, [proposal, revision, again, draft]);
@@ -100,6 +105,7 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
           Reset
         </button>
       </div>
+      {busy && <RunProgress id={edited.id} />}
       <div class="preset-choice">
         <select
           aria-label="Preset"

@@ -34,6 +34,7 @@ import type {
   Preview,
   ReadingRequest,
   PreviewRequest,
+  Progress,
   Recording,
   State,
   TablesChanged,
@@ -117,6 +118,16 @@ export class Api {
 
   preview(id: string, request: PreviewRequest): Promise<Preview> {
     return this.post("/api/recordings/{id}/preview", { id }, request);
+  }
+
+  /** What the server computes for a recording. */
+  progress(id: string): Promise<Progress> {
+    return this.get("/api/recordings/{id}/progress", { id });
+  }
+
+  /** What the server computes for a recording is not wanted any more. */
+  async cancel(id: string): Promise<void> {
+    await this.ask(addressOf("/api/recordings/{id}/cancel", { id }), {});
   }
 
   /** The tables that were replaced. */

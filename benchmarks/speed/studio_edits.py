@@ -1,0 +1,161 @@
+"""What an edit of an hour takes in the studio: seconds of the server and the page, bytes.
+
+    python -m benchmarks studio_edits [--segments 5000 20000] [--record]
+
+The bundled recording, repeated to an hour, has a table of so many primitives, as if of a work-out.
+Edits of each kind are asked for over HTTP, by the whole table and, as the page does, in brief.
+Then keys are pressed in Chromium, which draws with the processor: until an edit is seen, until it
+is on the disk, what the page computes for it, and what it is sent meanwhile. What else the machine
+does falls on all of them but the processor time.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+import kineme
+from _browser import FLAGS, chromium
+from _figures import add_option, record
+from _measure import verdict
+from _options import command_line, few
+from kineme.datasets import bundled_recording
+from report_in_browser import DRAWN, SIZE, wait
+from studio import Studio, middle, start, timed
+from studio_in_browser import repeated
+
+MINUTES, SEGMENTS, ROUNDS = few((60, (5000, 20000), 7), (1, (100,), 1))
+MOST_S, MOST_BYTES = 0.1, 20_000
+EACH = 20
+"""Primitives of an activity."""
+KEYS = {"a border": "Alt+ArrowRight", "a split": "s", "a check": "k", "an undo": "Control+z"}
+
+
+def main() -> None:
+    parser = command_line(__doc__)
+    parser.add_argument("--segments", type=int, nargs="+", default=SEGMENTS)
+    add_option(parser)
+    lengths = parser.parse_args().segments
+    print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
+    n_frames = MINUTES * 60 * 60
+    with tempfile.TemporaryDirectory() as name, chromium(*FLAGS) as browser:
+        path = Path(name) / "hour.bvh"
+        path.write_text(repeated(bundled_recording().read_text(), n_frames))
+        for n in lengths:
+            print(f"{MINUTES} minutes, {n} primitives")
+            kineme.write_segments(table_of(n, n_frames), path.with_suffix(".segments.json"))
+            studio = start(Path(name))
+            asked(studio, n, n_frames)
+            pressed(browser.new_page(viewport=SIZE), studio, n)
+            studio.end()
+
+
+def table_of(n: int, n_frames: int) -> kineme.Segmentation:
+    """Activities of as many primitives each, in eight clusters, half of them checked."""
+    random = np.random.default_rng(0)
+    edges = np.linspace(0, n_frames, n + 1).astype(int)
+    wide = np.append(edges[:-1:EACH], n_frames)
+    levels = ["activity"] * (len(wide) - 1) + ["primitive"] * n
+    columns = {
+        "level": levels,
+        "kind": levels,
+        "start_frame": [*wide[:-1], *edges[:-1]],
+        "stop_frame": [*wide[1:], *edges[1:]],
+        "cluster": [*np.arange(len(wide) - 1) % 8, *np.arange(n) // EACH % 8],
+        "confidence": random.uniform(0.3, 1, len(levels)),
+        "border_confidence": random.uniform(0.3, 1, len(levels)),
+    }
+    table = kineme.Segmentation.from_columns(columns, n_frames=n_frames, fps=60.0)
+    return kineme.segments.editing.check(table, "primitive", edges[1:-1:2].tolist(), checked=True)
+
+
+def asked(studio: Studio, n: int, n_frames: int) -> None:
+    """Edits over HTTP, each kind some times."""
+    one = f"/api/recordings/{json.loads(studio.ask('/api/state'))['recordings'][0]['id']}"
+    while (message := json.loads(studio.ask(one))).get("finding"):
+        pass
+    revision = message["revision"]
+    for brief in (False, True):
+        for kind, edits in edits_of(n, n_frames).items():
+            rows, sizes = [], []
+            for edit in edits:
+                sent = {"revision": revision, "edit": edit, "brief": brief}
+                took, answer = timed(studio, f"{one}/edits", sent)
+                revision = json.loads(answer)["revision"]
+                rows.append(took)
+                sizes.append(len(answer))
+            took, size = middle(rows[1:] or rows), median(sizes)
+            kept = f"; {verdict(size, MOST_BYTES)}" if brief else ""
+            print(f"  {kind}, {'brief' if brief else 'whole'}: {took}, {size:.0f} bytes{kept}")
+            if brief:
+                record(f"studio_edits.{n}.{kind}.processor", round(took.processor, 3), unit="s")
+                record(f"studio_edits.{n}.{kind}.bytes", size)
+
+
+def edits_of(n: int, n_frames: int) -> dict[str, Iterator[dict[str, Any]]]:
+    """By kind; each is of another segment, and can be made once those of the kind before are."""
+    edges = np.linspace(0, n_frames, n + 1).astype(int).tolist()
+    level = {"level": "primitive"}
+    places = [5 + 3 * i for i in range(ROUNDS + 1)]
+    return {
+        "border": ({"kind": "move_border", **level, "frame": edges[i], "to": edges[i] + 1}
+                   for i in places),
+        "undo": ({"kind": "undo"} for _ in places),
+        "name": ({"kind": "name_segment", **level, "frame": edges[i], "label": f"hop {i}"}
+                 for i in places),
+        "check": ({"kind": "check", **level, "frames": [edges[i]], "checked": i % 2 == 0}
+                  for i in places),
+        "cluster": ({"kind": "name_cluster", "cluster": i % 4, "label": f"walk {i}"}
+                    for i in places),
+    }  # fmt: skip
+
+
+def pressed(tab: Any, studio: Studio, n: int) -> None:
+    """Edits as a person makes them."""
+    line = tab.context.new_cdp_session(tab)
+    line.send("Network.enable")
+    line.send("Performance.enable")
+    received: list[int] = []
+    line.on("Network.dataReceived", lambda event: received.append(event["dataLength"]))
+    tab.goto(f"{studio.base}/?token={studio.token}")
+    wait(tab, DRAWN)
+    tab.keyboard.press("End")
+    tab.wait_for_timeout(few(3000, 500))
+    for what, key in KEYS.items():
+        rows = []
+        for _ in range(ROUNDS + 1):
+            if what != "an undo":
+                tab.keyboard.press("ArrowLeft")
+            tab.wait_for_timeout(300)
+            received.clear()
+            begun, busy = perf_counter(), computed(line)
+            tab.keyboard.press(key)
+            wait(tab, "window.kineme.unsent.length === 0")
+            saved = perf_counter() - begun
+            tab.wait_for_timeout(500)
+            rows.append((saved, computed(line) - busy, float(sum(received))))
+        saved, busy, size = (median(column) for column in zip(*rows[1:], strict=True))
+        print(
+            f"  {what} in the page: {saved:.3f} s until it is saved, {verdict(saved, MOST_S)}; "
+            f"the page computes {busy:.3f} s, is sent {size:.0f} bytes"
+        )
+        record(f"studio_edits.{n}.{what.split()[1]}.page", round(busy, 3), unit="s")
+        record(f"studio_edits.{n}.{what.split()[1]}.saved", round(saved, 3), unit="s")
+
+
+def computed(line: Any) -> float:
+    """Seconds that the page has computed."""
+    metrics = line.send("Performance.getMetrics")["metrics"]
+    return next(each["value"] for each in metrics if each["name"] == "TaskDuration")
+
+
+if __name__ == "__main__":
+    main()

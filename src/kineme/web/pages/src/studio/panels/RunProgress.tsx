@@ -1,0 +1,34 @@
+/** How far a segmentation is that takes longer than a look, and the button that cancels it. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+import type { Progress } from "../../messages";
+import { useStudio } from "../context";
+
+const PAUSE = 400; // milliseconds between two questions, and before the first
+
+export function RunProgress({ id }: { id: string }): JSX.Element | null {
+  const { session } = useStudio();
+  const progress = useSignal<Progress | null>(null);
+  useEffect(() => {
+    const timer = window.setInterval(() => {
+      void session.api.progress(id).then(
+        (now) => (progress.value = now),
+        () => undefined, // the page says so already
+      );
+    }, PAUSE);
+    return () => window.clearInterval(timer);
+  }, [session, id, progress]);
+  if (!progress.value?.stage) return null;
+  const { stage, share } = progress.value;
+  const text = share === null ? stage : `${stage}, ${Math.round(100 * share)} %`;
+  return (
+    <div class="run-progress">
+      <progress aria-label="Segmentation" value={share ?? undefined} />
+      <button type="button" title="What is there stays (Escape)" onClick={() => session.cancel()}>
+        Cancel
+      </button>
+      <span class="quiet">{text}</span>
+    </div>
+  );
+}
