@@ -44,7 +44,7 @@ class Run:
     def __init__(self, preset: str, clock: Callable[[], float] = monotonic):
         self._shares, self._clock = SHARES.get(preset, {}), clock
         self._cancelled = threading.Event()
-        self._stage, self._begun = "", (clock(), clock())
+        self._stage, self._starts = "", (clock(), clock())
 
     def cancel(self) -> None:
         """Have it end."""
@@ -54,11 +54,11 @@ class Run:
         """A stage begins; CancelledError where it should not."""
         if self._cancelled.is_set():
             raise CancelledError
-        self._stage, self._begun = name, (self._begun[0], self._clock())
+        self._stage, self._starts = name, (self._starts[0], self._clock())
 
     def progress(self) -> Progress:
         """What a page is told."""
-        stage, (first, last) = self._stage, self._begun
+        stage, (first, last) = self._stage, self._starts
         if stage not in self._shares:
             return Progress(stage=stage, share=None)
         names = list(self._shares)
