@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -20,3 +24,25 @@ def test_work_that_maps_in_its_turn_ends() -> None:
         return sum(map_threads(abs, range(n)))
 
     assert map_threads(all_below, range(100)) == [n * (n - 1) // 2 for n in range(100)]
+
+
+INTERRUPTED = """
+import threading
+from kineme._threads import map_threads
+
+started = threading.Thread.start
+
+def start(thread):
+    started(thread)
+    raise KeyboardInterrupt
+
+threading.Thread.start = start
+map_threads(abs, range(100))
+"""
+
+
+def test_control_c_while_threads_start_ends_the_program() -> None:
+    env = {**os.environ, "KINEME_THREADS": "2"}
+    ended = subprocess.run([sys.executable, "-c", INTERRUPTED], env=env, timeout=60, check=False,
+                           capture_output=True)  # fmt: skip
+    assert ended.returncode not in (0, None)

@@ -27,7 +27,14 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
     items = list(items)
     if n_threads() == 1 or len(items) == 1 or getattr(_here, "of_pool", False):
         return [function(item) for item in items]
-    return list(_pool().map(function, items))
+    pool = _pool()
+    try:
+        return list(pool.map(function, items))
+    except KeyboardInterrupt:
+        # A thread that was just being started would wait for work, and the program for it.
+        _pool.cache_clear()
+        pool.shutdown(wait=False, cancel_futures=True)
+        raise
 
 
 def even_slices(n: int, short: int = SHORT) -> list[slice]:
