@@ -256,6 +256,7 @@ def test_a_first_segmentation_that_is_cancelled_leaves_a_table_to_work_on(studio
     assert progress["stage"] == "views"
     assert 0 < progress["share"] < 0.2
     assert studio.client.post(f"{one}/cancel").status_code == 204
+    assert "cancelled" in studio.get(f"{one}/progress").json()["stage"]  # until the stage has ended
     wanted.set()
     left = studio.recording()
     assert [row["kind"] for row in left["segmentation"]["segments"]] == ["transition"]

@@ -29,6 +29,7 @@ SHARES: Mapping[str, Mapping[str, float]] = {
 """Of the time that a preset takes, by stage in their order: medians of an hour of motion."""
 NOTHING = Progress(stage="", share=None)
 READING = Progress(stage="reading the file", share=None)
+ENDING = Progress(stage="cancelled: the stage comes to its end", share=None)
 
 
 class CancelledError(KinemeError):
@@ -58,6 +59,8 @@ class Run:
 
     def progress(self) -> Progress:
         """What a page is told."""
+        if self._cancelled.is_set():
+            return ENDING
         stage, (first, last) = self._stage, self._starts
         if stage not in self._shares:
             return Progress(stage=stage, share=None)

@@ -57,6 +57,10 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
   const { preset, values, detail } = draft.value ?? proposal?.choice ?? used;
   const choice = presets.find((each) => each.name === preset)!;
 
+  /** Whether a preset has found the table: not where people made it, or where that was cancelled. */
+  const isFound = typeof table.provenance.preset === "string";
+  const isUsual = detail === 1 && choice.parameters.every((each) => isDefault(each, values));
+
   const again = useCallback(
     (next: Choice, pause: number): void => {
       draft.value = next;
@@ -98,11 +102,11 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
         <span class="spacer" />
         <button
           type="button"
-          title="The preset’s own values"
-          disabled={detail === 1 && choice.parameters.every((each) => isDefault(each, values))}
+          title={isFound ? "The preset’s own values" : "Segments by this preset, to look at"}
+          disabled={isFound ? isUsual : busy || proposal !== null}
           onClick={() => again({ preset, values: defaults(choice), detail: 1 }, 0)}
         >
-          Reset
+          {isFound ? "Reset" : "Segment"}
         </button>
       </div>
       {busy && <RunProgress id={edited.id} />}
