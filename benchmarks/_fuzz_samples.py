@@ -23,7 +23,6 @@ from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import MissingDependencyError
 from kineme.evaluation.annotations import is_annotations, read_trials
 from kineme.formats.listing import recordings_in
-from kineme.labels import json_table
 from kineme.labels.collections import labels_of
 from kineme.library import Library, build
 from kineme.library.storage.layout import STATES
@@ -190,14 +189,12 @@ def _studio(root: Path, motion: Motion, truth: Segmentation) -> None:
     keep_options(root / TAKE, {"fps": 30.0, "unit": "cm", "up": "y"})
     set_offset(root / TAKE, 1.5)
     share_labels(folder, ["walk", "jump"])
-    journal = Journal(folder / f"walk{SUFFIX}", truth)
-
-    def save(new: Segmentation) -> None:
-        (folder / f"walk{SUFFIX}").write_text(json_table.dumps(new))
+    saved = folder / f"walk{SUFFIX}"
+    journal = Journal(saved, truth)
 
     for fps in (59.0, 60.0):
         table = Segmentation.from_columns(truth.table.columns(), n_frames=truth.n_frames, fps=fps)
-        journal.write(journal.changed(table, None, replaced=True), save, revision=1)
+        journal.write(journal.changed(table, None, replaced=True), saved.write_bytes, revision=1)
 
 
 def _write_on(root: Path, path: Path) -> object:
