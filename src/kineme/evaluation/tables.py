@@ -11,7 +11,7 @@ import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from kineme._files import atomic_write
 from kineme._version import __version__
@@ -80,10 +80,21 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
             )
 
 
-def write_text(text: str, path: Path) -> None:
-    """Write text to a file, whole or not at all."""
+class Result(Protocol):
+    """What a run over a folder gives."""
+
+    def to_json(self) -> str: ...
+
+    def records(self) -> Sequence[Mapping[str, Any]]: ...
+
+
+def write_result(result: Result, path: Path) -> None:
+    """Write all of a result as JSON, or its records as CSV, by suffix."""
+    if path.suffix.lower() != ".json":
+        write_records(result.records(), path)
+        return
     with atomic_write(path) as draft:
-        draft.write_text(f"{text}\n", encoding="utf-8")
+        draft.write_text(f"{result.to_json()}\n", encoding="utf-8")
 
 
 def _finite(value: Any) -> Any:

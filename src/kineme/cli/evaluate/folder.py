@@ -16,7 +16,7 @@ from kineme.errors import ParameterError
 from kineme.evaluation.folder import Evaluated, FolderScores, Mapped, evaluate_folder
 from kineme.evaluation.recordings import Reading, check_method, recordings_below
 from kineme.evaluation.score import scores
-from kineme.evaluation.tables import score_rows, shown, write_records, write_text
+from kineme.evaluation.tables import score_rows, shown, write_result
 from kineme.labels.collections import labels_of, strays_of
 
 NAMED = 5
@@ -63,10 +63,8 @@ def run_folder(
         typer.echo(result.to_json())
     elif not quiet:
         _show(result)
-    if output is not None and output.suffix.lower() == ".json":
-        write_text(result.to_json(), output)
-    elif output is not None:
-        write_records(result.records(), output)
+    if output is not None:
+        write_result(result, output)
     return any(not one.error for ones in result.methods.values() for one in ones)
 
 

@@ -19,7 +19,7 @@ from kineme.evaluation.annotator_files import (
 )
 from kineme.evaluation.annotators import AnnotatorAgreement, annotator_agreement
 from kineme.evaluation.recordings import recordings_below
-from kineme.evaluation.tables import shown, write_records, write_text
+from kineme.evaluation.tables import shown, write_result
 from kineme.labels.collections import labels_of
 
 BY = {
@@ -54,10 +54,8 @@ def run_people(
         typer.echo(result.to_json())
     elif not quiet:
         _show(result)
-    if output is not None and output.suffix.lower() == ".json":
-        write_text(result.to_json(), output)
-    elif output is not None:
-        write_records(result.records(), output)
+    if output is not None:
+        write_result(result, output)
 
 
 def _show(result: AnnotatorAgreement) -> None:
