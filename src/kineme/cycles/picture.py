@@ -52,7 +52,8 @@ def plot_curves(
     >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
     >>> axes = plot_curves(cycles, "knee_l", ax=Figure().add_subplot())
     """
-    _check(cycles, channel)
+    if channel not in cycles.channels:
+        raise ParameterError(f"no channel {channel!r}; there are {', '.join(cycles.channels)}")
     axes = ax if ax is not None else new_axes(6, 3.5)
     numbers = zip(cycles.columns["group"].tolist(), cycles.columns["cluster"].tolist(), strict=True)
     clusters = dict(numbers)
@@ -108,7 +109,6 @@ def plot_sides(
     """
     axes = ax if ax is not None else new_axes(6, 3.5)
     for channel, color, style in ((left, PALETTE[0], "-"), (right, PALETTE[4], "--")):
-        _check(cycles, channel)
         curves = cycles.layout(channel, group, ends=ends)
         _add_mean(axes, curves, color, f"{channel} (n = {len(curves)})", style)
     axes.set_title(group, loc="left", fontsize="medium")
@@ -153,8 +153,7 @@ def plot_sessions(
     percent = curves["percent"][rows]
     for session, color, style in (("first", FIRST, "--"), ("second", SECOND, "-")):
         mean, sd = (curves[f"{session}_{name}"][rows] for name in ("mean", "sd"))
-        axes.plot(percent, mean, style, color=color, label=session)
-        axes.fill_between(percent, mean - sd, mean + sd, color=color, alpha=0.2, linewidth=0)
+        _add_band(axes, percent, mean, sd, color, session, style)
     differs = (curves["low"][rows] > 0) | (curves["high"][rows] < 0)
     axes.fill_between(
         percent, 0, 0.03, where=differs, color=SECOND, linewidth=0, step="mid",
@@ -166,19 +165,20 @@ def plot_sessions(
     return axes
 
 
-def _check(cycles: Cycles, channel: str) -> None:
-    if channel not in cycles.channels:
-        raise ParameterError(f"no channel {channel!r}; there are {', '.join(cycles.channels)}")
-
-
 def _add_mean(axes: Axes, curves: Floats, color: str, label: str, style: str = "-") -> None:
     """Mean of curves, with their deviation; nothing where there are none."""
     if len(curves) == 0:
         return
-    percent, mean = np.linspace(0, 100, curves.shape[1]), curves.mean(axis=0)
+    sd = curves.std(axis=0, ddof=1) if len(curves) > 1 else None
+    percent = np.linspace(0, 100, curves.shape[1])
+    _add_band(axes, percent, curves.mean(axis=0), sd, color, label, style)
+
+
+def _add_band(
+    axes: Axes, percent: Floats, mean: Floats, sd: Floats | None, color: str, label: str, style: str
+) -> None:
     axes.plot(percent, mean, style, color=color, label=label)
-    if len(curves) > 1:
-        sd = curves.std(axis=0, ddof=1)
+    if sd is not None:
         axes.fill_between(percent, mean - sd, mean + sd, color=color, alpha=0.2, linewidth=0)
 
 

@@ -6,18 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from kineme._clock import Clock
 from kineme.errors import KinemeError
-from kineme.labels.collections import LabelSource
+from kineme.labels.collections import Extent, LabelSource
 from kineme.segments.segmentation import Segmentation
-
-
-class Extent(NamedTuple):
-    """How long a recording is, and when its frames are."""
-
-    n_frames: int
-    fps: float
-    clock: Clock | None = None
 
 
 class AnnotatorLabels(NamedTuple):

@@ -31,6 +31,7 @@ from kineme.evaluation.borders import border_score
 from kineme.evaluation.comparison import Comparison, Spans, best_mapping, runs
 from kineme.evaluation.frames import cohen_kappa
 from kineme.evaluation.inputs import comparison, truth_of
+from kineme.evaluation.tables import finite
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Truth
 from kineme.segments.segmentation import Segmentation
 
@@ -151,16 +152,16 @@ class AnnotatorAgreement:
             "kineme": __version__,
             "annotators": self.annotators,
             "by": self.by,
-            "fleiss_kappa": _finite(self.fleiss_kappa),
+            "fleiss_kappa": finite(self.fleiss_kappa),
             "pairs": [
-                {name: _finite(value) for name, value in pair._asdict().items()}
+                {name: finite(value) for name, value in pair._asdict().items()}
                 for pair in self.pairs
             ],
             "recordings": [
                 {
                     "recording": one.recording,
                     "annotators": one.annotators,
-                    "fleiss_kappa": _finite(one.fleiss_kappa),
+                    "fleiss_kappa": finite(one.fleiss_kappa),
                     "differences": [each._asdict() for each in one.differences],
                 }
                 for one in self.recordings
@@ -390,7 +391,3 @@ def _differences(sides: Sequence[Truth], stack: Ints) -> Iterator[Difference]:
         if run.stop - run.start > least and (stack[:, run.start] != stack[0, run.start]).any():
             names = ("" if (name := each[run.start]) == TRANSITION else name for each in labels)
             yield Difference(run.start / fps, run.stop / fps, tuple(names))
-
-
-def _finite(value: Any) -> Any:
-    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -62,7 +62,7 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
     suffix = path.suffix.lower()
     if suffix not in OUTPUTS:
         raise WriteError(path, f"scores are written as {' or '.join(OUTPUTS)}")
-    plain = [{name: _finite(value) for name, value in record.items()} for record in records]
+    plain = [{name: finite(value) for name, value in record.items()} for record in records]
     with (
         atomic_write(path) as draft,
         draft.open("w", encoding="utf-8", newline="\n" if suffix == ".json" else "") as file,
@@ -97,5 +97,6 @@ def write_result(result: Result, path: Path) -> None:
         draft.write_text(f"{result.to_json()}\n", encoding="utf-8")
 
 
-def _finite(value: Any) -> Any:
+def finite(value: Any) -> Any:
+    """The value; None in place of a number that cannot be had."""
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from math import ceil, isclose
 from os import PathLike
 from pathlib import Path
+from typing import NamedTuple
 
 from kineme._clock import Clock
 from kineme._counts import counted
@@ -32,6 +33,14 @@ from kineme.segments.segmentation import Segmentation
 
 SLACK = 1e-6
 """Frames by which a time may miss a frame and still be its own: seconds have few digits."""
+
+
+class Extent(NamedTuple):
+    """How long a recording is, and when its frames are."""
+
+    n_frames: int
+    fps: float
+    clock: Clock | None = None
 
 
 @dataclass(frozen=True)

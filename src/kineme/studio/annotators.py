@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
 
 from kineme.errors import KinemeError, ParameterError
@@ -74,13 +73,14 @@ def annotator_choices(recordings: OpenRecordings) -> list[AnnotatorChoice]:
 
 def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
     """How far some of them agree, over all recordings for which two of them have labels."""
-    from kineme.evaluation.annotator_files import Extent, labels_of_annotators
+    from kineme.evaluation.annotator_files import labels_of_annotators
     from kineme.evaluation.annotators import annotator_agreement
+    from kineme.evaluation.tables import finite
 
     people = _chosen(recordings, chosen)
     labelled, failures = labels_of_annotators(
         {who.name: who.sources for who in people},
-        lambda path: Extent(*recordings.extent(path)),
+        recordings.extent,
     )
     if not any(len(sides) > 1 for sides in labelled.values()):
         reason = f": {failures[0]}" if failures else ""
@@ -91,12 +91,12 @@ def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement
     return Agreement(
         annotators=list(found.annotators),
         by_names=found.by == "names",
-        fleiss_kappa=_finite(found.fleiss_kappa),
+        fleiss_kappa=finite(found.fleiss_kappa),
         pairs=[
             AgreementPair(
                 annotators=(pair.first, pair.second),
-                cohen_kappa=_finite(pair.cohen_kappa),
-                border_f1=_finite(pair.border_f1),
+                cohen_kappa=finite(pair.cohen_kappa),
+                border_f1=finite(pair.border_f1),
                 recordings=pair.recordings,
             )
             for pair in found.pairs
@@ -106,7 +106,7 @@ def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement
                 id=ids[one.recording],
                 name=one.recording,
                 annotators=list(one.annotators),
-                fleiss_kappa=_finite(one.fleiss_kappa),
+                fleiss_kappa=finite(one.fleiss_kappa),
                 differences=[Difference(**each._asdict()) for each in one.differences],
             )
             for one in found.recordings
@@ -160,7 +160,3 @@ def _named(labels: Path, recordings: Sequence[Path]) -> tuple[str, Path] | None:
     recording = max(fitting, key=lambda path: len(path.stem))
     person = stem[len(recording.stem) :].strip(BEHIND)
     return (person, recording) if person else None
-
-
-def _finite(value: float) -> float | None:
-    return value if isfinite(value) else None

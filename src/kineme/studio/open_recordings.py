@@ -16,13 +16,14 @@ from msgspec import UNSET, Struct
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.formats import sketch
+from kineme.labels.collections import Extent
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.choices import same_again
 from kineme.studio.folder import Folder
 from kineme.studio.loading import one_segment
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.overview import brief_of, saved_brief
-from kineme.studio.reading import Extent, ReadingOptions, RecordingCache
+from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.studio.running import NOTHING, READING
 from kineme.studio.storage.sidecars import (
     OPTIONS,

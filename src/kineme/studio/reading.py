@@ -11,18 +11,16 @@ from typing import TYPE_CHECKING
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats import ReadOptions, read_analog, read_quietly
 from kineme.formats.options import NOBODY
+from kineme.labels.collections import Extent
 from kineme.studio.storage.sidecars import read_options
 
 if TYPE_CHECKING:
-    from kineme._clock import Clock
     from kineme.features import Names
     from kineme.recordings import Motion, Signals
 
 MOST_IN_MEMORY = 3
 """Recordings; that of an hour can have most of a gigabyte."""
 Stamp = tuple[int, int]
-Extent = tuple[int, float, "Clock | None"]
-"""Frames, frames a second, and when they are."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +67,7 @@ class RecordingCache:
         key = path, stamp_of(path), repr(read_options(path, self.options.file))
         if key not in self._extents:
             found = self.read(path)
-            self._extents[key] = found.n_frames, found.fps, found.provenance.clock
+            self._extents[key] = Extent(found.n_frames, found.fps, found.provenance.clock)
         return self._extents[key]
 
     def people(self, path: Path) -> list[str]:

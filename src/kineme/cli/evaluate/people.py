@@ -12,7 +12,6 @@ from kineme.cli.tables import show_table
 from kineme.cli.terminal import harmless
 from kineme.errors import ReadError
 from kineme.evaluation.annotator_files import (
-    Extent,
     annotator_names,
     extent_of,
     labels_of_annotators,
@@ -20,7 +19,7 @@ from kineme.evaluation.annotator_files import (
 from kineme.evaluation.annotators import AnnotatorAgreement, annotator_agreement
 from kineme.evaluation.recordings import recordings_below
 from kineme.evaluation.tables import shown, write_result
-from kineme.labels.collections import labels_of
+from kineme.labels.collections import Extent, labels_of
 
 BY = {
     "names": "by names",
