@@ -120,7 +120,7 @@ def test_clocks_and_labels_under_other_names_are_no_channels(tmp_path) -> None:
 
 
 def test_times_that_are_not_understood_are_named(tmp_path) -> None:
-    rows = [f"03/01/2026 10:00:{i:02d},{i % 7}\n" for i in range(9)]
+    rows = [f"half past {i},{i % 7}\n" for i in range(9)]
     path = write(tmp_path, "a.csv", "Timestamp,acc\n" + "".join(rows))
     with pytest.raises(ReadError, match="'Timestamp' holds neither numbers nor ISO dates"):
         read(path)
@@ -330,7 +330,10 @@ def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
     whole = read(write(tmp_path, "c.csv", "a,b\n" + "\n".join(cells)), fps=50)
     assert whole.provenance.notes == ("1 gap of more than 0.2 s, 20 frames",)
     with pytest.raises(ReadError, match="column 'b' holds no number"):
-        read(write(tmp_path, "b.csv", "a,b\n1,\n2,\n"), fps=50)
+        read(write(tmp_path, "b.csv", "a,b\n1,\n2,\n"), fps=50, columns=["a", "b"])
+    left = read(tmp_path / "b.csv", fps=50)
+    assert left.names == ("a",)
+    assert left.provenance.notes == ("columns that are no channels: b",)
 
 
 @pytest.mark.parametrize("column", ["device", "person_id", "Joint"])

@@ -12,10 +12,10 @@ from test_capture_tables import nexus
 import kineme
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.delimited import sniff
 from kineme.formats.dialects import DIALECTS, Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.listing import recordings_in
+from kineme.formats.sniffing import sniff
 
 ROWS = [(i / 50, i * 0.25, 1.5 - i * 0.125, i * 0.5) for i in range(12)]
 

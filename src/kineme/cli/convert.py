@@ -40,9 +40,9 @@ def _is_recording(path: Path) -> bool:
 def _names_channels(path: Path) -> bool:
     """Whether a text file is a table of channels: these name columns, labels begin with a time."""
     from kineme.errors import ReadError
-    from kineme.formats.delimited import sniff
     from kineme.formats.dialects import hold_channels
     from kineme.formats.files import load
+    from kineme.formats.sniffing import sniff
 
     try:
         table = sniff(load(path)).numbered()

@@ -1,14 +1,9 @@
-"""Delimited text: where a table begins in a file, what parts its cells, how numbers are written.
+"""Delimited text: a table in a file, its columns, and how numbers and times are written in it.
 
 Every reader of CSV, TSV, MOT, STO, TRC and of the tables of capture programs looks at a file
-through a `DelimitedText`, which `sniff` finds as loggers and spreadsheets leave it:
-
-- Above the names there may be blank lines, lines that begin with ``#``, the ``sep=;`` of
-  spreadsheets, a header that ends in ``endheader``, and lines on the device and the recording.
-- Cells are parted by tabs, semicolons or commas, else by blanks.
-- Below the names there may be a line of units.
-- Between semicolons or tabs numbers may have a decimal comma; an empty cell is not a number.
-- Columns of times may hold dates, see `kineme.formats.timing`.
+through a `DelimitedText`, which `kineme.formats.sniffing` finds. Between semicolons or tabs numbers
+may have a decimal comma; an empty cell is not a number; columns of times may hold dates, see
+`kineme.formats.timing`.
 """
 
 from __future__ import annotations
@@ -18,6 +13,7 @@ import re
 from array import array
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from functools import cached_property
 from itertools import islice, pairwise
 from math import nan
@@ -25,9 +21,15 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._counts import counted
 from kineme.formats.files import FileContent, numbers, unique
-from kineme.formats.timing import date_columns, date_seconds, is_date, is_timing
+from kineme.formats.timing import (
+    date_columns,
+    date_seconds,
+    day_comes_first,
+    is_ambiguous,
+    is_timing,
+    with_unit,
+)
 
 EMPTY = frozenset(
     {"", "nan", "na", "n/a", "null", "none", "-"} | {"#n/a", "#nv", "#div/0!", "#num!", "#value!"}
@@ -43,15 +45,11 @@ OWNERS = frozenset(
 NAMELESS = "(no name)"
 """What a column is called whose name is empty."""
 
-HIGHEST = 200
-"""Lines above the names at most."""
-
 COMMAS = "numbers have a decimal comma"
 """The note on it."""
 
 _ROWS_SNIFFED = 50  # in which a decimal comma and rows of several people are looked for
 _FRAME = frozenset({"frame", "frame_id", "frame_idx"})
-_SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
 _NUMBER = re.compile(r"\s*[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?\s*")
 _COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 _FORMULA = re.compile(r"'*[=+\-@]")
@@ -80,6 +78,10 @@ class DelimitedText:
         those who need no names.
     blanks : bool
         Whether cells are parted by blanks; ``rows`` then have tabs in place of these.
+    units : sequence of str
+        Of the columns, where a line below their names tells them.
+    rate : float, optional
+        Frames per second, where a line above the names tells it.
     notes : tuple of str
         On lines that were passed over.
     """
@@ -92,6 +94,8 @@ class DelimitedText:
     separator: str
     headless: bool = False
     blanks: bool = False
+    units: Sequence[str] = ()
+    rate: float | None = None
     notes: tuple[str, ...] = ()
 
     @cached_property
@@ -120,10 +124,32 @@ class DelimitedText:
         """The columns that tell the time by dates."""
         return date_columns(self.names, self.first_cells)
 
+    @cached_property
+    def times(self) -> dict[str, str]:
+        """The columns that tell times or a rate, and their names as `table_timing` knows them."""
+        units = dict(zip(self.names, self.units, strict=False))
+        named = {
+            name: with_unit(name, units.get(name, "")) for name in self.names if is_timing(name)
+        }
+        return named | {self.names[i]: "time (s)" for i in self.dates}
+
+    @cached_property
+    def day_first(self) -> bool | None:
+        """Whether its dates name the day before the month; None where they do not tell."""
+        first = (self.first_cells[i] for i in self.dates)
+        if not any(map(is_ambiguous, first)):
+            return None
+        return day_comes_first(self.texts(self.dates[0]))
+
     @property
     def remarks(self) -> tuple[str, ...]:
-        """The notes, and how numbers are written."""
-        return (*self.notes, COMMAS) if self.comma else self.notes
+        """The notes, and how numbers and dates are written."""
+        notes = (*self.notes, COMMAS) if self.comma else self.notes
+        doubtful = next(filter(is_ambiguous, (self.first_cells[i] for i in self.dates)), None)
+        if doubtful is None or self.day_first is not None:
+            return notes
+        day = datetime.fromtimestamp(date_seconds(doubtful), UTC)
+        return (*notes, f"{doubtful!r} is taken for {day:%-d %B %Y}")
 
     def numbered(self) -> DelimitedText:
         """The same table, its columns called by their numbers where it is headless."""
@@ -139,7 +165,7 @@ class DelimitedText:
         return [
             name
             for name, cell in zip(self.names, first, strict=False)
-            if cell.lower() in EMPTY or name in dates or _is_finite(cell)
+            if cell.lower() in EMPTY or name in dates or is_finite(cell)
         ]
 
     def texts(self, column: int) -> list[str]:
@@ -180,7 +206,7 @@ class DelimitedText:
                     content.warn(f"{reason}: the last row breaks off, left out", line)
                     break
                 for i in dates:
-                    cells[i] = _seconds(content, cells[i].strip(), line)
+                    cells[i] = _seconds(content, cells[i].strip(), line, self.day_first)
                 row = [cells[i] for i in chosen]
                 values.extend(_numbers(content, [*map(dotted, row)] if self.comma else row, line))
         except csv.Error as error:
@@ -206,57 +232,6 @@ class DelimitedText:
                     f"rows of one time are told apart by column {names[k]!r} "
                     f"({one[k]:.20}, {other[k]:.20}): give each a file or columns of its own"
                 )
-
-
-def sniff(content: FileContent) -> DelimitedText:
-    r"""The table in a file of text.
-
-    The names are in the first line, unless a line below it, of more cells than all above, looks
-    like names over rows of numbers while the first does not.
-
-    Raises
-    ------
-    ReadError
-        There are no lines, or the names cannot be read.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> text = b"Logger 3\ntime;hip x;hip y\ns;mm;mm\n0,00;1,5;2\n0,01;1,6;2\n"
-    >>> table = sniff(FileContent(Path("take.csv"), text))
-    >>> table.names, table.separator, table.comma, table.numbers().tolist()
-    (['time', 'hip x', 'hip y'], ';', True, [[0.0, 1.5, 2.0], [0.01, 1.6, 2.0]])
-    """
-    lines = content.text.splitlines()
-    ended = next((i for i, line in enumerate(lines) if line.strip().lower() == "endheader"), None)
-    start = 0 if ended is None else ended + 1
-    full = [i for i in range(start, len(lines)) if lines[i].strip() and lines[i][0] != "#"]
-    declared = _SEPARATOR.fullmatch(lines[full[0]]) if full else None
-    full = full[1:] if declared else full
-    if not full:
-        raise content.error("has no lines of numbers")
-    separator = declared[1] if declared else None
-    candidates = range(min(HIGHEST, len(full)))
-    first = next((k for k in candidates if _is_head(lines, full, k, separator)), 0)
-    head = full[first]
-    separator = separator or separator_of(lines[head])
-    below = head + 1
-    notes = [f"{counted(first, 'line')} above the names passed over"] if first else []
-    if len(full) > first + 1 and _has_units(lines, full[first:], separator):
-        below = full[first + 1] + 1
-        notes.append(f"line {below} holds no numbers and is passed over: {lines[below - 1]:.60}")
-    blanks = ended is not None or separator not in lines[head]
-    if blanks:
-        separator, cells = "\t", lines[head].split()
-        cells = [cell.strip('"').strip() for cell in cells]
-    else:
-        row = next(filter(str.strip, islice(lines, below, None)), "")
-        cells = _head_cells(content, lines[head], row, separator)
-    headless = any(map(_is_finite, cells)) and not any(map(is_timing, cells))
-    names = named(map(from_text, cells))
-    return DelimitedText(
-        content, lines, names, head, below, separator, headless, blanks, tuple(notes)
-    )
 
 
 def named(names: Iterable[str]) -> list[str]:
@@ -311,54 +286,8 @@ def from_text(cell: str) -> str:
     return cell[1:] if cell.startswith("'") and _FORMULA.match(cell) else cell
 
 
-def _head_cells(content: FileContent, line: str, row: str, separator: str) -> list[str]:
-    """The cells of the line of names above a row.
-
-    A separator between quotes is part of a name, but where the row has as many cells as there
-    are without quotes.
-    """
-    plain = cells_of(line, separator)
-    if '"' not in line or len(cells_of(row, separator)) == len(plain):
-        return plain
-    try:
-        cells = next(csv.reader([line], delimiter=separator))
-    except csv.Error as error:
-        raise content.error(f"the columns' names cannot be read: {error}") from None
-    return [cell.strip().strip('"').strip() for cell in cells]
-
-
-def _is_head(lines: Sequence[str], full: Sequence[int], at: int, separator: str | None) -> bool:
-    """Whether names stand in a line, rows of as many cells below it, and fewer cells above it."""
-    head = lines[full[at]]
-    sep = separator or separator_of(head)
-    if sep not in head or any(map(is_number, cells_of(head, sep))):
-        return False
-    width = head.count(sep) + 1
-    above = (lines[i].strip().rstrip(sep) for i in full[:at])  # spreadsheets fill lines up
-    rows = [cells_of(lines[i], sep) for i in full[at + 1 : at + 4]]
-    rows = rows[1:] if rows and not any(map(is_number, rows[0])) else rows[:2]
-    return (
-        bool(rows)
-        and all(len(row) == width and any(map(is_number, row)) for row in rows)
-        and all(line.count(sep) + 1 < width for line in above)
-    )
-
-
-def _has_units(lines: Sequence[str], full: Sequence[int], separator: str) -> bool:
-    """Whether words stand below the names, and numbers below these."""
-    names, *rows = (cells_of(lines[i], separator) for i in full[:3])
-    if len(rows) < 2 or separator not in lines[full[0]] or any(map(is_number, names)):
-        return False
-    words = [i for i, cell in enumerate(rows[0]) if cell.lower() not in EMPTY]
-    return (
-        bool(words)
-        and len(rows[0]) == len(rows[1]) == len(names)
-        and not any(is_number(rows[0][i]) or is_date(rows[0][i]) for i in words)
-        and all(is_number(rows[1][i]) or is_date(rows[1][i]) for i in words)
-    )
-
-
-def _is_finite(cell: str) -> bool:
+def is_finite(cell: str) -> bool:
+    """Whether a cell is a finite number."""
     try:
         numbers([cell])
     except ValueError:
@@ -366,10 +295,10 @@ def _is_finite(cell: str) -> bool:
     return True
 
 
-def _seconds(content: FileContent, cell: str, line: int) -> str:
+def _seconds(content: FileContent, cell: str, line: int, day_first: bool | None) -> str:
     """A date as a number in text; what is empty stays so."""
     try:
-        return cell if cell.lower() in EMPTY else repr(date_seconds(cell))
+        return cell if cell.lower() in EMPTY else repr(date_seconds(cell, day_first=day_first))
     except ValueError as error:
         raise content.error(str(error), line) from None
 

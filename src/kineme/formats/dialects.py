@@ -51,6 +51,7 @@ DIALECTS: Registry[Dialect] = Registry(
     builtins=(
         "markers.capture_tables:NEXUS",
         "markers.capture_tables:MOTIVE",
+        "markers.capture_tables:QTM",
         "keypoints.deeplabcut:DIALECT",
         "keypoints.sleap:DIALECT",
         "keypoints.mediapipe_tables:WIDE",

@@ -18,15 +18,16 @@ from pathlib import Path
 import numpy as np
 
 from kineme.formats.channels.parquet import parquet_channels, parquet_columns, parquet_file
-from kineme.formats.channels.reading import text_channels, to_signals
+from kineme.formats.channels.reading import rate_above, text_channels, to_signals
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.columns import columns_to_motion, is_used
-from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, named, sniff
+from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, named
 from kineme.formats.dialects import dialect_of, hold_channels
 from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
 from kineme.formats.gaps import unseen
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
+from kineme.formats.sniffing import sniff
 from kineme.formats.timing import NO_TIMES, RATE, is_date, is_timing
 from kineme.recordings import Motion, Signals
 
@@ -86,15 +87,22 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
     """The motion of the joints whose coordinates the columns are."""
     table.refuse_interleaved()
     names, content = table.names, table.content
-    timeless = options.fps is not None
-    used = [i for i, n in enumerate(names) if is_used(n) and not (timeless and is_timing(n))]
+    remarks = list(table.remarks)
+    if options.fps is None and not table.times and table.rate:
+        options = replace(options, fps=table.rate)
+        remarks.append(rate_above(table.rate))
+    times = {} if options.fps else table.times
+    used = [i for i, name in enumerate(names) if name in times or is_used(name)]
+    used = [i for i in used if names[i] in times or not is_timing(names[i])]
     for i in used:
         if i < len(table.first_cells) and _lacks_time(names[i], table.first_cells[i]):
             reason = f"column {names[i]!r} {NO_TIMES}: give fps= (--fps)"
             raise content.error(reason, table.below + 1)
     values = table.numbers(used)
-    columns = {names[i]: column for i, column in zip(used, values.T, strict=True)}
-    return columns_to_motion(content, TABLE.name, columns, options).noted(*table.remarks)
+    columns = {
+        times.get(names[i], names[i]): column for i, column in zip(used, values.T, strict=True)
+    }
+    return columns_to_motion(content, TABLE.name, columns, options).noted(*remarks)
 
 
 def _lacks_time(name: str, cell: str) -> bool:

@@ -11,7 +11,8 @@ Clocks do worse than that: they are set while they run, they give several rows o
 come late. All of this is said; a step that is longer or shorter than usual by
 more than 0.2 s, forward or back, splits the recording as any other gap does.
 
-Times may be dates: ISO 8601 with or without a zone (UTC without), or the time of day.
+Times may be dates: ISO 8601 with or without a zone (UTC without), the time of day, or a date as
+loggers and spreadsheets write it, ``31.01.2026 09:30:00`` or ``1/31/2026 9:30:00 AM``.
 Numbers may count from 1970 in seconds, milli-, micro- or nanoseconds, which their size
 tells: those of the years 2001 to 2100 in one unit are none of these years in another.
 """
@@ -51,7 +52,7 @@ _MOST = 2 / 3  # share of steps that are ordinary, else the rate is that of the 
 _ADDS_UP = 0.1  # share by which steps of whole periods may miss the duration
 _SHUFFLED = 0.25  # share of steps backward from which on the rows are in no order of time
 _EPOCH = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
-_SLOWEST = 1.0  # frames per second: at or below, a column of times is hardly in seconds
+_SLOWEST = 1.0  # frames per second: at or below, times of no stated unit are hardly seconds
 _FINER = {"milliseconds": 1e3, "microseconds": 1e6, "nanoseconds": 1e9}
 
 _TIME = re.compile(
@@ -61,6 +62,18 @@ _TIME = re.compile(
     re.IGNORECASE,
 )
 _RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
+_CLOCK = re.compile(  # a name that says time, with a unit perhaps
+    r".*(?:[Tt]ime[Ss]tamp|[Tt]ime(?![a-z])|TIME).*?"
+    rf"(?:[\s_]*[\[(_\s]({'|'.join(UNITS_OF_TIME)})[\])]?)?"
+)
+_MONTHS = ["jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec"]
+_WRITTEN = re.compile(
+    rf"(?P<first>\d{{1,4}})(?P<mark>[-/. ])(?P<second>\d{{1,2}}|{'|'.join(_MONTHS)})(?P=mark)"
+    r"(?P<third>\d{2,4})[ T,]+(?P<hour>\d{1,2})(?P<rest>:\d\d(?::\d\d(?:[.,]\d+)?)?)"
+    r"(?:\s*(?P<half>[ap])\.?m\.?)?\s*(?P<zone>Z|[+-]\d\d:?\d\d)?",
+    re.IGNORECASE,
+)
+_THOUSANDTHS = re.compile(r"(:\d\d:\d\d):(?=\d)")  # as GENEActiv parts them from the seconds
 _LEAP = re.compile(r"(?<=:\d\d:)60(?!\d)")
 
 
@@ -88,9 +101,41 @@ def is_rate(column: str) -> bool:
 
 
 def date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
-    """Which columns of a text table tell the time by dates, as their first cells do."""
-    pairs = enumerate(zip(names, cells, strict=False))
-    return [i for i, (name, cell) in pairs if _TIME.fullmatch(name.strip()) and is_date(cell)]
+    """Which columns of a text table tell the time by dates, as their first cells do.
+
+    Where none is called as times are, the first that holds a time of day, whatever its name.
+    """
+    dates = [i for i, (_, cell) in enumerate(zip(names, cells, strict=False)) if is_date(cell)]
+    if any(map(is_timing, names)):
+        return [i for i in dates if _TIME.fullmatch(names[i].strip())]
+    return [i for i in dates if ":" in cells[i]][:1]
+
+
+def with_unit(name: str, unit: str) -> str:
+    """The name of a column of times with the unit that stands below it; as it is where none does.
+
+    Examples
+    --------
+    >>> with_unit("time", "ms"), with_unit("time", "hh:mm"), with_unit("time_s", "ms")
+    ('time (ms)', 'time', 'time_s')
+    """
+    match = _TIME.fullmatch(name.strip())
+    if match is None or match[2] or unit.lower() not in UNITS_OF_TIME:
+        return name
+    return f"{name} ({unit.lower()})"
+
+
+def clock_name(name: str) -> str | None:
+    """What to call a column that rises as clocks do, if its name says that it is one.
+
+    Examples
+    --------
+    >>> clock_name("accelerometerTimestamp_sinceReboot(s)"), clock_name("SampleTimeFine")
+    ('time (s)', 'time')
+    >>> clock_name("PacketCounter")
+    """
+    match = _CLOCK.fullmatch(name.strip())
+    return match and (f"time ({match[1]})" if match[1] else "time")
 
 
 def table_timing(
@@ -108,7 +153,7 @@ def table_timing(
     for column in columns:
         if match := _TIME.fullmatch(column.strip()):
             timing = timing_of(content, _times(content, columns, column, match[2]))
-            if timing.fps <= _SLOWEST:
+            if timing.fps <= _SLOWEST and not match[2]:
                 raise content.error(_hardly_seconds(timing.fps))
             return timing
     raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
@@ -194,20 +239,52 @@ def is_date(text: str) -> bool:
     return True
 
 
-def date_seconds(text: str) -> float:
+def date_seconds(text: str, *, day_first: bool | None = None) -> float:
     """Seconds since 1970, or since midnight for a time of day; ValueError if it is neither.
 
     A leap second, ``23:59:60``, is the first of the next minute, as clocks since 1970 count.
+    ``day_first`` is what `day_comes_first` found; None for what is usual.
     """
     if not any(mark in text for mark in "-:"):
         raise ValueError(f"{text[:40]!r} is no ISO date")
+    text = _THOUSANDTHS.sub(r"\1.", text)
     if leap := _LEAP.search(text):
-        return date_seconds(f"{text[: leap.start()]}59{text[leap.end() :]}") + 1
+        before = f"{text[: leap.start()]}59{text[leap.end() :]}"
+        return date_seconds(before, day_first=day_first) + 1
     try:
         when = datetime.fromisoformat(text)
     except ValueError:
-        when = datetime.combine(datetime(1970, 1, 1).date(), _time_of_day(text))  # noqa: DTZ001
+        if written := _WRITTEN.fullmatch(text):
+            when = datetime.fromisoformat(_iso(written, day_first))
+        else:
+            when = datetime.combine(datetime(1970, 1, 1).date(), _time_of_day(text))  # noqa: DTZ001
     return (when if when.tzinfo else when.replace(tzinfo=UTC)).timestamp()
+
+
+def day_comes_first(texts: Sequence[str]) -> bool | None:
+    """Whether days stand before months in dates of numbers that end in the year.
+
+    None where they are written otherwise, or each could be either.
+
+    Examples
+    --------
+    >>> day_comes_first(["5/6/2026 23:59:59", "13/6/2026 0:00:00"])
+    True
+    >>> day_comes_first(["5/6/2026 1:00"])
+    """
+    for text in texts:
+        match = _WRITTEN.fullmatch(text)
+        if match and max(int(match["first"]), int(match["second"])) > 12:
+            return int(match["first"]) > 12
+    return None
+
+
+def is_ambiguous(text: str) -> bool:
+    """Whether a date names day and month in an order that it does not tell."""
+    match = _WRITTEN.fullmatch(text)
+    if match is None or len(match["first"]) == 4 or match["mark"] == ".":
+        return False
+    return match["second"].isdigit()
 
 
 def _times(
@@ -242,6 +319,25 @@ def _one_rate(content: FileContent, rates: Floats) -> float:
 def _nan_or_date(value: Any) -> float:
     """As `date_seconds`; NaN for None and empty text."""
     return date_seconds(value.strip()) if value and value.strip() else np.nan
+
+
+def _iso(date: re.Match[str], day_first: bool | None) -> str:
+    """A date as ISO 8601 writes it."""
+    first, second, third = date["first"], date["second"].lower(), date["third"]
+    if len(first) == 4:
+        year, month, day = first, second, third
+    else:
+        if day_first is None:
+            day_first = date["mark"] != "/" or int(first) > 12
+        year = third if len(third) == 4 else f"20{third}"
+        month, day = (second, first) if day_first or second in _MONTHS else (first, second)
+    if month in _MONTHS:
+        month = str(_MONTHS.index(month) + 1)
+    hour = int(date["hour"])
+    if date["half"]:
+        hour = hour % 12 + 12 * (date["half"].lower() == "p")
+    zone = date["zone"] or ""
+    return f"{year}-{int(month):02}-{int(day):02}T{hour:02}{date['rest']}{zone}"
 
 
 def _time_of_day(text: str) -> time:

@@ -32,6 +32,7 @@ from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
+from kineme.formats.timing import is_timing
 from kineme.recordings import Motion, Signals
 from kineme.recordings.coordinates import is_body
 
@@ -98,16 +99,17 @@ def channels_of(
             channels |= {f"{name}_{i}": track for i, track in enumerate(tracks, 1)}
     lengths = Counter(map(len, channels.values()))
     length = max(lengths, key=lambda n: (lengths[n], n), default=0)
-    columns = asked_for(content, list(channels), columns, list(channels))
+    times = {name: name for name in channels if is_timing(name)}
+    columns = asked_for(content, list(channels), columns, list(channels), times)
     if columns:
         length = len(channels[columns[0]])
     as_long = [name for name, channel in channels.items() if len(channel) == length]
-    chosen = columns_read(columns, as_long)
+    chosen = columns_read(columns, as_long, times)
     for name in chosen:
         if name not in as_long:
             raise content.error(f"column {name!r} is not as long as {chosen[0]!r}: choose one rate")
     values = {name: np.asarray(channels[name], np.float64) for name in chosen}
-    table = channel_table(content, as_long, values, columns)
+    table = channel_table(content, as_long, values, columns, times)
     others = [name for name in channels if name not in as_long]
     if columns is None and others:
         note = f"of another length, left out: {', '.join(others)}"

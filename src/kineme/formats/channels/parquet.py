@@ -79,8 +79,9 @@ def parquet_channels(
         for name in names
         if any(is_kind(types[name]) for is_kind in (dates if is_timing(name) else numbers))
     ]
-    columns = asked_for(content, names, columns, numeric)
-    chosen = columns_read(columns, numeric)
+    times = {name: name for name in numeric if is_timing(name)}
+    columns = asked_for(content, names, columns, numeric, times)
+    chosen = columns_read(columns, numeric, times)
     try:
         stored = [file.schema_arrow.names[names.index(name)] for name in chosen]
         table = parquet_columns(content, file, stored)
@@ -91,7 +92,7 @@ def parquet_channels(
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
         reason = f"its columns cannot be read as numbers: {short(error)}"
         raise content.error(reason) from error
-    return channel_table(content, names, values, columns)
+    return channel_table(content, names, values, columns, times)
 
 
 def _is_text(kind: Any) -> bool:

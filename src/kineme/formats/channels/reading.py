@@ -18,9 +18,10 @@ are gaps of the recording.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
+from itertools import islice
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,7 +31,7 @@ from kineme._interpolation import bridge_line
 from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S, covered
-from kineme.formats.timing import NO_TIMES, Timing, is_timing, table_timing
+from kineme.formats.timing import NO_TIMES, Timing, clock_name, table_timing
 from kineme.recordings import Signals
 from kineme.recordings.arrays import spans_of
 
@@ -85,13 +86,22 @@ def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> Channel
     """The channels of a text table: those named, in this order, or all that hold numbers."""
     text = text.numbered()
     text.refuse_interleaved()
-    names, numeric = list(text.names), text.numeric()
-    columns = asked_for(text.content, names, columns, numeric)
-    chosen = columns_read(columns, numeric)
+    names, numeric, times = list(text.names), text.numeric(), text.times
+    columns = asked_for(text.content, names, columns, numeric, times)
+    chosen = columns_read(columns, numeric, times or list(filter(clock_name, numeric)))
     places = {name: i for i, name in enumerate(names)}  # each is there once
     values = text.numbers([places[name] for name in chosen])
-    table = channel_table(text.content, names, dict(zip(chosen, values.T, strict=True)), columns)
-    return replace(table, notes=(*text.remarks, *table.notes))
+    read = dict(zip(chosen, values.T, strict=True))
+    table = channel_table(text.content, names, read, columns, times)
+    notes = (*text.remarks, *table.notes)
+    if times or text.rate is None:
+        return replace(table, notes=notes)
+    return replace(table, rate=text.rate, notes=(*notes, rate_above(text.rate)))
+
+
+def rate_above(rate: float) -> str:
+    """The note on a rate that stands above the names of a table."""
+    return f"{rate:g} Hz, as a line above the columns says"
 
 
 def asked_for(
@@ -99,6 +109,7 @@ def asked_for(
     names: Sequence[str],
     columns: Sequence[str] | None,
     numeric: Sequence[str],
+    times: Container[str] = (),
 ) -> list[str] | None:
     """The columns that are asked for, in this order; None for all.
 
@@ -119,7 +130,7 @@ def asked_for(
         fitting = [
             name
             for name in numeric
-            if fnmatchcase(name.lower(), pattern.lower()) and not is_timing(name)
+            if fnmatchcase(name.lower(), pattern.lower()) and name not in times
         ]
         if not (fitting and WILD & set(pattern)):
             raise content.error(f"no column {pattern!r}; there are {', '.join(names)}")
@@ -127,9 +138,11 @@ def asked_for(
     return list(found)
 
 
-def columns_read(names: Sequence[str] | None, numeric: Iterable[str]) -> list[str]:
+def columns_read(
+    names: Sequence[str] | None, numeric: Iterable[str], times: Container[str] = ()
+) -> list[str]:
     """The columns to read: those asked for, or all that hold numbers, and those of times."""
-    timing = [name for name in numeric if is_timing(name)]
+    timing = [name for name in numeric if name in times]
     chosen = numeric if names is None else names
     return [*dict.fromkeys([*chosen, *timing])]
 
@@ -139,19 +152,28 @@ def channel_table(
     names: list[str],
     values: Mapping[str, Floats],
     columns: Sequence[str] | None,
+    times: Mapping[str, str],
 ) -> ChannelTable:
-    """The columns read, taken apart: channels, times, and a note of what is neither."""
-    timing = {name: column for name, column in values.items() if is_timing(name)}
-    hints = [f"; {name!r} {NO_TIMES}" for name in names if is_timing(name) and name not in timing]
+    """The columns read, taken apart: channels, times, and a note of what is neither.
+
+    ``times`` are the columns that tell times or a rate, and how `table_timing` knows them.
+    """
+    timing = {times[name]: column for name, column in values.items() if name in times}
+    hints = [f"; {name!r} {NO_TIMES}" for name in times if name not in values]
+    if not times:
+        clocks = (name for name in values if clock_name(name) and _is_clock(values[name]))
+        times = {name: clock_name(name) or "" for name in islice(clocks, 1)}
+        timing = {called: values[name] for name, called in times.items()}
     if columns is not None:
         chosen, notes = list(columns), []
     else:
-        chosen = [name for name in values if name not in timing and not _is_no_channel(name)]
-        clocks = {name: None for name in chosen if _is_clock(values[name])}
-        if len(clocks) < len(chosen):
-            chosen = [name for name in chosen if name not in clocks]
-            hints += [f"; {name!r} rises by {_step(values[name]):g} a row" for name in clocks]
-        used = {*chosen, *timing}
+        chosen = [name for name in values if name not in times and not _is_no_channel(name)]
+        chosen = [name for name in chosen if np.isfinite(values[name]).any()] or chosen
+        rising = {name: None for name in chosen if _is_clock(values[name])}
+        if len(rising) < len(chosen):
+            chosen = [name for name in chosen if name not in rising]
+            hints += [f"; {name!r} rises by {_step(values[name]):g} a row" for name in rising]
+        used = {*chosen, *times}
         left = [name for name in names if name not in used]
         notes = [f"columns that are no channels: {', '.join(left)}"] if left else []
     if not chosen:

@@ -27,9 +27,10 @@ from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.reading import ChannelTable, text_channels
-from kineme.formats.delimited import as_text, dotted, named, sniff
+from kineme.formats.delimited import as_text, dotted, named
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import covered
+from kineme.formats.sniffing import sniff
 from kineme.formats.timing import RATE, is_rate, is_timing
 from kineme.recordings import Signals
 

@@ -58,10 +58,13 @@ _NO_UNIT = frozenset({"", "d.u.", "du", "bits", "bit", "counts", "n/a", "%"})
 
 
 def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    """The motion of the markers in a C3D file, or its analog channels if they are asked for."""
-    if options.channels:
-        return read_analog(content, options)
+    """The motion of the markers in a C3D file, or its analog channels.
+
+    Those are given where they are asked for, and where there are no points at all.
+    """
     file = parse_c3d(content)
+    if options.channels or (file.analog.size and not file.labels):
+        return _channels(content, file, options)
     fps = options.fps or file.rate
     if not fps:
         raise content.error("the file has no frame rate: give fps= (--fps)")
@@ -118,7 +121,10 @@ def read_analog(content: FileContent, options: ReadOptions) -> Signals:
 
     ReadError where it has none, or not those that were asked for.
     """
-    file = parse_c3d(content)
+    return _channels(content, parse_c3d(content), options)
+
+
+def _channels(content: FileContent, file: C3D, options: ReadOptions) -> Signals:
     columns, notes = options.columns or None, []
     if options.emg and columns is None:
         columns, note = muscles_of(content, file)

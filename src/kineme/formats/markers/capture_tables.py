@@ -1,6 +1,6 @@
-"""Tables as two capture programs write them: Vicon's Nexus and OptiTrack's Motive.
+"""Tables as capture programs write them: Vicon's Nexus, OptiTrack's Motive, Qualisys' QTM.
 
-Names stand above the axes, one for three columns ``X,Y,Z``.
+One name stands for three columns ``X,Y,Z``.
 
 - Nexus: a line ``Trajectories``, the rate, names as ``Ann:LASI``, ``Frame,Sub Frame,X,Y,Z,…``,
   the units, then a row per frame up to a blank line. Devices and model outputs stand in chapters
@@ -8,6 +8,9 @@ Names stand above the axes, one for three columns ``X,Y,Z``.
 - Motive: a line ``Format Version,…`` of facts, the rate and the unit among them; below it what
   the columns are of (markers, bones, rigid bodies), their names, perhaps more, and whether they
   are positions or rotations. Markers are taken, or bones where there are none.
+- QTM: lines ``NO_OF_FRAMES``, ``FREQUENCY``, ``MARKER_NAMES`` and more, each with what it names
+  behind a tab; then perhaps a line ``Frame, Time, LASI X, …``, and rows of millimetres. A marker
+  that is exactly at the origin was not seen.
 
 Markers without a name are left out where others have one, and an empty cell is a marker not seen.
 """
@@ -18,8 +21,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from kineme._counts import counted
-from kineme.formats.delimited import DelimitedText, cells_of, separator_of
+from kineme.formats.delimited import DelimitedText, cells_of, is_number, separator_of
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.marker_sets import is_nameless
@@ -38,8 +43,9 @@ _MARKERS = re.compile(r'[ ",;\t]*trajectories[ ",;\t]*', re.IGNORECASE)
 class Capture:
     """Where the columns of a table stand, and what stands above them."""
 
-    axes: int  # the line of them, counted from 0
-    below: int  # the first row
+    cells: Sequence[str]  # one for each column
+    separator: str  # between cells
+    below: int  # the first row, counted from 0
     columns: dict[str, int]  # that of x of each point; y and z follow it
     rate: str  # as written
     unit: str  # as written
@@ -55,6 +61,11 @@ def is_motive(lines: Sequence[str]) -> bool:
     return _first_line(lines).startswith("format version,")
 
 
+def is_qtm(lines: Sequence[str]) -> bool:
+    """Whether a file is a table of markers of Qualisys'."""
+    return _first_line(lines).startswith("no_of_frames") and "MARKER_NAMES" in _facts(lines)
+
+
 def read_nexus(table: DelimitedText, options: ReadOptions) -> Motion:
     """The motion of the markers in a table of Nexus's."""
     return _motion(table, _nexus(table.content, table.lines), options, NEXUS.name, usual_up="z")
@@ -65,24 +76,31 @@ def read_motive(table: DelimitedText, options: ReadOptions) -> Motion:
     return _motion(table, _motive(table.content, table.lines), options, MOTIVE.name, usual_up="y")
 
 
+def read_qtm(table: DelimitedText, options: ReadOptions) -> Motion:
+    """The motion of the markers in a table of Qualisys'."""
+    return _motion(table, _qtm(table.content, table.lines), options, QTM.name, usual_up="z")
+
+
 def _motion(
     table: DelimitedText, capture: Capture, options: ReadOptions, program: str, *, usual_up: str
 ) -> Motion:
     content, lines, columns = table.content, table.lines, capture.columns
-    separator = separator_of(lines[capture.axes])
     names = [name for name in columns if not is_nameless(name)] or [*columns]
     chosen = [columns[name] + axis for name in names for axis in range(3)]
     below = range(capture.below, len(lines))
     end = next((i for i in below if not lines[i].strip(" ,;\t")), None)
-    axes = cells_of(lines[capture.axes], separator)
-    rows = DelimitedText(content, lines[:end], axes, capture.axes, capture.below, separator)
-    values = rows.numbers(chosen)
+    rows = DelimitedText(
+        content, lines[:end], capture.cells, capture.below - 1, capture.below, capture.separator
+    )
+    values = rows.numbers(chosen).reshape(-1, len(names), 3)
+    if program == QTM.name:
+        values[(values == 0).all(axis=2)] = np.nan
     notes = list(rows.remarks)
     if left := len(columns) - len(names):
         notes.append(f"{counted(left, 'point')} without a name left out")
     points = Points(
         names,
-        values.reshape(len(values), -1, 3),
+        values,
         options.fps or _rate(content, capture),
         options.unit or unit_named(capture.unit),
         options.up,
@@ -104,14 +122,15 @@ def _nexus(content: FileContent, lines: Sequence[str]) -> Capture:
         raise content.error("rate and names expected under 'Trajectories', units under 'Frame'")
     separator = separator_of(lines[axes])
     names = cells_of(lines[axes - 1], separator)
-    columns = _columns(content, names, cells_of(lines[axes], separator), axes)
-    cells = cells_of(lines[axes + 1], separator)
-    units = [cell for first in columns.values() for cell in cells[first : first + 3] if cell]
+    cells = cells_of(lines[axes], separator)
+    columns = _columns(content, names, cells, axes)
+    below = cells_of(lines[axes + 1], separator)
+    units = [cell for first in columns.values() for cell in below[first : first + 3] if cell]
     if len(set(units)) > 1:
         listed = " and ".join(sorted(set(units)))
         raise content.error(f"markers are in {listed}: export all of them in one unit", axes + 2)
     rate = cells_of(lines[at + 1], separator)[0]
-    return Capture(axes, axes + 2, columns, rate, units[0] if units else "")
+    return Capture(cells, separator, axes + 2, columns, rate, units[0] if units else "")
 
 
 def _motive(content: FileContent, lines: Sequence[str]) -> Capture:
@@ -125,15 +144,39 @@ def _motive(content: FileContent, lines: Sequence[str]) -> Capture:
     kinds, names, quantities = above[1], above[2], above[-1]
     kinds = [kind.lower() for kind in kinds]
     points = next(({kind} for kind in ("marker", "bone") if kind in kinds), set(kinds))
+    cells = cells_of(lines[axes], separator)
     places = [
         axis if kind in points and quantity.lower() == "position" else ""
-        for axis, kind, quantity in zip(
-            cells_of(lines[axes], separator), kinds, quantities, strict=False
-        )
+        for axis, kind, quantity in zip(cells, kinds, quantities, strict=False)
     ]
     columns = _columns(content, names, places, axes)
     rate = facts.get("export frame rate") or facts.get("capture frame rate", "")
-    return Capture(axes, axes + 1, columns, rate, facts.get("length units", ""))
+    unit = facts.get("length units", "")
+    return Capture(cells, separator, axes + 1, columns, rate, unit)
+
+
+def _qtm(content: FileContent, lines: Sequence[str]) -> Capture:
+    facts = _facts(lines)
+    names = facts["MARKER_NAMES"]
+    below = next((i for i, line in enumerate(lines) if is_number(line.split("\t")[0])), len(lines))
+    cells = lines[below].split("\t") if below < len(lines) else []
+    timed = len(cells) >= 3 * len(names) + 2  # frame and time stand first; a row may end in a tab
+    columns = {name: 3 * i + 2 * timed for i, name in enumerate(names)}
+    if len(cells) < 3 * len(names):
+        raise content.error(f"{len(cells)} columns for {len(names)} markers", below + 1)
+    numbered = [str(i) for i in range(3 * len(names) + 2 * timed)]
+    return Capture(numbered, "\t", below, columns, "".join(facts.get("FREQUENCY", [])), "mm")
+
+
+def _facts(lines: Sequence[str]) -> dict[str, list[str]]:
+    """What the lines at the top of a table of Qualisys' name, by what they begin with."""
+    facts: dict[str, list[str]] = {}
+    for line in lines:
+        name, *values = line.rstrip().split("\t")
+        if not name.isupper():
+            break
+        facts[name] = values
+    return facts
 
 
 def _line_of_axes(content: FileContent, lines: Sequence[str], start: int) -> int:
@@ -168,3 +211,4 @@ def _rate(content: FileContent, table: Capture) -> float:
 
 NEXUS = Dialect("Nexus", lambda _, lines: is_nexus(lines), read_nexus)
 MOTIVE = Dialect("Motive", lambda _, lines: is_motive(lines), read_motive)
+QTM = Dialect("QTM", lambda _, lines: is_qtm(lines), read_qtm)

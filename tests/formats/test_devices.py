@@ -1,0 +1,173 @@
+"""Files as devices write them: lines on the device, clocks under names of their own, dates."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+from marker_samples import PLUG_IN_GAIT, c3d_bytes, walking, z_up_millimetres
+
+import kineme
+from kineme.errors import ReadError
+
+N, FPS = 300, 50
+VALUES = np.round(np.sin(np.arange(N)[:, None] / [7, 5, 3]), 4)
+START = datetime(2026, 5, 7, 23, 59, 57, tzinfo=UTC)
+ACTIGRAPH = (
+    "------------ Data File Created By ActiGraph GT3X+ ActiLife v6.13.3 Firmware v2.5.0 "
+    "date format M/d/yyyy at 50 Hz  Filter Normal -----------\nSerial Number: NEO1F18120387\n"
+    "Start Time 00:00:00\nEpoch Period (hh:mm:ss) 00:00:00\n---------------------\n"
+)
+GENEACTIV = (
+    "Device Type,GENEActiv\r\nDevice Model,1.1\r\nDevice Unique Serial Code,046164\r\n\r\n"
+    "Calibration Date,2017-11-23 11:45:28:000\r\nMeasurement Frequency,50.0 Hz\r\nLast,\r\n\r\n"
+)
+
+
+def rows(separator: str, *first: object, end: str = "") -> str:
+    """A line per row; ``first`` are the formats of the cells before the values."""
+    lines = []
+    for i, values in enumerate(VALUES.tolist()):
+        at = START + timedelta(seconds=i / FPS)
+        cells = [each(i, at) if callable(each) else each for each in first]
+        lines.append(separator.join(map(str, [*cells, *values])) + end)
+    return "\n".join(lines) + "\n"
+
+
+def dated(pattern: str):
+    return lambda _, at: at.strftime(pattern).replace("%3f", f"{at.microsecond // 1000:03}")
+
+
+def counted(step: float, start: float = 0):
+    return lambda i, _: f"{start + step * i:.10g}" if step < 1 else int(start + step * i)
+
+
+FILES = {
+    "ActiGraph": ACTIGRAPH + "Accelerometer X,Accelerometer Y,Accelerometer Z\n" + rows(","),
+    "ActiGraph without names": ACTIGRAPH + rows(","),
+    "ActiGraph with times": ACTIGRAPH
+    + "Timestamp,X,Y,Z\n"
+    + rows(",", dated("%m/%d/%Y %H:%M:%S.%3f")),
+    "GENEActiv": GENEACTIV + rows(",", dated("%Y-%m-%d %H:%M:%S:%3f")),
+    "Axivity": rows(",", dated("%Y-%m-%d %H:%M:%S.%3f")),
+    "Shimmer": '"sep=\t"\nS_Timestamp_Unix_CAL\tS_X_CAL\tS_Y_CAL\tS_Z_CAL\t\nms\tg\tg\tg\t\n'
+    + rows("\t", counted(20, 1.6e12), end="\t"),
+    "Shimmer in four lines": "Shimmer\tShimmer\tShimmer\tShimmer\nTimestamp\tX\tY\tZ\n"
+    "CAL\tCAL\tCAL\tCAL\nms\tg\tg\tg\n" + rows("\t", counted(20)),
+    "Xsens DOT": "sep=,\nDeviceTag:,left\nOutputRate:,50Hz\n\nPacketCounter,SampleTimeFine,X,Y,Z\n"
+    + rows(",", counted(1), counted(20_000, 2**31)),
+    "Xsens MTw": "// Start Time: Unknown\n// Update Rate: 50.0Hz\n// Option Flags: none\n"
+    "PacketCounter\tSampleTimeFine\tX\tY\tZ\n" + rows("\t", counted(1), "", end="\t"),
+    "SensorLog": "loggingTime(txt);loggingSample(N);X(G);Y(G);Z(G)\n"
+    + rows(";", dated("%Y-%m-%dT%H:%M:%S.%3f+01:00"), counted(1)),
+    "a clock under its own name": "sensorTimestamp_sinceReboot(s),X,Y,Z\n"
+    + rows(",", counted(0.02)),
+    "German dates": "Zeit\tX\tY\tZ\n" + rows("\t", dated("%d.%m.%Y %H:%M:%S.%3f")),
+    "months by name": "Timestamp,X,Y,Z\n" + rows(",", dated("%d-%b-%Y %H:%M:%S.%3f")),
+    "twelve hours": "Timestamp,X,Y,Z\n" + rows(",", dated("%m/%d/%Y %I:%M:%S.%3f %p")),
+    "units below": "time\tX\tY\tZ\nms\tg\tg\tg\n" + rows("\t", counted(20)),
+}
+
+
+def read(folder: Path, text: str, **options: object) -> kineme.Motion | kineme.Signals:
+    path = folder / "a.csv"
+    path.write_text(text, encoding="utf-8")
+    return kineme.read(path, **options)
+
+
+@pytest.mark.parametrize("device", FILES)
+def test_channels_and_rate_of_a_device_are_read_without_options(
+    tmp_path: Path, device: str
+) -> None:
+    signals = read(tmp_path, FILES[device])
+    assert signals.fps == FPS
+    assert signals.gaps == ()
+    assert np.array_equal(signals.values, VALUES)
+
+
+def test_the_clock_is_found_beside_the_columns_that_are_asked_for(tmp_path: Path) -> None:
+    signals = read(tmp_path, FILES["a clock under its own name"], columns=["Y"])
+    assert (signals.names, signals.fps) == (("Y",), FPS)
+
+
+def test_a_rate_that_the_header_tells_is_said(tmp_path: Path) -> None:
+    signals = read(tmp_path, FILES["ActiGraph"])
+    assert "50 Hz, as a line above the columns says" in signals.provenance.notes
+    assert "5 lines above the names passed over" in signals.provenance.notes
+
+
+def test_a_rate_is_not_guessed_from_several(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match="nothing in it tells the frame rate"):
+        read(tmp_path, "EMG rate: 2000 Hz\nAcc rate: 100 Hz\nX,Y,Z\n" + rows(","))
+
+
+def test_the_frequency_of_a_filter_is_no_rate(tmp_path: Path) -> None:
+    text = "Low-pass: 6 Hz\nSampling frequency (Hz): 50\nX,Y,Z\n" + rows(",")
+    assert read(tmp_path, text).fps == FPS
+
+
+def test_a_day_that_could_be_a_month_is_said(tmp_path: Path) -> None:
+    text = "Timestamp,X,Y,Z\n" + rows(",", dated("%d/%m/%Y %H:%M:%S.%3f"))
+    (said,) = [note for note in read(tmp_path, text).provenance.notes if "taken for" in note]
+    assert said == "'07/05/2026 23:59:57.000' is taken for 5 July 2026"
+
+
+def test_one_day_beyond_the_twelfth_tells_the_order(tmp_path: Path) -> None:
+    """A night from the 12th to the 13th goes on, without a jump of months."""
+    times = [datetime(2026, 5, 12, 23, 59, 0, tzinfo=UTC) + timedelta(seconds=i) for i in range(90)]
+    lines = [f"{at:%d/%m/%Y %H:%M:%S},{i % 7}" for i, at in enumerate(times)]
+    signals = read(tmp_path, "Timestamp,X\n" + "\n".join(lines) + "\n")
+    assert (signals.fps, signals.gaps, signals.provenance.notes) == (1, (), ())
+
+
+def test_names_of_another_number_than_cells_are_still_an_error(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match="line 2: 4 cells, but 2 columns"):
+        read(tmp_path, "time,X\n" + rows(",", counted(0.02)))
+
+
+@pytest.mark.parametrize("titled", [False, True])
+def test_markers_of_qualisys(tmp_path: Path, titled: bool) -> None:
+    points = walking()
+    millimetres = np.round(z_up_millimetres(points), 3)
+    millimetres[10:14, 0] = 0
+    head = [
+        f"NO_OF_FRAMES\t{len(points)}",
+        "NO_OF_CAMERAS\t8",
+        f"NO_OF_MARKERS\t{len(PLUG_IN_GAIT)}",
+        "FREQUENCY\t100",
+        "DESCRIPTION\t--",
+        "TIME_STAMP\t2026-03-04, 10:20:33.123\t432.1",
+        "DATA_INCLUDED\t3D",
+        "EVENT\tstart\t10\t0.1",
+        "EVENT\tstop\t20\t0.2",
+        "MARKER_NAMES\t" + "\t".join(PLUG_IN_GAIT),
+    ]
+    names = [f"{name} {axis}" for name in PLUG_IN_GAIT for axis in "XYZ"]
+    head += ["\t".join(["Frame", "Time", *names])] * titled
+    lines = [
+        "\t".join(map(str, [*([i + 1, i / 100] * titled), *frame.ravel().tolist()]))
+        for i, frame in enumerate(millimetres)
+    ]
+    (tmp_path / "a.tsv").write_text("\n".join([*head, *lines]) + "\n", encoding="utf-8")
+    motion = kineme.read(tmp_path / "a.tsv")
+    assert (motion.fps, motion.n_frames, motion.provenance.format) == (
+        100,
+        len(points),
+        "QTM table",
+    )
+    at = [motion.joint(name) for name in PLUG_IN_GAIT]
+    seen = np.ones(len(points), bool)
+    seen[10:14] = False
+    assert np.allclose(motion.positions[seen][:, at], points[seen], atol=1e-5)
+    assert np.linalg.norm(motion.positions[~seen][:, at] - points[~seen], axis=-1).max() < 0.05
+
+
+def test_a_c3d_without_points_holds_channels(tmp_path: Path) -> None:
+    analog = np.random.default_rng(0).standard_normal((60, 4, 3))
+    (tmp_path / "a.c3d").write_bytes(c3d_bytes(np.empty((60, 0, 3)), [], analog=analog))
+    signals = kineme.read(tmp_path / "a.c3d")
+    assert isinstance(signals, kineme.Signals)
+    assert (signals.names, signals.fps) == (("emg0", "emg1", "emg2"), 400)
+    assert np.allclose(signals.values, analog.reshape(-1, 3), atol=1e-6)
