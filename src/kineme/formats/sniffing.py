@@ -4,7 +4,8 @@
   spreadsheets, a header that ends in ``endheader``, and lines on the device and the recording. One
   of these may tell the frame rate: ``Sample rate: 120.0Hz``, ``Frequency,50``.
 - Cells are parted by tabs, semicolons or commas, else by blanks.
-- Below the names there may be two lines of words: units, and what kind of numbers these are.
+- Below the names there may be two lines of words: units, what kind of numbers these are, or second
+  names, where the first ones are those of several columns.
 - Names may be missing: rows of numbers then stand at the top, or below lines of fewer cells.
 """
 
@@ -85,15 +86,15 @@ def sniff(content: FileContent) -> DelimitedText:
     else:
         row = next(filter(str.strip, islice(lines, below, None)), "")
         cells = _head_cells(content, lines[head], row, separator)
+    second = _joined(cells, cells_of(lines[full[first + 1]], separator)) if words else cells
+    passed = full[first + 1 + (second != cells) : first + 1 + words]
+    cells = second
     headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
     notes = []
     if first:
         what = "rows" if headless else "names"
         notes.append(f"{counted(first, 'line')} above the {what} passed over")
-    notes += [
-        f"line {i + 1} holds no numbers and is passed over: {lines[i]:.60}"
-        for i in full[first + 1 : first + 1 + words]
-    ]
+    notes += [f"line {i + 1} holds no numbers and is passed over: {lines[i]:.60}" for i in passed]
     return DelimitedText(
         content,
         lines,
@@ -155,6 +156,21 @@ def _is_head(lines: Sequence[str], full: Sequence[int], at: int, separator: str 
         and all(_fits(row, len(cells)) and any(map(is_number, row)) for row in rows)
         and all(len(others) < len(cells) or not _are_names(others) for others in above)
     )
+
+
+def _joined(names: list[str], words: Sequence[str]) -> list[str]:
+    """Names with the words below them, where only both tell the columns apart.
+
+    Examples
+    --------
+    >>> _joined(["time", "L_TOE", "L_TOE"], ["", "x", "y"])
+    ['time', 'L_TOE_x', 'L_TOE_y']
+    >>> _joined(["time", "acc", "acc"], ["s", "g", "g"])
+    ['time', 'acc', 'acc']
+    """
+    both = ["_".join(filter(None, pair)) for pair in zip(names, words, strict=False)]
+    needed = len(set(names)) < len(names) == len(both) == len(set(both))
+    return both if needed else names
 
 
 def _first_of_nameless(lines: Sequence[str], full: Sequence[int], separator: str | None) -> int:
