@@ -72,6 +72,25 @@ def coco(frames: int = 30, *, results: bool = False, x: float = 500.0, **more) -
     return {"images": images, "annotations": entries, "categories": categories}
 
 
+def mmpose(
+    names: tuple[str, ...] = COCO, *, named: bool = True, xs: tuple[float, ...] = (500.0,), **more
+) -> dict | list:
+    """A video of people at these places; without its facts where it is not ``named``."""
+    points = [pixels(standing(names), x) for x in xs]
+    frames = [
+        {
+            "frame_id": i + 1,
+            "instances": [
+                {"keypoints": each[i].tolist(), "keypoint_scores": [0.9] * len(names), **more}
+                for each in points
+            ],
+        }
+        for i in range(len(points[0]))
+    ]
+    facts = {"keypoint_id2name": {str(i): name for i, name in enumerate(names)}}
+    return {"meta_info": facts, "instance_info": frames} if named else frames
+
+
 def world_landmarks(frames: int = 30) -> np.ndarray:
     """(frames, 33, 3): metres from the hips' middle, y down, z away from the camera."""
     points = standing(MEDIAPIPE, frames)

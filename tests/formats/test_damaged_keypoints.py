@@ -17,6 +17,7 @@ from keypoint_samples import (
     as_json,
     coco,
     marks,
+    mmpose,
     openpose,
     pixels,
     sleap_csv,
@@ -59,6 +60,7 @@ MARKS = [{"landmarks": marks(pose), "frame": i} for i, pose in enumerate(world_l
 TEXTS = {
     "openpose.json": as_json(openpose(18, 3)),
     "coco.json": as_json(coco(3)),
+    "mmpose.json": as_json(mmpose()["instance_info"][:3]),
     "results.json": as_json(coco(3, results=True, track_id=1)),
     "mediapipe.json": as_json(MARKS),
     "sleap.csv": sleap_csv({"a": pixels(standing(COCO, 3))}, COCO).encode(),

@@ -16,6 +16,7 @@ from keypoint_samples import (
     coco,
     image_landmarks,
     marks,
+    mmpose,
     openpose,
     openpose_frame,
     pixels,
@@ -30,6 +31,7 @@ import kineme
 from kineme.cli.app import app
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import ReadOptions, people_in
+from kineme.formats.keypoints.mmpose import NAMES as MMPOSE
 
 
 def read(folder: Path, name: str, content: str | bytes | list | dict, **options):
@@ -219,6 +221,53 @@ def test_coco_with_people_and_names_of_images(tmp_path: Path) -> None:
     ]:
         with pytest.raises(ReadError, match=reason):
             read(tmp_path, "a.json", bad, fps=30)
+
+
+@pytest.mark.parametrize("named", [False, True])
+@pytest.mark.parametrize("count", [17, 26])
+def test_mmpose(tmp_path: Path, named: bool, count: int) -> None:
+    motion = read(tmp_path, "a.json", mmpose(MMPOSE[count], named=named), fps=30)
+    assert (motion.provenance.format, motion.n_frames) == ("MMPose", 30)
+    assert set(MMPOSE[count]) <= set(motion.skeleton.names)
+    assert stands(motion)
+    assert 0.6 < waves(motion) < 1.0
+
+
+def test_mmpose_of_whole_bodies_people_and_lifters(tmp_path: Path) -> None:
+    whole = mmpose((*MMPOSE[133], *(f"nose_{i}" for i in range(110))), named=False)
+    motion = read(tmp_path, "a.json", whole, fps=30)
+    assert stands(motion)
+    assert motion.joint("left_heel") >= 0
+    assert not any(name.startswith("nose_") for name in motion.skeleton.names)
+    both = mmpose(xs=(500.0, 1300.0))
+    with pytest.raises(ReadError, match="2 people are in it"):
+        read(tmp_path, "a.json", both, fps=30)
+    for frame in both["instance_info"]:
+        for number, each in enumerate(frame["instances"]):
+            each["track_id"] = number + 7
+    assert stands(read(tmp_path, "a.json", both, fps=30, person=8))
+    lifted = mmpose()
+    poses = standing(COCO)[..., [0, 2, 1]] * [1, -1, 1]
+    for frame, pose in zip(lifted["instance_info"], poses.tolist(), strict=True):
+        frame["instances"][0]["keypoints"] = pose
+    assert stands(read(tmp_path, "a.json", lifted, fps=30))
+
+
+@pytest.mark.parametrize(
+    ("bad", "reason"),
+    [
+        (mmpose(COCO[:5], named=False), "5 keypoints, and 'meta_info' does not name them"),
+        ([*mmpose(named=False), {"frame_id": 40}], "frame 30 has no list of 'instances'"),
+        (mmpose(keypoint_scores=[0.5]), "has keypoints of shape"),
+        (mmpose(keypoint_scores=["x"] * 17), "keypoints that are no numbers"),
+        (mmpose(keypoints=[[1, 2]] * 16 + [3]), "keypoints that are no numbers"),
+        (mmpose(keypoint_scores=None), "keypoints that are no numbers"),
+        ([{"instances": []}], "a person has 0 keypoints"),
+    ],
+)
+def test_wrong_files_of_mmpose(tmp_path: Path, bad: dict | list, reason: str) -> None:
+    with pytest.raises(ReadError, match=reason):
+        read(tmp_path, "a.json", bad, fps=30)
 
 
 LAYOUTS = {

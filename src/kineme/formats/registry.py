@@ -108,6 +108,7 @@ FORMATS: Registry[Format] = Registry(
     home="kineme.formats",
     builtins=(
         "keypoints.pose_json:OPENPOSE",
+        "keypoints.pose_json:MMPOSE",
         "keypoints.pose_json:COCO",
         "keypoints.pose_json:MEDIAPIPE",
         "keypoints.sleap:FORMAT",

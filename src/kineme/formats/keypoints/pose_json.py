@@ -7,6 +7,7 @@ import re
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.coco import is_coco, read_coco
 from kineme.formats.keypoints.mediapipe import is_mediapipe, read_mediapipe
+from kineme.formats.keypoints.mmpose import is_mmpose, read_mmpose
 from kineme.formats.keypoints.openpose import (
     is_openpose,
     read_openpose,
@@ -28,11 +29,13 @@ def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
         return read_openpose(content, data, options)
     if is_coco(data):
         return read_coco(content, data, options)
+    if is_mmpose(data):
+        return read_mmpose(content, data, options)
     if is_mediapipe(data):
         return read_mediapipe(content, data, options)
     raise content.error(
         "no keypoints found in it: JSON is read as OpenPose ('people'), COCO ('keypoints' and "
-        "'image_id') or MediaPipe (33 landmarks per frame)"
+        "'image_id'), MMPose ('instances') or MediaPipe (33 landmarks per frame)"
     )
 
 
@@ -52,6 +55,11 @@ def begins_coco(head: bytes) -> bool:
     return b'"keypoints"' in head and any(key in head for key in _OF_COCO)
 
 
+def begins_mmpose(head: bytes) -> bool:
+    """Whether JSON begins as MMPose's predictions."""
+    return b'"instance_info"' in head or (b'"instances"' in head and b'"frame_id"' in head)
+
+
 def begins_mediapipe(head: bytes) -> bool:
     """Whether JSON begins with somebody's landmarks."""
     return b'landmarks":' in head.lower().replace(b" ", b"")
@@ -60,5 +68,6 @@ def begins_mediapipe(head: bytes) -> bool:
 OPENPOSE = Format(
     "OpenPose", (".json",), begins_openpose, read_pose_json, read_folder=read_openpose_folder
 )
+MMPOSE = Format("MMPose", (".json",), begins_mmpose, read_pose_json)
 COCO = Format("COCO", (".json",), begins_coco, read_pose_json)
 MEDIAPIPE = Format("MediaPipe", (".json",), begins_mediapipe, read_pose_json)

@@ -1,0 +1,88 @@
+"""MMPose: the predictions that its inferencers and demos leave as JSON.
+
+``instance_info``, or the file itself, is a list of frames with ``frame_id`` and
+``instances``. Each of these has ``keypoints``, two or three numbers each, and
+``keypoint_scores``. Names stand in ``meta_info``; without these they are those
+of COCO (17 keypoints), of Halpe (26) or the first of COCO-WholeBody (133). Of
+whole bodies hands and face are left out. People are told apart by ``track_id``
+where all have one. Keypoints less sure than 0.3 count as not seen.
+
+Keypoints in three dimensions, as its lifters make, are z up and in a unit of
+their own.
+
+Source: MMPose's guide on inference, and its demos ``topdown_demo_with_mmdet``
+and ``body3d_pose_lifter_demo``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from kineme.formats.files import FileContent, unique
+from kineme.formats.keypoints.coco import LIMIT
+from kineme.formats.keypoints.coco import NAMES as COCO
+from kineme.formats.keypoints.video import Person, Video, video_to_motion
+from kineme.formats.options import ReadOptions
+from kineme.recordings import Motion
+
+_TOES = ("left_big_toe", "left_small_toe", "left_heel")
+_FEET = (*_TOES, *(name.replace("left", "right") for name in _TOES))
+_HALPE = ("head", "neck", "hip", *(f"{side}_{part}" for part in ("big_toe", "small_toe", "heel")
+                                  for side in ("left", "right")))  # fmt: skip
+NAMES = {17: COCO, 26: (*COCO, *_HALPE), 133: (*COCO, *_FEET)}
+"""Keypoints by the number that a person has; of a whole body those that are kept."""
+
+
+def is_mmpose(data: Any) -> bool:
+    """Whether JSON of this content is MMPose's."""
+    return any(isinstance(frame, Mapping) and "instances" in frame for frame in _frames(data))
+
+
+def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion:
+    """The motion of one person in MMPose's predictions."""
+    found: list[tuple[int, Mapping[str, Any]]] = []
+    numbers = []
+    for place, frame in enumerate(_frames(data)):
+        instances = frame.get("instances") if isinstance(frame, Mapping) else None
+        if not isinstance(instances, list):
+            raise content.error(f"frame {place} has no list of 'instances'")
+        number = frame.get("frame_id")
+        numbers.append(number if isinstance(number, int) else place)
+        found += [(numbers[-1], each) for each in instances if isinstance(each, Mapping)]
+    width = max((len(_points(each)) for _, each in found), default=0)
+    names = _names(data, width)
+    if not names:
+        raise content.error(f"a person has {width} keypoints, and 'meta_info' does not name them")
+    tracked = all(each.get("track_id") is not None for _, each in found)
+    people = []
+    for number, each in found:
+        scores = each.get("keypoint_scores")
+        confidence: list[Any] = scores[: len(names)] if isinstance(scores, list) else ["none"]
+        who = str(each["track_id"])[:40] if tracked else None
+        people.append(Person(number, _points(each)[: len(names)], confidence, who))
+    first = people[0].points[0]
+    flat = isinstance(first, list) and len(first) == 2
+    unit, up = ("pixel", "-y") if flat else (None, "z")
+    video = Video("MMPose", names, people, LIMIT, frames=numbers, unit=unit, up=up)
+    return video_to_motion(content, video, options)
+
+
+def _frames(data: Any) -> Sequence[Any]:
+    frames = data.get("instance_info") if isinstance(data, Mapping) else data
+    return frames if isinstance(frames, list) else []
+
+
+def _points(instance: Mapping[str, Any]) -> Sequence[Any]:
+    points = instance.get("keypoints")
+    return points if isinstance(points, list) else []
+
+
+def _names(data: Any, count: int) -> Sequence[str]:
+    """The names in the file, else those that so many keypoints usually have; none for others."""
+    facts = data.get("meta_info") if isinstance(data, Mapping) else None
+    named = facts.get("keypoint_id2name") if isinstance(facts, Mapping) else None
+    if isinstance(named, Mapping) and count in (len(named), 133):
+        listed = unique(str(named.get(str(i), i)) for i in range(count))
+        return listed[: len(NAMES[133])] if count == 133 else listed
+    return NAMES.get(count, ())
