@@ -336,6 +336,14 @@ def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
     assert left.provenance.notes == ("columns that are no channels: b",)
 
 
+def test_what_tells_of_the_device_or_the_place_is_no_channel(tmp_path) -> None:
+    names = "acc_x,hand_temperature,Temp (degC),Battery level,lux,template"
+    rows = [f"{i % 7},30,20,{100 - i},{i % 3},{i % 5}\n" for i in range(20)]
+    path = write(tmp_path, "a.csv", f"{names}\n" + "".join(rows))
+    assert read(path, fps=50).names == ("acc_x", "template")
+    assert read(path, fps=50, columns=["hand_temperature"]).names == ("hand_temperature",)
+
+
 @pytest.mark.parametrize("column", ["device", "person_id", "Joint"])
 @pytest.mark.parametrize("channels", ["x,y", "head_x,head_y"])
 def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels) -> None:

@@ -18,6 +18,7 @@ are gaps of the recording.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
@@ -47,6 +48,11 @@ LABELS = frozenset(
     {"label", "labels", "class", "annotation", "ground_truth"} | {"class_id", "label_id"}
 )
 """Names of columns in which people say what is done."""
+SURROUNDINGS = re.compile(
+    r"(?:.*[\W_])?(?:temp(?:erature)?|battery|humidity|lux|latitude|longitude)(?:[\W_].*)?",
+    re.IGNORECASE,
+)
+"""Names of columns that tell of a device or the place it is at, and not how somebody moves."""
 WILD = frozenset("*?[")
 """Characters by which a pattern is told from a name."""
 
@@ -219,9 +225,11 @@ def without_gaps(
 
 
 def _is_no_channel(name: str) -> bool:
-    """Whether a column of this name counts rows, is nameless, or says what is done."""
+    """Whether a column of this name counts rows, is nameless, or says what is done or around."""
     plain = name.strip().lower()
-    return plain in COUNTERS or plain in LABELS or name.startswith(NAMELESS)
+    if plain in COUNTERS or plain in LABELS or name.startswith(NAMELESS):
+        return True
+    return SURROUNDINGS.fullmatch(plain) is not None
 
 
 def _is_clock(values: Floats) -> bool:
