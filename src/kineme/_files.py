@@ -56,6 +56,8 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
         _synchronise(draft)
         draft.replace(final)
         _synchronise(final.parent)
+    except FileError as error:
+        raise _of(error, draft, final) from error
     except OSError as error:
         raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
     finally:
@@ -94,12 +96,22 @@ def atomic_folder(target: Path) -> Iterator[Path]:
             target.rmdir()
         draft.rename(target)
         _synchronise(target.parent)
+    except FileError as error:
+        raise _of(error, draft, target) from error
     except OSError as error:
         raise WriteError(target, f"cannot be written: {error.strerror or error}") from error
     finally:
         if descriptor is not None:
             os.close(descriptor)
         shutil.rmtree(draft, ignore_errors=True)
+
+
+def _of(error: FileError, draft: Path, final: Path) -> FileError:
+    """The error of a draft, or of a file in one, by the name that people know."""
+    path = Path(error.path)
+    if not path.is_relative_to(draft):
+        return error
+    return WriteError(final / path.relative_to(draft), error.reason)
 
 
 @contextmanager

@@ -11,6 +11,7 @@ from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import FunctionTransformer
 from sklearn.utils.estimator_checks import parametrize_with_checks
 
+import kineme
 from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
 
@@ -120,3 +121,8 @@ def test_a_name_that_is_no_parameter_is_refused_when_it_is_set() -> None:
         Segmenter().set_params(nonsense=3)
     changed = Segmenter().set_params(preset="krueger2017", radius=0.4)
     assert changed.get_params()["radius"] == 0.4
+
+
+def test_a_recording_is_told_where_it_belongs() -> None:
+    with pytest.raises(ParameterError, match="kineme.segment takes recordings"):
+        Segmenter().fit_predict(kineme.read(kineme.bundled_recording()))

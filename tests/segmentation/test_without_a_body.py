@@ -70,8 +70,11 @@ def test_every_preset_takes_them_and_says_so(preset: str) -> None:
     found = segment(legs(), preset=preset, **told)
     assert (found.activities.kind == "activity").any()
     notes = " / ".join(found.provenance["notes"])
-    assert "no left ankle, right ankle, head, left wrist and right wrist among the joints" in notes
-    assert "by the distances between 8 of its 8 points; name five joints with --effectors" in notes
+    assert "no left ankle, right ankle, head, left wrist or right wrist among the joints" in notes
+    assert (
+        "by the distances between 8 of its 8 points; to be looked at as a body, the markers of"
+        in notes
+    )
     assert "points: M0, M1, M2, M3, M4, M5, M6, M7" in notes
 
 

@@ -113,8 +113,8 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     if missing:
         raise EndEffectorError(
             f"{_listed(missing)} not found among the joints {_joint_list(skeleton)}; "
-            f"name all five with --effectors {','.join(PARTS).upper()} (names=... in Python)",
-            reason=f"no {_listed(missing)} among the joints",
+            + remedy(skeleton),
+            reason=f"no {_listed(missing, 'or')} among the joints",
         )
     joints = [found[part][0] for part in PARTS]
     if len(set(joints)) < len(PARTS):
@@ -126,9 +126,20 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     return EndEffectors(*joints, how=tuple(found[part][1] for part in PARTS))
 
 
-def _listed(words: list[str]) -> str:
+def remedy(skeleton: Skeleton) -> str:
+    """How a recording becomes that of a body in which the end effectors were not found."""
+    if max(skeleton.parents) < 0:  # where a body stands and faces, a pelvis tells
+        return (
+            "to be looked at as a body, the markers of pelvis, ankles, head and wrists need the "
+            "names of a marker set (LASI, RASI, LPSI, RPSI, LANK, ...)"
+        )
+    parts = ",".join(PARTS).upper()
+    return f"name all five with --effectors {parts} (effectors=... in Python)"
+
+
+def _listed(words: list[str], last: str = "and") -> str:
     """The words as people list them: ``a, b and c``."""
-    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+    return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
 def _add(found: dict[str, tuple[int, str]], more: Mapping[str, int], how: str) -> None:

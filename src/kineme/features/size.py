@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kineme.errors import MotionError
-from kineme.features.effectors import EndEffectors
+from kineme.features.effectors import EndEffectors, remedy
 from kineme.recordings import Motion
 
 
@@ -32,8 +32,10 @@ def body_size(motion: Motion, effectors: EndEffectors) -> float:
     legs = [_chain(motion, joint) for joint in (effectors.left_ankle, effectors.right_ankle)]
     size = float(np.mean(legs)) + _chain(motion, effectors.head)
     if not size > 0:
+        lacking = "" if max(motion.skeleton.parents) >= 0 else f": {remedy(motion.skeleton)}"
         raise MotionError(
             "the bones between ankles and head have no length, as among markers without a pelvis"
+            + lacking
         )
     return size
 

@@ -198,7 +198,7 @@ def up_axis(usual: str, positions: Floats, body: Body) -> tuple[str, list[str]]:
         up = _axis_of(positions, feet, head, 0.7)
         if up is not None:
             return up, [f"up axis {up} inferred: head and feet lie along it"]
-    return usual, [f"up axis {usual} assumed; give up= if it is another"]
+    return usual, [f"up axis {usual} assumed; give up= (--up) if it is another"]
 
 
 def _axis_of(positions: Floats, feet: list[int], head: list[int], least: float) -> str | None:

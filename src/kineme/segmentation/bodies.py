@@ -17,7 +17,7 @@ from kineme.features import (
     stack,
 )
 from kineme.features.distances import SIZE
-from kineme.features.effectors import Names
+from kineme.features.effectors import Names, remedy
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.base import Preset
 from kineme.recordings import Motion
@@ -109,7 +109,7 @@ def _without_a_body(
     names = motions[0].skeleton.names
     note = (
         f"{reason}: segmented by the distances between {len(points)} of its {len(names)} points; "
-        f"name five joints with --effectors to be looked at as a body"
+        + remedy(motions[0].skeleton)
     )
     notes = [note, f"points: {', '.join(names[point] for point in points)}"]
     ends = np.cumsum([span.n_frames for span in motions])[:-1]

@@ -17,7 +17,7 @@ from sklearn.utils.validation import validate_data
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
-from kineme.recordings import Signals
+from kineme.recordings import Motion, Signals
 from kineme.segmentation.segmenter import segment
 
 ASSUMED_FPS = 30.0
@@ -89,6 +89,10 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
 
     def fit(self, X: Any, y: Any = None) -> Self:  # noqa: ARG002, N803 (scikit-learn's names)
         """Segment the rows of X, (frames, channels); y is there for scikit-learn alone."""
+        if isinstance(X, Motion | Signals):
+            raise ParameterError(
+                "a Segmenter takes rows of numbers: kineme.segment takes recordings"
+            )
         values = validate_data(self, X, dtype=np.float64)
         preset = resolve_preset(self.preset, signals=True, **self._constants)
         names = getattr(self, "feature_names_in_", ())

@@ -255,11 +255,12 @@ class Segmentation:
     def describe(self) -> str:
         """How many of each there are, for people; primitives without transitions."""
         kinds = self.activities.kind.tolist()
+        clusters = {*self.activities.cluster.tolist(), *self.primitives.cluster.tolist()}
         counts = {
             "activity": kinds.count("activity"),
             "transition": kinds.count("transition"),
             "primitive": self.primitives.kind.tolist().count("primitive"),
-            "cluster": len(self.repetitions()),
+            "cluster": len(clusters - {-1}),
         }
         return ", ".join(counted(n, name) for name, n in counts.items())
 

@@ -58,7 +58,8 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
         if needed not in sections:
             raise content.error(f"no :{needed} section, so this is not a whole ASF file")
     units = {words[0].lower(): (n, words[1:]) for n, words in sections.get("units", [])}
-    turn = 1.0 if units.get("angle", (0, ["deg"]))[1][:1] == ["rad"] else radians(1)
+    angle = "".join(units.get("angle", (0, ["deg"]))[1][:1]).lower()
+    turn = 1.0 if angle.startswith("rad") else radians(1)
     if scale is None:
         scale = INCH
         if "length" in units:
