@@ -17,6 +17,7 @@ from kineme.cycles import channels_of, write_cycles
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.recordings import Signals
 from kineme.report.page import write_report
+from kineme.segments.editing import exclude
 from kineme.web.cycle_curves import CycleCurves
 from kineme.web.messages import ClusterCurves
 
@@ -129,6 +130,22 @@ def test_an_edit_is_measured_anew(measured: CycleCurves) -> None:
     assert measured.of(edited, row.cluster, "knee_l") is None
     after = measured.of(edited, 99, "knee_l")
     assert after.mean == before.mean
+
+
+def test_what_people_left_out_is_in_no_mean_and_can_be_found(measured: CycleCurves) -> None:
+    cluster = next(row.cluster for row in TRUTH.primitives if row.kind == "primitive")
+    before = measured.of(TRUTH, cluster, "knee_l")
+    farthest = before.cycles[0]
+    table = exclude(TRUTH, [farthest.start_frame], excluded=True)
+    after = CycleCurves(lambda: MOTION).of(table, cluster, "knee_l")
+    assert (after.n, after.total, after.left_out) == (before.n - 1, before.total, 1)
+    found = next(each for each in after.cycles if each.start_frame == farthest.start_frame)
+    assert (found.counts, found.note, found.values) == (
+        False, "left out by hand", farthest.values,
+    )  # fmt: skip
+    written = kineme.cycles(MOTION, table, channels=["knee_l"]).mean_curves()
+    of_group = written["group"] == GROUPS[cluster]
+    same(after, np.array([written[name][of_group] for name in ("n", "mean", "sd")]))
 
 
 def test_what_is_not_there_is_none(measured: CycleCurves) -> None:

@@ -42,6 +42,7 @@ MOST_NUMBERS = 50_000
 FEWEST_CHANNELS = 4
 MOST_FRAMES = 200_000
 """Of all tables of a report together: half a second for a hundred thousand."""
+OUT = "left out by hand"
 PLACES = {
     "first": "the first of its activity",
     "last": "the last of its activity",
@@ -267,6 +268,8 @@ def _only_ends(group: Cycles) -> bool:
 
 def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurves:
     """The message for the cycles of a group."""
+    from kineme.cycles.table import BY_HAND
+
     place, ends = group.channels.index(channel), _only_ends(group)
     curves, columns = group.curves[:, place], group.columns
     complete = np.isfinite(curves).all(axis=1)
@@ -278,6 +281,7 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurv
         out=np.full(len(group), np.nan), where=finite.any(axis=1),
     ))  # fmt: skip
     order = sorted(range(len(group)), key=lambda i: (not counts[i], -np.nan_to_num(distance[i])))
+    by_hand = set(np.flatnonzero(columns["excluded"] == BY_HAND).tolist())
     digits = _digits(_extent(curves))
     drawn = [
         CycleCurve(
@@ -285,11 +289,11 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurv
             start_s=float(columns["start_s"][i]),
             stop_s=float(columns["stop_s"][i]),
             counts=bool(counts[i]),
-            note="" if counts[i] else _note(columns, i),
+            note="" if counts[i] else OUT if i in by_hand else _note(columns, i),
             distance=None if np.isnan(distance[i]) else round(float(distance[i]), digits),
             values=_rounded(curves[i], digits),
         )
-        for i in _some(order, most)
+        for i in _some(order, most, by_hand)
     ]
     return ClusterCurves(
         channel=channel,
@@ -297,6 +301,7 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurv
         n=int(mean["n"][0]),
         total=len(group),
         ends=ends,
+        left_out=len(by_hand),
         turned=_turned(group),
         mean=_rounded(mean["mean"], digits + 1),
         sd=_rounded(mean["sd"], digits + 1),
@@ -306,8 +311,8 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurv
 
 def _turned(group: Cycles) -> int:
     """How many of its activities began at another phase than the others."""
-    name = f"{group.columns['group'][0]} in activity "
-    return sum(note.startswith(name) for note in group.provenance["notes"])
+    name = group.columns["group"][0]
+    return sum(each["group"] == name for each in group.provenance["turned"])
 
 
 def _rounded(values: Floats, digits: int) -> list[float | None]:
@@ -319,12 +324,14 @@ def _digits(extent: float) -> int:
     return DIGITS - 1 - floor(log10(extent)) if extent > 0 else DIGITS
 
 
-def _some(order: Sequence[int], most: int) -> list[int]:
-    """The first ones, which are the farthest, and of the others evenly so many."""
+def _some(order: Sequence[int], most: int, kept: set[int]) -> list[int]:
+    """The first ones, which are the farthest, those kept, and of the others evenly so many."""
     if len(order) <= most:
         return list(order)
-    rest, n = order[FAR:], most - FAR
-    return [*order[:FAR], *(rest[i * len(rest) // n] for i in range(n))]
+    first = [i for place, i in enumerate(order) if place < FAR or i in kept][:most]
+    rest, n = [i for i in order if i not in first], most - len(first)
+    others = {rest[i * len(rest) // n] for i in range(n)}
+    return [i for i in order if i in first or i in others]
 
 
 def _note(columns: Columns, row: int) -> str:

@@ -139,9 +139,9 @@ class ClusterCurves(Struct, frozen=True, kw_only=True):
     """A channel over the repetitions of a cluster, and of those with the same name.
 
     Mean and standard deviation are of ``n`` of ``total`` repetitions: of the inner ones, or where
-    there are none (``ends``) of all. ``cycles`` are those drawn: those farthest from the mean
-    first, after them those that do not count. ``turned`` counts activities that were cut at
-    another phase than the others.
+    there are none (``ends``) of all; ``left_out`` counts those that people left out. ``cycles`` are
+    those drawn: those farthest from the mean first, after them those that do not count. ``turned``
+    counts activities that were cut at another phase than the others.
     """
 
     channel: str
@@ -149,6 +149,7 @@ class ClusterCurves(Struct, frozen=True, kw_only=True):
     n: int
     total: int
     ends: bool
+    left_out: int
     turned: int
     mean: list[float | None]
     sd: list[float | None]
@@ -247,6 +248,7 @@ class TableChange(Struct, frozen=True, kw_only=True):
     comments: list[Comment] | None
     cluster_names: dict[int, str] | None
     corrections: int
+    excluded: list[int] | None
 
 
 class Edited(Struct, frozen=True, kw_only=True):

@@ -11,6 +11,8 @@ export interface CurvePicture {
   curves: ClusterCurves;
   /** The other side of the body, of which the mean is drawn. */
   opposite: ClusterCurves | null;
+  /** Numbers of the repetitions that people left out. */
+  leftOut: ReadonlySet<number>;
   /** Which of the repetitions is selected; -1: none. */
   selected: number;
   color: string;
@@ -25,7 +27,7 @@ const ABOVE = 8;
 const DASHES = [5, 4];
 
 export function drawCurves(pen: Pen, picture: CurvePicture, width: number, height: number): void {
-  const { curves, opposite, selected } = picture;
+  const { curves, opposite, leftOut, selected } = picture;
   const { cycles, mean } = curves;
   const [low, high] = boundsOf(curves, opposite);
   const last = mean.length - 1;
@@ -39,12 +41,13 @@ export function drawCurves(pen: Pen, picture: CurvePicture, width: number, heigh
   pen.globalAlpha = 0.25;
   band(pen, curves, x, y);
   const alpha = Math.max(0.18, Math.min(0.6, 6 / cycles.length));
-  pen.strokeStyle = color;
   pen.lineWidth = 1;
-  for (const { values, counts } of cycles) {
-    pen.globalAlpha = counts ? alpha : alpha / 2; // what is in no mean stands back
+  for (const [i, { values, counts }] of cycles.entries()) {
+    pen.strokeStyle = leftOut.has(i) ? cssColor("quiet") : color;
+    pen.globalAlpha = counts && !leftOut.has(i) ? alpha : alpha / 2; // in no mean: it stands back
     line(pen, values, x, y);
   }
+  pen.strokeStyle = color;
   pen.globalAlpha = 1;
   pen.lineWidth = 2.5;
   line(pen, mean, x, y);
