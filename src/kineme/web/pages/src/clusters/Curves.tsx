@@ -92,6 +92,7 @@ function whatIsShown({ n, total, ends, left_out, cycles }: ClusterCurves): strin
   const without = left_out ? `, ${left_out} left out by hand` : "";
   if (!n && left_out) return `${total} repetitions${drawn}${without}, no other recorded as a whole`;
   if (!n) return `${total} repetitions${drawn}, none recorded as a whole`;
+  if (n === 1) return `1${ends ? "" : " inner"} of ${total} repetitions${drawn}${without}: no mean`;
   return `${n}${ends ? "" : " inner"} of ${total} repetitions${drawn}${without}, ${mean}`;
 }
 

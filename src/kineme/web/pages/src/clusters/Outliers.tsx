@@ -116,6 +116,7 @@ function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
 
 /** How far a repetition is from the mean, and why it is not in it. */
 function deviationOf({ distance, note }: CycleCurve, unit: string): string {
-  const far = distance === null ? "" : `${distance.toPrecision(2)} ${unit}`.trim();
+  const number = distance?.toPrecision(2);
+  const far = distance === null ? "" : unit === "°" ? `${number}°` : `${number} ${unit}`.trim();
   return [far && `${far} from the mean`, note].filter(Boolean).join(", ");
 }

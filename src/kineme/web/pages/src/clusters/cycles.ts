@@ -3,12 +3,14 @@ import type { CycleCurve } from "../messages";
 import { isExcluded } from "../segments";
 import type { Store } from "../store";
 
-/** Selects the segment of a repetition, if it is there still. */
+/** Selects the segment of a repetition, if it is there still, and goes to where it is measured from. */
 export function selectCycle(store: Store, cycle: CycleCurve | undefined): void {
   const segment = store.primitives.value.find(
     ({ start_frame }) => start_frame === cycle?.start_frame,
   );
-  if (segment) store.select(segment);
+  if (!segment || !cycle) return;
+  store.select(segment);
+  if (segment.start_s < cycle.start_s && cycle.start_s < segment.stop_s) store.seek(cycle.start_s);
 }
 
 /** The numbers of the repetitions that people left out, by the table as it is shown. */
