@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import kineme
+from kineme.datasets import bundled_truth
 from screen import Screen, box_of, until
 
 BRIGHTNESS = """video => {
@@ -115,6 +116,8 @@ def test_a_repetition_is_left_out_of_the_mean_and_brought_back(page, take):
 
 def test_two_recordings_stand_side_by_side(new_tab, server, take):
     second = Path(shutil.copy(take, take.with_stem(f"{take.stem}_too")))
+    for path in (take, second):
+        shutil.copy(bundled_truth(), path.with_suffix(".segments.json"))
     page = new_tab(server.address_of(take))
     screen = Screen(page)
     screen.opened()
@@ -123,6 +126,9 @@ def test_two_recordings_stand_side_by_side(new_tab, server, take):
     assert screen.state["recordings"] == [take.name, second.name]
     page.reload()
     screen.wait("k?.recordings?.length === 2 && k.hasMotion")
+    page.get_by_role("tab", name="Clusters").click()
+    page.get_by_label("Beside", exact=True).select_option(take.name)
+    page.locator(".curves .note").filter(has_text=f"{take.name} (dashed): 5 of 9").wait_for()
     page.get_by_role("button", name=f"Close {second.name}").click()
     screen.wait("k.recordings.length === 1")
 

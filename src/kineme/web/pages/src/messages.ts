@@ -165,12 +165,26 @@ export interface CycleCurve {
 }
 
 /**
+ * The mean curve of the same movement in another recording, of `n` of `total` repetitions.
+ *
+ * `differs` says where the bounds of the difference leave out 0.
+ */
+export interface OtherSession {
+  n: number;
+  total: number;
+  mean: (number | null)[];
+  sd: (number | null)[];
+  differs: boolean[];
+}
+
+/**
  * A channel over the repetitions of a cluster, and of those with the same name.
  *
  * Mean and standard deviation are of `n` of `total` repetitions: of the inner ones, or where
  * there are none (`ends`) of all; `left_out` counts those that people left out. `cycles` are
  * those drawn: those farthest from the mean first, after them those that do not count. `turned`
- * counts activities that were cut at another phase than the others.
+ * counts activities that were cut at another phase than the others. `beside` is of another
+ * recording, where one was asked for and has the movement and the channel.
  */
 export interface ClusterCurves {
   channel: string;
@@ -183,6 +197,7 @@ export interface ClusterCurves {
   mean: (number | null)[];
   sd: (number | null)[];
   cycles: CycleCurve[];
+  beside: OtherSession | null;
 }
 
 /**

@@ -26,6 +26,7 @@ function curvesOf(channel: string, cycles: CycleCurve[] = []): ClusterCurves {
     mean,
     sd,
     cycles,
+    beside: null,
   };
 }
 

@@ -6,6 +6,7 @@ import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
 import { clusterColor } from "../colors";
 import type { ClusterCurves, CycleChannel, CycleCurve } from "../messages";
+import { BesideSelect, idOf, othersOf, whatIsBeside } from "./Beside";
 import { cycleAt, leftOutOf, selectCycle } from "./cycles";
 import { Chosen, Farthest, LeftOut } from "./Outliers";
 import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
@@ -16,7 +17,9 @@ const DASHED = " (dashed)";
 export function Curves(): JSX.Element {
   const store = useStore();
   const chosen = useSignal("");
-  const measured = useClusterCurves(chosen);
+  const besideId = useSignal("");
+  const beside = useComputed(() => othersOf(store).find((each) => idOf(each) === besideId.value));
+  const measured = useClusterCurves(chosen, beside);
   const cycles = useComputed(() => measured.value?.curves?.cycles ?? []);
   const selected = useComputed(() => cycleAt(store, cycles.value));
   const leftOut = useComputed(() => leftOutOf(store, cycles.value));
@@ -41,6 +44,11 @@ export function Curves(): JSX.Element {
         />
         <span class="quiet">{curves.unit}</span>
       </div>
+      <BesideSelect
+        others={othersOf(store)}
+        id={beside.value ? besideId.value : ""}
+        choose={(id) => (besideId.value = id)}
+      />
       <div class="curve-room">
         <Canvas
           label={`Curves of ${curves.total} repetitions, with mean and deviation. Click one to go to it.`}
@@ -77,6 +85,7 @@ export function Curves(): JSX.Element {
       <LeftOut curves={curves} leftOut={leftOut.value} />
       <p class="quiet note">
         {whatIsShown(curves)}
+        {beside.value && whatIsBeside(store, beside.value, curves)}
         {opposite && `; ${opposite.channel}${DASHED}`}
         {curves.turned > 0 &&
           `; ${curves.turned} ${curves.turned === 1 ? "activity" : "activities"} turned to the phase of the others`}
@@ -92,7 +101,8 @@ function whatIsShown({ n, total, ends, left_out, cycles }: ClusterCurves): strin
   const without = left_out ? `, ${left_out} left out by hand` : "";
   if (!n && left_out) return `${total} repetitions${drawn}${without}, no other recorded as a whole`;
   if (!n) return `${total} repetitions${drawn}, none recorded as a whole`;
-  if (n === 1) return `1${ends ? "" : " inner"} of ${total} repetitions${drawn}${without}: no mean`;
+  if (n === 1)
+    return `1${ends ? "" : " inner"} of ${total} repetitions${drawn}${without}, bold: too few for a mean`;
   return `${n}${ends ? "" : " inner"} of ${total} repetitions${drawn}${without}, ${mean}`;
 }
 
