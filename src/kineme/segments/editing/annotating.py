@@ -115,7 +115,7 @@ def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -
     >>> found = kineme.read_segments(bundled_truth(), fps=60)
     >>> stumbled = exclude(found, [126], excluded=True)
     >>> stumbled.annotation.excluded
-    (158,)
+    (160,)
     >>> walk = kineme.cycles(kineme.read(kineme.bundled_recording()), stumbled)
     >>> walk.columns["excluded"][:3].tolist()
     ['', '', 'by hand']
