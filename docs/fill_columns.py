@@ -83,6 +83,7 @@ def json_schema() -> dict[str, Any]:
         "comments": {"type": "array", "items": comment},
         "cluster_names": {"type": "object", "additionalProperties": text},
         "corrections": count,
+        "excluded": {"type": "array", "items": count},
     }
     rows = {"type": "array", "minItems": 1, "items": _object(columns, required=lacking(()))}
     return {

@@ -235,6 +235,7 @@ CHECKS: dict[str, Check] = {
     "J": looks_at_the_next,
     "K": checks("k"),
     "Shift + K": checks("Shift+K"),
+    "X": checks("x"),
     "Page Down, Page Up": opens_the_next,
     "Ctrl + Z": edits("m", more=-1),
     "Ctrl + Shift + Z": edits("m", more=-1, again=True),

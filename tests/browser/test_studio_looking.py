@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import kineme
+from kineme.datasets import bundled_truth
 from screen import Screen, box_of, until
 
 BRIGHTNESS = """video => {
@@ -89,8 +90,34 @@ def test_curves_are_those_of_kineme_cycles(page, take):
     assert screen.state["selected"]["cluster"] == 0
 
 
+def test_a_repetition_is_left_out_of_the_mean_and_brought_back(page, take):
+    """By a click, by a key; it is kept with the table, so that ``kineme cycles`` leaves it out."""
+    screen = Screen(page)
+    page.get_by_role("tab", name="Clusters").click()
+    note, left_out = page.locator(".curves .note"), page.get_by_label("Left out by hand")
+    note.filter(has_text="5 inner of 9 repetitions, mean").wait_for()
+    page.get_by_label("Leave out of the mean").first.click()
+    note.filter(has_text="4 inner of 9 repetitions, 1 left out by hand, mean").wait_for()
+    left_out.wait_for()
+    screen.saved()
+    recording, table = kineme.read(take), kineme.read_segments(take.with_suffix(".segments.json"))
+    reasons = kineme.cycles(recording, table, channels=[]).columns["excluded"].tolist()
+    assert reasons.count("by hand") == 1
+    left_out.get_by_role("button").first.click()  # goes there
+    page.get_by_role("button", name="Bring back", exact=True).wait_for()
+    page.keyboard.press("x")
+    note.filter(has_text="5 inner of 9 repetitions, mean").wait_for()
+    assert left_out.count() == 0
+    page.keyboard.press("Control+z")
+    note.filter(has_text="4 inner of 9").wait_for()
+    left_out.get_by_role("button").last.click()
+    note.filter(has_text="5 inner of 9").wait_for()
+
+
 def test_two_recordings_stand_side_by_side(new_tab, server, take):
     second = Path(shutil.copy(take, take.with_stem(f"{take.stem}_too")))
+    for path in (take, second):
+        shutil.copy(bundled_truth(), path.with_suffix(".segments.json"))
     page = new_tab(server.address_of(take))
     screen = Screen(page)
     screen.opened()
@@ -99,6 +126,9 @@ def test_two_recordings_stand_side_by_side(new_tab, server, take):
     assert screen.state["recordings"] == [take.name, second.name]
     page.reload()
     screen.wait("k?.recordings?.length === 2 && k.hasMotion")
+    page.get_by_role("tab", name="Clusters").click()
+    page.get_by_label("Beside", exact=True).select_option(take.name)
+    page.locator(".curves .note").filter(has_text=f"{take.name} (dashed): 5 of 9").wait_for()
     page.get_by_role("button", name=f"Close {second.name}").click()
     screen.wait("k.recordings.length === 1")
 

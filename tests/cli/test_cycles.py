@@ -60,10 +60,17 @@ def test_several_recordings_are_measured_together(kineme, take: Path, tmp_path: 
     assert float(compared[0]["difference"]) == pytest.approx(0, abs=1e-9)
     assert (tmp_path / "both.curves.csv").exists()
     done = kineme(
-        "cycles", "take.bvh", "other.bvh", "--segments", "tables/{name}.json", "-q",
-        "--compare", "both.html",
+        "cycles", "take.bvh", "other.bvh", "--segments", "tables/{name}.json",
+        "--compare", "both.html", "--plot", "both.png",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
+    squats = [line.split() for line in done.stdout.splitlines() if " squat " in line]
+    assert [line[:4] for line in squats] == [
+        ["take", "squat", "4", "2"],
+        ["other", "squat", "4", "2"],
+    ]
+    assert "8 more channels measured" in done.stdout
+    assert (tmp_path / "both.png").stat().st_size > 5000
     assert "<h1>take → other</h1>" in (tmp_path / "both.html").read_text(encoding="utf-8")
     alone = kineme("cycles", "take.bvh", "--compare", "both.csv")
     assert alone.returncode == 2

@@ -14,6 +14,7 @@ from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import cut
+from kineme.segments.editing import exclude
 from kineme.segments.segmentation import Segmentation
 
 
@@ -80,6 +81,8 @@ def test_walks_that_begin_with_another_foot_are_measured_from_the_same(walks) ->
     curves = found.curves[rows_of(found, "walk")][1:-1, 0]
     assert np.corrcoef(curves[1], curves[-2])[0, 1] > 0.95
     assert "begins" in " ".join(found.provenance["notes"])
+    assert {each["group"] for each in found.provenance["turned"]} == {"walk"}
+    assert len(found.provenance["turned"]) == len(found.provenance["notes"])
     assert len(found) == (truth.primitives.kind == "primitive").sum()
 
 
@@ -117,6 +120,17 @@ def test_mean_curves_have_a_band(cycles) -> None:
     np.testing.assert_allclose(table["mean"][rows], curves.mean(axis=0))
     assert (table["low"][rows] <= table["mean"][rows]).all()
     assert table["percent"][rows].tolist() == [*range(101)]
+
+
+def test_what_people_left_out_in_the_table_is_left_out(walks, cycles) -> None:
+    row = rows_of(cycles, "walk")[2]
+    frame = [each.start_frame for each in walks.truth.primitives if each.kind == "primitive"][row]
+    table = exclude(walks.truth, [frame], excluded=True)
+    found = kineme.cycles(walks.motion, table)
+    assert np.flatnonzero(found.columns["excluded"] == "by hand").tolist() == [row]
+    expected = cycles.exclude([row]).summary()
+    for name, column in found.summary().items():
+        np.testing.assert_array_equal(column, expected[name])
 
 
 def test_an_excluded_cycle_stays_with_its_reason(cycles) -> None:

@@ -27,6 +27,7 @@ ANNOTATIONS = st.builds(
     st.lists(st.tuples(LEVELS, st.integers(0, 60), LABELS), max_size=3).map(tuple),
     st.dictionaries(st.integers(0, 5), LABELS, max_size=3),
     st.integers(0, 9),
+    st.lists(st.integers(0, 60), max_size=3).map(tuple),
 )
 
 
@@ -101,6 +102,7 @@ def test_edits_leave_the_provenance_and_keep_the_annotation() -> None:
         {"cluster_names": {"0": []}},
         {"cluster_names": {"walk": "walk"}},
         {"corrections": "many"},
+        {"excluded": [[3, 4]]},
     ],
     ids=str,
 )
@@ -117,3 +119,22 @@ def test_one_of_another_shape_is_refused(tmp_path: Path, said: object) -> None:
 def test_what_is_none_is_refused() -> None:
     with pytest.raises(ParameterError, match="Annotation"):
         replace(walk(), annotation={"checked": []})  # type: ignore[arg-type]
+
+
+def test_what_is_left_out_of_means_stays_left_out_whatever_becomes_of_its_borders() -> None:
+    without = editing.exclude(walk(), [30], True)
+    assert without.annotation.excluded == (45,)
+    assert without.annotation.corrections == 0
+    assert editing.exclude(without, [30], True) == without
+    for changed in (
+        editing.move_border(without, "primitive", 30, 38),
+        editing.merge(without, "primitive", 0, 60),
+        editing.set_cluster(without, "primitive", 30, 1),
+        editing.carried(without, walk()).segmentation,
+    ):
+        assert changed.annotation.excluded == (45,)
+    merged = editing.merge(without, "primitive", 0, 60)
+    assert editing.exclude(merged, [0], False).annotation.excluded == ()
+    assert editing.exclude(without, [30], False) == walk()
+    with pytest.raises(ParameterError, match="no segment of level 'primitive' starts at frame 31"):
+        editing.exclude(walk(), [31], True)

@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 
 import kineme
-from kineme.cycles import channels_of, write_cycles
-from kineme.datasets import bundled_recording, bundled_truth
+from kineme.cycles import channels_of, compare_curves, write_cycles
+from kineme.datasets import Action, bundled_recording, bundled_truth, synthesize
 from kineme.recordings import Signals
 from kineme.report.page import write_report
+from kineme.segments.editing import exclude, name_cluster
 from kineme.web.cycle_curves import CycleCurves
 from kineme.web.messages import ClusterCurves
 
@@ -129,6 +130,43 @@ def test_an_edit_is_measured_anew(measured: CycleCurves) -> None:
     assert measured.of(edited, row.cluster, "knee_l") is None
     after = measured.of(edited, 99, "knee_l")
     assert after.mean == before.mean
+
+
+def test_what_people_left_out_is_in_no_mean_and_can_be_found(measured: CycleCurves) -> None:
+    cluster = next(row.cluster for row in TRUTH.primitives if row.kind == "primitive")
+    before = measured.of(TRUTH, cluster, "knee_l")
+    farthest = before.cycles[0]
+    table = exclude(TRUTH, [farthest.start_frame], excluded=True)
+    after = CycleCurves(lambda: MOTION).of(table, cluster, "knee_l")
+    assert (after.n, after.total, after.left_out) == (before.n - 1, before.total, 1)
+    found = next(each for each in after.cycles if each.start_frame == farthest.start_frame)
+    assert (found.counts, found.note, found.values) == (
+        False, "left out by hand", farthest.values,
+    )  # fmt: skip
+    written = kineme.cycles(MOTION, table, channels=["knee_l"]).mean_curves()
+    of_group = written["group"] == GROUPS[cluster]
+    same(after, np.array([written[name][of_group] for name in ("n", "mean", "sd")]))
+
+
+def test_another_session_is_the_one_that_the_command_compares_with() -> None:
+    made = [synthesize([Action("squat", 7, amplitude=amplitude)], fps=60, seed=seed)
+            for amplitude, seed in ((1.0, 3), (0.8, 4))]  # fmt: skip
+    motions, tables = [each.motion for each in made], [each.truth for each in made]
+    first, second = (CycleCurves(lambda motion=motion: motion) for motion in motions)
+    cluster = next(row.cluster for row in tables[0].primitives if row.kind == "primitive")
+    found = first.beside(tables[0], cluster, "knee_l", second, tables[1])
+    both = kineme.cycles(motions, tables, channels=["knee_l"])
+    before = both.columns["recording"] == both.columns["recording"][0]
+    compared = compare_curves(both.select(before), both.select(~before))
+    for told, session in ((found, "first"), (found.beside, "second")):
+        same(told, np.array([compared[f"{session}_{name}"] for name in ("n", "mean", "sd")]))
+    assert found.beside.total == 7
+    differs = (compared["low"] > 0) | (compared["high"] < 0)
+    assert found.beside.differs == differs.tolist()
+    assert any(differs)
+    unnamed = name_cluster(tables[1], tables[1].primitives.cluster.max(), "")
+    assert first.beside(tables[0], cluster, "knee_l", second, unnamed).beside is None
+    assert first.of(tables[0], cluster, "knee_l").beside is None
 
 
 def test_what_is_not_there_is_none(measured: CycleCurves) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from math import floor, isfinite, log10
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -18,6 +20,8 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from kineme.cycles import Cycles
     from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
@@ -26,6 +30,10 @@ MEASURED = "Measured"
 FAR, UNSURE = "far", "unsure"
 SHOWN = 4
 """Channels whose ranges are shown."""
+PLAIN = 1e-3, 1e5
+"""From where to where numbers are told without a power of ten."""
+IN_A_COLUMN = 4
+"""Axes of a picture, one below the other; of more there are two columns, left beside right."""
 
 
 @with_reading_options
@@ -112,6 +120,8 @@ def cycles(
 
     Borders are moved to equal phase. Several recordings are measured together.
     """
+    from kineme.cli.tables import show_written
+    from kineme.cli.terminal import Console
     from kineme.cycles import compare_sides, write_cycles, write_table
     from kineme.cycles.measure import cycles as measured
 
@@ -145,16 +155,18 @@ def cycles(
                 align=align,
             )
             found = _excluded(found, exclude or [])
+            sessions = _sessions(found) if compare is not None else []
             if output is not None:
                 write_cycles(found, output, ends=ends)
             if plot is not None:
-                _draw(found, plot, ends=ends, sides=sides is not None)
+                _draw(found, sessions, plot, ends=ends, sides=sides is not None)
             if compare is not None:
-                _compare(found, compare, ends=ends)
+                _compare(sessions, compare, ends=ends)
             if sides is not None:
                 write_table(compare_sides(found, ends=ends), sides)
             if not quiet:
-                _show(found, ends=ends, written=[output, plot, compare, sides])
+                _show(found, sessions, chosen=channels is not None, ends=ends)
+                show_written(Console(highlight=False), [output, plot, compare, sides])
     batch.exit()
     failures.exit()
 
@@ -209,16 +221,21 @@ def _excluded(cycles: Cycles, rules: list[str]) -> Cycles:
     return cycles
 
 
-def _compare(cycles: Cycles, path: Path, *, ends: bool) -> None:
+def _sessions(cycles: Cycles) -> list[Cycles]:
+    """The cycles of each of two recordings."""
+    names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
+    if len(names) < 2:
+        raise ParameterError("there are no repetitions in both recordings to compare")
+    return [cycles.select(cycles.columns["recording"] == name) for name in names]
+
+
+def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
     """Write what changed from the first recording to the second: numbers, curves beside them."""
     from kineme.cycles import compare_curves, compare_sessions, write_table
     from kineme.report.page import SUFFIXES as PAGES
     from kineme.report.sessions import write_sessions
 
-    names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
-    if len(names) < 2:
-        raise ParameterError("there are no repetitions in both recordings to compare")
-    first, second = (cycles.select(cycles.columns["recording"] == name) for name in names)
+    first, second = sessions
     if path.suffix.lower() in PAGES:
         write_sessions(first, second, path, ends=ends)
         return
@@ -238,71 +255,129 @@ def _with_stance(recordings: list[Motion | Signals], names: list[str] | None) ->
     return [*chosen, *stances[0]]
 
 
-def _draw(cycles: Cycles, path: Path, *, ends: bool, sides: bool) -> None:
-    """One picture, an axis below the other for each channel; or for each pair of sides."""
+def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sides: bool) -> None:
+    """One picture: axes for each channel, for each of a pair of sides, or for two sessions."""
     from matplotlib.figure import Figure
 
     from kineme._files import atomic_write
-    from kineme.cycles import plot_curves, plot_sides
+    from kineme.cycles import compare_curves, plot_curves, plot_sessions, plot_sides
     from kineme.cycles.sides import sides_of
 
-    groups, pairs = cycles.groups, sides_of(cycles.channels) if sides else []
-    rows, columns = (len(pairs), len(groups)) if pairs else (len(cycles.channels), 1)
-    figure = Figure(figsize=(1.5 + 4.5 * columns, 1 + 2.5 * rows), layout="constrained")
-    axes = figure.subplots(rows, columns, squeeze=False)
-    if pairs:
-        for (left, right), row in zip(pairs, axes, strict=True):
-            for group, ax in zip(groups, row, strict=True):
-                plot_sides(cycles, left, right, group, ends=ends, ax=ax)
+    groups, pairs, channels = cycles.groups, sides_of(cycles.channels), cycles.channels
+    panels: list[tuple[Callable[..., Axes], tuple[Any, ...]]]
+    if sides and pairs:
+        panels = [(plot_sides, (cycles, *pair, group)) for pair in pairs for group in groups]
+        columns = len(groups)
+    elif sessions:
+        curves = compare_curves(*sessions, ends=ends)
+        groups = list(dict.fromkeys(curves["group"].tolist()))
+        panels = [(plot_sessions, (curves, name, group)) for name in channels for group in groups]
+        columns = len(groups)
     else:
-        for channel, ax in zip(cycles.channels, axes[:, 0], strict=True):
-            plot_curves(cycles, channel, ends=ends, ax=ax)
+        panels, columns = [(plot_curves, (cycles, channel)) for channel in channels], 1
+    if columns == 1 and len(panels) > IN_A_COLUMN:
+        columns = 2
+    rows = -(-len(panels) // columns)
+    figure = Figure(figsize=(1.5 + 4.5 * columns, 1 + 2.5 * rows), layout="constrained")
+    for number, (draw, what) in enumerate(panels, 1):
+        axes = figure.add_subplot(rows, columns, number)
+        if draw is plot_sessions:
+            _, channel, group = what
+            unit = cycles.units[channels.index(channel)]
+            draw(*what, unit=unit, ax=axes)
+            axes.set_title(group, loc="left", fontsize="medium")
+            names = [str(each.columns["recording"][0]) for each in sessions]
+            axes.legend(axes.lines[:2], names, frameon=False)
+        else:
+            draw(*what, ends=ends, ax=axes)
     with atomic_write(path) as draft:
         figure.savefig(draft)
 
 
-def _show(cycles: Cycles, *, ends: bool, written: list[Path | None]) -> None:
-    """Print a line for each group, the notes, and what was written."""
+def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -> None:
+    """Print a line for each group, of two sessions for each of both, and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import new_table, show_written
+    from kineme.cli.tables import new_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
-    shown = cycles.channels[:SHOWN]
-    ranges = [f"{channel} range" for channel in shown]
-    table = new_table("label", "cycles", "n", "duration s", "sd", "cv %", "per min", *ranges)
-    summary = cycles.summary(ends=ends)
-    values = {
-        (group, measure): (n, mean, sd, cv)
-        for group, measure, n, mean, sd, cv in zip(
-            *(summary[name].tolist() for name in ("group", "measure", "n", "mean", "sd", "cv")),
-            strict=True,
-        )
-    }
-    for group in cycles.groups:
-        n, mean, sd, cv = values[group, "duration_s"]
-        per_min = values[group, "cadence_per_min"][1]
-        cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
-        for channel in shown:
-            _, width, deviation, _ = values[group, f"{channel}.range"]
-            cells.append(f"{width:.4g} ± {deviation:.2g}")
-        count = int((cycles.columns["group"] == group).sum())
-        table.add_row(group, str(count), str(n), *(_filled(cell) for cell in cells))
+    shown = cycles.channels[:SHOWN] if chosen else _liveliest(cycles, ends=ends)
+    units = dict(zip(cycles.channels, cycles.units, strict=True))
+    ranges = [f"{name} range {units[name]}".strip() for name in shown]
+    first = ["recording"] if sessions else []
+    table = new_table(
+        *first, "label", "cycles", "n", "duration s", "sd", "cv %", "per min", *ranges
+    )
+    without: list[str] = []
+    for each in sessions or [cycles]:
+        values = _by_measure(each, ends=ends)
+        name = [str(each.columns["recording"][0])] if sessions else []
+        for group in each.groups:
+            n, mean, sd, cv = values[group, "duration_s"]
+            per_min = values[group, "cadence_per_min"][1]
+            cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
+            cells += [_with_deviation(*values[group, f"{channel}.range"][1:3]) for channel in shown]
+            count = int((each.columns["group"] == group).sum())
+            table.add_row(*name, group, str(count), str(n), *(_filled(cell) for cell in cells))
+            if n == 0:
+                without.append(group)
     console.print(table)
     of = "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
     console.print(f"n, means: over {of}.")
+    if len(cycles.channels) > len(shown) > 0:
+        more = counted(len(cycles.channels) - len(shown), "more channel")
+        console.print(f"{more} measured: --output writes all, --channels chooses.")
     reasons = [reason for reason in cycles.columns["excluded"].tolist() if reason]
     for reason in dict.fromkeys(reasons):
         console.print(f"{counted(reasons.count(reason), 'cycle')} left out: {reason}.")
-    without = [group for group in cycles.groups if values[group, "duration_s"][0] == 0]
     if without and not ends:
-        console.print(f"{', '.join(without)}: no inner repetition; --ends counts the others.")
+        groups = ", ".join(dict.fromkeys(without))
+        console.print(f"{groups}: no inner repetition; --ends counts the others.")
     if len(cycles) == 0:
         console.print("no repetition: nothing repeats itself here.")
     for note in cycles.provenance["notes"]:
         console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
-    show_written(console, written)
+
+
+def _by_measure(cycles: Cycles, *, ends: bool) -> dict[tuple[str, str], tuple[int, Any, Any, Any]]:
+    """Number, mean, deviation and its share of the mean, of each group and measure."""
+    summary = cycles.summary(ends=ends)
+    rows = zip(
+        *(summary[name].tolist() for name in ("group", "measure", "n", "mean", "sd", "cv")),
+        strict=True,
+    )
+    return {(group, measure): (n, mean, sd, cv) for group, measure, n, mean, sd, cv in rows}
+
+
+def _liveliest(cycles: Cycles, *, ends: bool) -> list[str]:
+    """The channels to show: those that go farthest in a group, with the other side of each.
+
+    Of several units, which cannot be compared, the first ones.
+    """
+    from kineme.cycles.sides import sides_of
+
+    if len(set(cycles.units)) > 1:
+        return [*cycles.channels[:SHOWN]]
+    values = _by_measure(cycles, ends=ends)
+    pairs = sides_of(cycles.channels)
+    opposite = dict(pairs) | {right: left for left, right in pairs}
+
+    def extent(channel: str) -> float:
+        means = [values[group, f"{channel}.range"][1] for group in cycles.groups]
+        return max((mean for mean in means if isfinite(mean)), default=0.0)
+
+    farthest = sorted(cycles.channels, key=extent, reverse=True)
+    names = dict.fromkeys(side for name in farthest for side in (name, opposite.get(name, name)))
+    return sorted([*names][:SHOWN], key=cycles.channels.index)
+
+
+def _with_deviation(mean: float, sd: float) -> str:
+    """Both with as many digits after the point as the mean is told with."""
+    if isfinite(mean) and mean and not PLAIN[0] <= abs(mean) < PLAIN[1]:
+        return f"{mean:.4g} ± {sd:.2g}"
+    digits = max(1, 2 - floor(log10(abs(mean)))) if isfinite(mean) and mean else 1
+    return f"{mean:.{digits}f} ± {sd:.{digits}f}"
 
 
 def _filled(cell: str) -> str:

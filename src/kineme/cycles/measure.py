@@ -22,7 +22,7 @@ from kineme.cycles.align import ALIGNMENTS, LINEAR, aligned
 from kineme.cycles.anchors import anchored
 from kineme.cycles.channels import Channel, channels_of
 from kineme.cycles.runs import Repetition, repetitions
-from kineme.cycles.table import INCOMPLETE, STATISTICS, Columns, Cycles
+from kineme.cycles.table import BY_HAND, INCOMPLETE, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
@@ -87,7 +87,8 @@ def cycles(
           ``duration_s``, and ``pause_s``: how long nothing moved before it;
         - ``start_deviation_s``, ``stop_deviation_s``: how uncertain the borders are;
         - ``confidence``, ``border_confidence``, ``activity_confidence``: of the segment table;
-        - ``excluded``: why it does not count in means, or nothing;
+        - ``excluded``: why it does not count in means, or nothing; ``by hand`` where the annotation
+          of the table says so (`kineme.segments.editing.exclude`);
         - of each channel ``NAME.range``, ``.min``, ``.max``, ``.min_at`` and ``.max_at`` (per cent
           of the cycle), ``.mean``, and at both borders ``.start`` and ``.stop``; nan where
           something was not recorded.
@@ -126,14 +127,11 @@ def cycles(
     columns = _columns(found, tables, names, groups)
     curves = np.empty((len(found), len(measured[0]), points))
     _measure([(each.recording, each.start, each.stop) for each in found], measured, columns, curves)
-    for group in set(columns["group"].tolist()):
-        rows = columns["group"] == group
-        curves[rows] = aligned(curves[rows], align)
     return Cycles(
         columns,
         tuple(channel.name for channel in measured[0]),
         tuple(channel.unit for channel in measured[0]),
-        curves,
+        _in_step(curves, columns, align),
         _provenance(given, tables, measured[0], found, columns, align),
     )
 
@@ -150,7 +148,8 @@ def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
     Returns
     -------
     Cycles
-        As if `kineme.cycles` had measured these channels, without all that finds the borders.
+        As if `kineme.cycles` had measured these channels, without all that finds the borders. Of
+        curves in step (``align``) the first of these channels says where they are.
     """
     former = {f"{channel}.{name}" for channel in cycles.channels for name in STATISTICS}
     columns = {name: column for name, column in cycles.columns.items() if name not in former}
@@ -161,7 +160,7 @@ def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
         columns,
         tuple(channel.name for channel in channels),
         tuple(channel.unit for channel in channels),
-        curves,
+        _in_step(curves, columns, cycles.provenance.get("align", LINEAR)),
         {**cycles.provenance, "channels": {channel.name: channel.source for channel in channels}},
     )
 
@@ -277,10 +276,15 @@ def _columns(
             [tables[e.recording].activities.confidence[e.segment.activity] for e in found],
             np.float64,
         ),
-        "excluded": np.array(
-            [each.missing or ("" if each.complete else INCOMPLETE) for each in found], np.str_
-        ),
+        "excluded": np.array([_reason(each, tables[each.recording]) for each in found], np.str_),
     }
+
+
+def _reason(each: Repetition, table: Segmentation) -> str:
+    """Why a repetition counts in no mean, or nothing."""
+    if table.annotation.excludes(each.segment.start_frame, each.segment.stop_frame):
+        return BY_HAND
+    return each.missing or ("" if each.complete else INCOMPLETE)
 
 
 def _measure(
@@ -306,6 +310,15 @@ def _measure(
                 )  # fmt: skip
         for name, column in zip(STATISTICS, statistics.T, strict=True):
             columns[f"{channel.name}.{name}"] = column
+
+
+def _in_step(curves: Floats, columns: Columns, align: str) -> Floats:
+    """The curves, those of each group in step; where nothing is measured, as they are."""
+    if curves.shape[1]:
+        for group in set(columns["group"].tolist()):
+            rows = columns["group"] == group
+            curves[rows] = aligned(curves[rows], align)
+    return curves
 
 
 def _of_cycle(
@@ -340,12 +353,16 @@ def _provenance(
     columns: Columns,
     align: str,
 ) -> dict[str, Any]:
-    turned: dict[tuple[str, int, str], float] = {}
+    moved: dict[tuple[str, int, str], float] = {}
     for each, name, group in zip(
         found, columns["recording"].tolist(), columns["group"].tolist(), strict=True
     ):
         if abs(each.turned) >= TURNED:
-            turned[name, each.segment.activity, group] = each.turned
+            moved[name, each.segment.activity, group] = each.turned
+    turned: list[dict[str, Any]] = [
+        {"recording": name, "activity": activity, "group": group, "by": round(by, 4)}
+        for (name, activity, group), by in moved.items()
+    ]
     return {
         "kineme": __version__,
         "recordings": [
@@ -358,9 +375,11 @@ def _provenance(
         ],
         "channels": {channel.name: channel.source for channel in channels},
         "align": align,
+        "turned": turned,
         "notes": [
-            f"{group} in activity {activity} of {name} begins {abs(by):.0%} of a cycle "
-            f"{'later' if by > 0 else 'earlier'} than its segments, where others of it begin"
-            for (name, activity, group), by in turned.items()
+            "{group} in activity {activity} of {recording} begins ".format_map(each)
+            + f"{abs(each['by']):.0%} of a cycle {'later' if each['by'] > 0 else 'earlier'} "
+            "than its segments, where others of it begin"
+            for each in turned
         ],
     }

@@ -140,7 +140,8 @@ def _common(first: Cycles, second: Cycles) -> list[str]:
     if not groups:
         raise ParameterError(
             f"no group is in both sessions: {', '.join(first.groups) or 'none'} and "
-            f"{', '.join(second.groups) or 'none'}; name clusters, or give them numbers in common"
+            f"{', '.join(second.groups) or 'none'}; name clusters alike, or say with --common "
+            "(common=True) that equal numbers are equal movements"
         )
     return groups
 

@@ -3,7 +3,7 @@
 A mark is on a span of a level and holds as long as a segment has exactly these frames: one that
 was moved or joined since is not the one that was marked. A comment is at a frame of a level, and
 so on the segment that holds this frame, whatever becomes of its borders: no edit and no new
-segmentation loses one.
+segmentation loses one. So it is with repetitions that are left out of means.
 """
 
 from __future__ import annotations
@@ -41,6 +41,8 @@ class Annotation:
         is not there is called what more than half of its segments are.
     corrections : int
         How often the table was corrected.
+    excluded : tuple of int
+        Frames: the primitives that hold them count in no mean of `kineme.cycles`.
 
     Examples
     --------
@@ -53,6 +55,7 @@ class Annotation:
     comments: tuple[Comment, ...] = ()
     cluster_names: dict[int, str] = field(default_factory=dict)
     corrections: int = 0
+    excluded: tuple[int, ...] = ()
 
     @classmethod
     def from_json(cls, content: object) -> Self:
@@ -75,6 +78,10 @@ class Annotation:
         """What a file holds of it: the parts that there are, empty where there is none."""
         parts: dict[str, Any] = msgspec.to_builtins(self, str_keys=True)
         return {name: part for name, part in parts.items() if part}
+
+    def excludes(self, start_frame: int, stop_frame: int) -> bool:
+        """Whether a primitive of these frames counts in no mean."""
+        return any(start_frame <= frame < stop_frame for frame in self.excluded)
 
 
 NO_ANNOTATION = Annotation()

@@ -33,6 +33,7 @@ BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
     sent.OrderClusters: editing.order_clusters,
     sent.Remark: editing.comment,
     sent.Check: editing.check,
+    sent.Exclude: editing.exclude,
 }
 """Corrections; the fields of each are the arguments of its function, in this order."""
 
@@ -102,7 +103,7 @@ def _by_hand(table: Segmentation, edit: Struct) -> Segmentation:
     """The table after a correction, which it counts; what a person made of it is marked."""
     fields = (getattr(edit, name) for name in edit.__struct_fields__)
     after = BY_HAND[type(edit)](table, *fields)
-    if isinstance(edit, sent.Check | sent.Remark):
+    if isinstance(edit, sent.Check | sent.Remark | sent.Exclude):
         return after
     after, count = noted(table, after), table.annotation.corrections + 1
     return replace(after, annotation=replace(after.annotation, corrections=count))

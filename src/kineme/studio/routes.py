@@ -235,7 +235,13 @@ class Api:
     def cycle_curves(self, request: Request) -> ClusterCurves:
         opened, channel = self._opened(request), request.query_params.get("channel", "")
         (cluster,) = _numbers(request, "cluster")
-        found = opened.loaded.cycle_curves().of(opened.table, cluster, channel)
+        curves, beside = opened.loaded.cycle_curves(), request.query_params.get("beside")
+        if beside:
+            other = self._recordings.get(beside)
+            others = other.loaded.cycle_curves(), other.table
+            found = curves.beside(opened.table, cluster, channel, *others)
+        else:
+            found = curves.of(opened.table, cluster, channel)
         if found is None:
             raise UnknownError("there are no such repetitions, or no such channel")
         return found

@@ -14,11 +14,18 @@ from threading import RLock
 from typing import TYPE_CHECKING
 
 import numpy as np
+from msgspec import structs
 from numpy.typing import NDArray
 
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
-from kineme.web.messages import ClusterCurves, CycleChannel, CycleCurve, ReportCurves
+from kineme.web.messages import (
+    ClusterCurves,
+    CycleChannel,
+    CycleCurve,
+    OtherSession,
+    ReportCurves,
+)
 
 if TYPE_CHECKING:
     from kineme.cycles.channels import Channel
@@ -42,6 +49,7 @@ MOST_NUMBERS = 50_000
 FEWEST_CHANNELS = 4
 MOST_FRAMES = 200_000
 """Of all tables of a report together: half a second for a hundred thousand."""
+OUT = "left out by hand"
 PLACES = {
     "first": "the first of its activity",
     "last": "the last of its activity",
@@ -67,6 +75,7 @@ class CycleCurves:
         self._values: OrderedDict[str, Channel] = OrderedDict()
         self._table: Segmentation | None = None
         self._cycles: Cycles | None = None
+        self._both: tuple[tuple[Segmentation, Segmentation], tuple[Cycles, Cycles]] | None = None
         self._lock = RLock()
 
     def channels(self) -> list[CycleChannel]:
@@ -104,7 +113,46 @@ class CycleCurves:
             measured = self._measured(cycles, [channel] if channel else self._usual)
             group = measured.select(rows)
             name = channel or _liveliest(group, measured)[0]
-            return _drawn(group, name, MOST, _means(group)[name])
+            ends = _only_ends(group)
+            return _drawn(group, name, MOST, _means(group, ends=ends)[name], ends=ends)
+
+    def beside(
+        self,
+        table: Segmentation,
+        cluster: int,
+        channel: str,
+        other: CycleCurves,
+        other_table: Segmentation,
+    ) -> ClusterCurves | None:
+        """The same with the mean of what has the same name in another recording, if it has.
+
+        Both are measured together, and so from one phase.
+        """
+        from kineme.cycles.sessions import compare_curves
+
+        alone = self.of(table, cluster, channel)
+        if alone is None or alone.channel not in {head.name for head in other.channels()}:
+            return alone
+        cycles, other_cycles = self._together(table, other, other_table)
+        group = cycles.select(_rows_of(cycles, cluster))
+        others = other_cycles.select(other_cycles.columns["group"] == group.columns["group"][0])
+        if not len(others):
+            return alone
+        name, ends = alone.channel, _only_ends(group) or _only_ends(others)
+        first, second = self._measured(group, [name]), other._measured(others, [name])
+        compared = compare_curves(first, second, ends=ends)
+        drawn = _drawn(first, name, MOST, _means(first, ends=ends)[name], ends=ends)
+        digits = _digits(_extent(first.curves)) + 1
+        return structs.replace(
+            drawn,
+            beside=OtherSession(
+                n=int(compared["second_n"][0]),
+                total=len(others),
+                mean=_rounded(compared["second_mean"], digits),
+                sd=_rounded(compared["second_sd"], digits),
+                differs=((compared["low"] > 0) | (compared["high"] < 0)).tolist(),
+            ),
+        )
 
     def report(self, table: Segmentation, others: Sequence[Segmentation] = ()) -> ReportCurves:
         """The curves of all clusters, of as many channels and cycles as fit into a page.
@@ -152,9 +200,10 @@ class CycleCurves:
     ) -> dict[str, ClusterCurves]:
         """By channel, that one first which goes farthest."""
         measured = group if group.channels else self._measured(group, names)
-        means = _means(measured)
+        ends = _only_ends(measured)
+        means = _means(measured, ends=ends)
         return {
-            name: _drawn(measured, name, most, means[name])
+            name: _drawn(measured, name, most, means[name], ends=ends)
             for name in _liveliest(measured, every)
             if name in names
         }
@@ -165,15 +214,35 @@ class CycleCurves:
 
         if self._cycles is None or self._table is not table:
             recording = self._read()
-            timed = table if table.fps == recording.fps else replace(table, fps=recording.fps)
-            found = cycles(recording, timed, channels=[])
-            frames = [row.start_frame for row in table.primitives if row.kind == "primitive"]
-            columns = {**found.columns, "segment_frame": np.array(frames, np.int64)}
-            self._table, self._cycles = table, replace(found, columns=columns)
+            found = cycles(recording, _timed(table, recording), channels=[])
+            self._table, self._cycles = table, _with_frames(found, table)
         return self._cycles
+
+    def _together(
+        self, table: Segmentation, other: CycleCurves, other_table: Segmentation
+    ) -> tuple[Cycles, Cycles]:
+        """The cycles of both, without channels; movements of one name begin at one phase."""
+        from kineme.cycles.measure import cycles
+
+        tables = table, other_table
+        with self._lock:
+            if self._both is None or any(
+                before is not now for before, now in zip(self._both[0], tables, strict=True)
+            ):
+                recordings = self._read(), other._read()
+                timed = [_timed(*each) for each in zip(tables, recordings, strict=True)]
+                found = cycles(recordings, timed, channels=[])
+                first = found.columns["recording"] == found.columns["recording"][0]
+                pair = _with_frames(found.select(first), table), found.select(~first)
+                self._both = tables, pair
+            return self._both[1]
 
     def _measured(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
         """The cycles with these channels."""
+        with self._lock:
+            return self._with_channels(cycles, names)
+
+    def _with_channels(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
         from kineme.cycles.channels import channels_of
         from kineme.cycles.measure import measured_anew
 
@@ -199,6 +268,18 @@ def _in_memory(channel: Channel) -> Channel:
     """The same channel with its numbers, without the recording that they come from."""
     values = channel.values()
     return replace(channel, compute=lambda: values, gaps=())
+
+
+def _timed(table: Segmentation, recording: Motion | Signals) -> Segmentation:
+    """The table at the rate of its recording."""
+    return table if table.fps == recording.fps else replace(table, fps=recording.fps)
+
+
+def _with_frames(cycles: Cycles, table: Segmentation) -> Cycles:
+    """The cycles of a table with the first frames of their segments."""
+    frames = [row.start_frame for row in table.primitives if row.kind == "primitive"]
+    columns = {**cycles.columns, "segment_frame": np.array(frames, np.int64)}
+    return replace(cycles, columns=columns)
 
 
 def _clusters(cycles: Cycles) -> list[int]:
@@ -237,7 +318,7 @@ def _liveliest(group: Cycles, every: Cycles) -> list[str]:
 
     Without a unit, as a share of what the channel spans in all cycles.
     """
-    means = _means(group)
+    means = _means(group, ends=_only_ends(group))
     extents = [
         _extent(means[channel]["mean"])
         / (1 if unit else _extent(every.curves[:, every.channels.index(channel)]) or 1)
@@ -252,9 +333,9 @@ def _extent(values: Floats) -> float:
     return float(np.ptp(finite)) if len(finite) else 0.0
 
 
-def _means(group: Cycles) -> dict[str, Columns]:
-    """By channel the mean curve; of all cycles where none is an inner one."""
-    tidy, points = group.mean_curves(ends=_only_ends(group)), group.curves.shape[2]
+def _means(group: Cycles, *, ends: bool) -> dict[str, Columns]:
+    """By channel the mean curve."""
+    tidy, points = group.mean_curves(ends=ends), group.curves.shape[2]
     return {
         channel: {name: tidy[name][place * points : (place + 1) * points] for name in tidy}
         for place, channel in enumerate(group.channels)
@@ -262,12 +343,15 @@ def _means(group: Cycles) -> dict[str, Columns]:
 
 
 def _only_ends(group: Cycles) -> bool:
+    """Whether the mean is of all cycles, as none is an inner one."""
     return not group.used().any()
 
 
-def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurves:
+def _drawn(group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool) -> ClusterCurves:
     """The message for the cycles of a group."""
-    place, ends = group.channels.index(channel), _only_ends(group)
+    from kineme.cycles.table import BY_HAND
+
+    place = group.channels.index(channel)
     curves, columns = group.curves[:, place], group.columns
     complete = np.isfinite(curves).all(axis=1)
     counts = group.used(ends=ends) & complete
@@ -278,6 +362,7 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurv
         out=np.full(len(group), np.nan), where=finite.any(axis=1),
     ))  # fmt: skip
     order = sorted(range(len(group)), key=lambda i: (not counts[i], -np.nan_to_num(distance[i])))
+    by_hand = set(np.flatnonzero(columns["excluded"] == BY_HAND).tolist())
     digits = _digits(_extent(curves))
     drawn = [
         CycleCurve(
@@ -285,11 +370,11 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurv
             start_s=float(columns["start_s"][i]),
             stop_s=float(columns["stop_s"][i]),
             counts=bool(counts[i]),
-            note="" if counts[i] else _note(columns, i),
+            note="" if counts[i] else OUT if i in by_hand else _note(columns, i),
             distance=None if np.isnan(distance[i]) else round(float(distance[i]), digits),
             values=_rounded(curves[i], digits),
         )
-        for i in _some(order, most)
+        for i in _some(order, most, by_hand)
     ]
     return ClusterCurves(
         channel=channel,
@@ -297,17 +382,19 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns) -> ClusterCurv
         n=int(mean["n"][0]),
         total=len(group),
         ends=ends,
+        left_out=len(by_hand),
         turned=_turned(group),
         mean=_rounded(mean["mean"], digits + 1),
         sd=_rounded(mean["sd"], digits + 1),
         cycles=drawn,
+        beside=None,
     )
 
 
 def _turned(group: Cycles) -> int:
     """How many of its activities began at another phase than the others."""
-    name = f"{group.columns['group'][0]} in activity "
-    return sum(note.startswith(name) for note in group.provenance["notes"])
+    place = group.columns["recording"][0], group.columns["group"][0]
+    return sum((each["recording"], each["group"]) == place for each in group.provenance["turned"])
 
 
 def _rounded(values: Floats, digits: int) -> list[float | None]:
@@ -319,12 +406,14 @@ def _digits(extent: float) -> int:
     return DIGITS - 1 - floor(log10(extent)) if extent > 0 else DIGITS
 
 
-def _some(order: Sequence[int], most: int) -> list[int]:
-    """The first ones, which are the farthest, and of the others evenly so many."""
+def _some(order: Sequence[int], most: int, kept: set[int]) -> list[int]:
+    """The first ones, which are the farthest, those kept, and of the others evenly so many."""
     if len(order) <= most:
         return list(order)
-    rest, n = order[FAR:], most - FAR
-    return [*order[:FAR], *(rest[i * len(rest) // n] for i in range(n))]
+    first = [i for place, i in enumerate(order) if place < FAR or i in kept][:most]
+    rest, n = [i for i in order if i not in first], most - len(first)
+    others = {rest[i * len(rest) // n] for i in range(n)}
+    return [i for i in order if i in first or i in others]
 
 
 def _note(columns: Columns, row: int) -> str:

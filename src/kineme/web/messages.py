@@ -135,13 +135,27 @@ class CycleCurve(Struct, frozen=True, kw_only=True):
     values: list[float | None]
 
 
+class OtherSession(Struct, frozen=True, kw_only=True):
+    """The mean curve of the same movement in another recording, of ``n`` of ``total`` repetitions.
+
+    ``differs`` says where the bounds of the difference leave out 0.
+    """
+
+    n: int
+    total: int
+    mean: list[float | None]
+    sd: list[float | None]
+    differs: list[bool]
+
+
 class ClusterCurves(Struct, frozen=True, kw_only=True):
     """A channel over the repetitions of a cluster, and of those with the same name.
 
     Mean and standard deviation are of ``n`` of ``total`` repetitions: of the inner ones, or where
-    there are none (``ends``) of all. ``cycles`` are those drawn: those farthest from the mean
-    first, after them those that do not count. ``turned`` counts activities that were cut at
-    another phase than the others.
+    there are none (``ends``) of all; ``left_out`` counts those that people left out. ``cycles`` are
+    those drawn: those farthest from the mean first, after them those that do not count. ``turned``
+    counts activities that were cut at another phase than the others. ``beside`` is of another
+    recording, where one was asked for and has the movement and the channel.
     """
 
     channel: str
@@ -149,10 +163,12 @@ class ClusterCurves(Struct, frozen=True, kw_only=True):
     n: int
     total: int
     ends: bool
+    left_out: int
     turned: int
     mean: list[float | None]
     sd: list[float | None]
     cycles: list[CycleCurve]
+    beside: OtherSession | None
 
 
 class ReportCurves(Struct, frozen=True, kw_only=True):
@@ -247,6 +263,7 @@ class TableChange(Struct, frozen=True, kw_only=True):
     comments: list[Comment] | None
     cluster_names: dict[int, str] | None
     corrections: int
+    excluded: list[int] | None
 
 
 class Edited(Struct, frozen=True, kw_only=True):

@@ -143,6 +143,13 @@ class Check(EditBase, frozen=True, kw_only=True, tag="check"):
     checked: bool
 
 
+class Exclude(EditBase, frozen=True, kw_only=True, tag="exclude"):
+    """The primitives that start at ``frames`` count in no mean, or do so again."""
+
+    frames: list[Integer]
+    excluded: bool
+
+
 class TakeLabels(EditBase, frozen=True, kw_only=True, tag="take_labels"):
     """What a label file of the folder says becomes the table."""
 
@@ -185,6 +192,7 @@ ByHand = (
     | OrderClusters
     | Remark
     | Check
+    | Exclude
 )
 
 

@@ -57,7 +57,7 @@ def table_change(
     others = [row for was, row in zip(old.tolist(), new.tolist(), strict=True)
               if ids[0][was] != ids[1][row]]  # fmt: skip
     names = now.annotation.cluster_names
-    comments = now.annotation.comments
+    comments, excluded = now.annotation.comments, now.annotation.excluded
     return TableChange(
         of=revision,
         removed=removed,
@@ -70,6 +70,7 @@ def table_change(
         comments=None if comments == before.annotation.comments else list(comments),
         cluster_names=None if names == before.annotation.cluster_names else dict(names),
         corrections=now.annotation.corrections,
+        excluded=None if excluded == before.annotation.excluded else list(excluded),
     )
 
 

@@ -11,7 +11,7 @@ What a person says has no confidence: segments whose span, kind or cluster was
 changed lose theirs.
 """
 
-from kineme.segments.editing.annotating import check, comment, comments
+from kineme.segments.editing.annotating import check, comment, comments, exclude
 from kineme.segments.editing.borders import delete_border, merge, move_border, split
 from kineme.segments.editing.carrying import carried
 from kineme.segments.editing.clusters import (
@@ -30,6 +30,7 @@ __all__ = [
     "comment",
     "comments",
     "delete_border",
+    "exclude",
     "merge",
     "merge_clusters",
     "move_border",

@@ -1,7 +1,7 @@
 """What people vouch for and say: entries of the `kineme.segments.annotation`.
 
 People vouch for segments that they made and for segments that they checked. A comment is on the
-segment that holds its frame.
+segment that holds its frame; so is what they leave out of means.
 """
 
 from __future__ import annotations
@@ -89,6 +89,48 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
     return with_comments(segmentation, kept)
 
 
+def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -> Segmentation:
+    """The primitives that start at ``frames`` count in no mean, or do so again.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    frames : iterable of int
+        Where the primitives start.
+    excluded : bool
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        No primitive starts at one of them.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth(), fps=60)
+    >>> stumbled = exclude(found, [126], excluded=True)
+    >>> stumbled.annotation.excluded
+    (160,)
+    >>> walk = kineme.cycles(kineme.read(kineme.bundled_recording()), stumbled)
+    >>> walk.columns["excluded"][:3].tolist()
+    ['', '', 'by hand']
+    """
+    rows = [starting(segmentation, "primitive", frame) for frame in frames]
+    others = {
+        frame
+        for frame in segmentation.annotation.excluded
+        if not any(row.start_frame <= frame < row.stop_frame for row in rows)
+    }
+    chosen = {_middle(row) for row in rows} if excluded else set()
+    entry = tuple(sorted(others | chosen))
+    return replace(segmentation, annotation=replace(segmentation.annotation, excluded=entry))
+
+
 def comments(segmentation: Segmentation) -> list[Comment]:
     """Level, frame and text of each, in time order.
 
@@ -148,7 +190,11 @@ def with_comments(segmentation: Segmentation, entries: list[Comment]) -> Segment
 
 def _of(row: Segment, text: str) -> Comment:
     """A comment on a segment, at its middle frame."""
-    return row.level, (row.start_frame + row.stop_frame) // 2, text
+    return row.level, _middle(row), text
+
+
+def _middle(row: Segment) -> int:
+    return (row.start_frame + row.stop_frame) // 2
 
 
 def _is_of(entry: Comment, row: Segment) -> bool:

@@ -99,9 +99,10 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
     for mark, spans in flags.items():
         now = with_marked(now, mark, spans)
     now = with_comments(now, comments(before))
+    annotation = replace(now.annotation, excluded=before.annotation.excluded)
     if fixed:
-        corrections = before.annotation.corrections
-        now = replace(now, annotation=replace(now.annotation, corrections=corrections))
+        annotation = replace(annotation, corrections=before.annotation.corrections)
+    now = replace(now, annotation=annotation)
     return _named(now, before, len(fixed))
 
 

@@ -70,7 +70,7 @@ def _chain(chance: Chance, seed: int) -> dict[str, Any]:
             made = edited(table, edit, None, None, None).table  # type: ignore[arg-type]
             before, (table, ids) = (table, ids), (made, ids.after(table, made, name))
             after = _told(table, ids)
-            del after["annotation"]
+            after["excluded"] = after.pop("annotation")["excluded"]
             changes = [_change(before, (table, ids)), _change((table, ids), before)]
         except ParameterError:
             pass
@@ -175,6 +175,12 @@ def _checked(chance: Chance, table: Segmentation) -> dict[str, Any]:
     return {"level": rows[0].level, "frames": frames, "checked": chance.random() < 0.7}
 
 
+def _excluded(chance: Chance, table: Segmentation) -> dict[str, Any]:
+    rows = list(table.primitives) or list(table)  # of which none can be left out
+    frames = [row.start_frame for row in chance.sample(rows, min(2, len(rows)))]
+    return {"frames": frames, "excluded": chance.random() < 0.7}
+
+
 def _name(chance: Chance) -> str:
     return chance.choice(["", "hop", "squat", "über"])
 
@@ -205,6 +211,7 @@ _ONE: dict[str, Make] = {
     "order_clusters": _order,
     "comment": lambda chance, table: _of_one(chance, table, text=chance.choice(["", "why?"])),
     "check": _checked,
+    "exclude": _excluded,
     "together": _together,
 }  # fmt: skip
 

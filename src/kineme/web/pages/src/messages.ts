@@ -36,6 +36,8 @@ export interface Segment {
  * is not there is called what more than half of its segments are.
  * corrections : int
  * How often the table was corrected.
+ * excluded : tuple of int
+ * Frames: the primitives that hold them count in no mean of `kineme.cycles`.
  */
 export interface Annotation {
   checked: [Level, number, number][];
@@ -43,9 +45,10 @@ export interface Annotation {
   comments: [Level, number, string][];
   cluster_names: Record<number, string>;
   corrections: number;
+  excluded: number[];
 }
 
-export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
+export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Exclude | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
 
 /** What somebody said about the segment that holds a frame. */
 export interface CommentAt {
@@ -162,12 +165,26 @@ export interface CycleCurve {
 }
 
 /**
+ * The mean curve of the same movement in another recording, of `n` of `total` repetitions.
+ *
+ * `differs` says where the bounds of the difference leave out 0.
+ */
+export interface OtherSession {
+  n: number;
+  total: number;
+  mean: (number | null)[];
+  sd: (number | null)[];
+  differs: boolean[];
+}
+
+/**
  * A channel over the repetitions of a cluster, and of those with the same name.
  *
  * Mean and standard deviation are of `n` of `total` repetitions: of the inner ones, or where
- * there are none (`ends`) of all. `cycles` are those drawn: those farthest from the mean
- * first, after them those that do not count. `turned` counts activities that were cut at
- * another phase than the others.
+ * there are none (`ends`) of all; `left_out` counts those that people left out. `cycles` are
+ * those drawn: those farthest from the mean first, after them those that do not count. `turned`
+ * counts activities that were cut at another phase than the others. `beside` is of another
+ * recording, where one was asked for and has the movement and the channel.
  */
 export interface ClusterCurves {
   channel: string;
@@ -175,10 +192,12 @@ export interface ClusterCurves {
   n: number;
   total: number;
   ends: boolean;
+  left_out: number;
   turned: number;
   mean: (number | null)[];
   sd: (number | null)[];
   cycles: CycleCurve[];
+  beside: OtherSession | null;
 }
 
 /**
@@ -269,6 +288,7 @@ export interface TableChange {
   comments: [Level, number, string][] | null;
   cluster_names: Record<number, string> | null;
   corrections: number;
+  excluded: number[] | null;
 }
 
 /**
@@ -340,7 +360,7 @@ export interface Preview {
 export interface Version {
   number: number;
   at: string;
-  edit: MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo | null;
+  edit: MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Exclude | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo | null;
   segments: number;
   corrections: number;
   names: number;
@@ -634,6 +654,13 @@ export interface Check {
   checked: boolean;
 }
 
+/** The primitives that start at `frames` count in no mean, or do so again. */
+export interface Exclude {
+  kind: "exclude";
+  frames: number[];
+  excluded: boolean;
+}
+
 /** What a label file of the folder says becomes the table. */
 export interface TakeLabels {
   kind: "take_labels";
@@ -664,7 +691,7 @@ export interface Redo {
   kind: "redo";
 }
 
-export type ByHand = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check;
+export type ByHand = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Exclude;
 
 /** Several edits, one after the other, which are one step of undo; all of them or none. */
 export interface Together {
@@ -964,4 +991,4 @@ export const bareSegment: Segment = {
 };
 
 /** What nobody did anything to has. */
-export const bareAnnotation: Annotation = {"checked": [], "by_hand": [], "comments": [], "cluster_names": {}, "corrections": 0};
+export const bareAnnotation: Annotation = {"checked": [], "by_hand": [], "comments": [], "cluster_names": {}, "corrections": 0, "excluded": []};

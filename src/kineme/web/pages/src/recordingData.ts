@@ -16,9 +16,15 @@ export interface RecordingData {
   cycleChannels(): Promise<CycleChannel[]>;
   /**
    * A channel over the repetitions of a cluster, in the table of a revision; that one which goes
-   * farthest where none is named, null where there is none.
+   * farthest where none is named, null where there is none. `beside` is the id of another
+   * recording whose mean comes along; a report knows none.
    */
-  clusterCurves(cluster: number, channel: string, revision: number): Promise<ClusterCurves | null>;
+  clusterCurves(
+    cluster: number,
+    channel: string,
+    revision: number,
+    beside?: string,
+  ): Promise<ClusterCurves | null>;
 }
 
 /** The data inside a report: script elements that no browser runs. */

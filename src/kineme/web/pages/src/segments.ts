@@ -1,5 +1,5 @@
 /** Questions about a segment table. */
-import type { Level, Segment, Segments } from "./messages";
+import type { Annotation, Level, Segment, Segments } from "./messages";
 
 /** What the list of clusters says of one. */
 export interface Cluster {
@@ -64,6 +64,14 @@ export function clustersOf(
       const label = names[id] ?? "";
       return { id, label, members: all, total_s, mean_s: total_s / all.length };
     });
+}
+
+/** Whether people left a primitive out of means. */
+export function isExcluded(
+  { excluded }: Pick<Annotation, "excluded">,
+  { start_frame, stop_frame }: Segment,
+): boolean {
+  return excluded.some((frame) => start_frame <= frame && frame < stop_frame);
 }
 
 export function durationOf(segment: Segment): number {

@@ -25,6 +25,7 @@ export interface EditHooks {
   nameCluster(cluster: number, label: string): void;
   mergeClusters(cluster: number, into: number): void;
   orderClusters(order: number[]): void;
+  exclude(frames: number[], excluded: boolean): void;
 }
 
 /** Another result shown below the first. */

@@ -15,7 +15,19 @@ function curvesOf(channel: string, cycles: CycleCurve[] = []): ClusterCurves {
     [1, 2, 3],
     [0, 0, 0],
   ];
-  return { channel, unit: "°", n: 1, total: 1, ends: false, turned: 0, mean, sd, cycles };
+  return {
+    channel,
+    unit: "°",
+    n: 1,
+    total: 1,
+    ends: false,
+    left_out: 0,
+    turned: 0,
+    mean,
+    sd,
+    cycles,
+    beside: null,
+  };
 }
 
 /** A report with these curves, as its file has them. */

@@ -35,6 +35,7 @@ beforeEach(() => {
     nameCluster: () => undefined,
     mergeClusters: () => undefined,
     orderClusters: () => undefined,
+    exclude: () => undefined,
   };
   const { activities, primitives } = store;
   lanes = layOut({ activities: activities.value, primitives: primitives.value, others: [] }, 160);

@@ -21,3 +21,17 @@ it("lists each activity with the durations of its repetitions", () => {
   expect(found[0]!.deviation_s).toBeCloseTo(0.3536, 4);
   expect(found[1]!.deviation_s).toBeNull();
 });
+
+it("counts what people left out, and leaves it out of the mean", () => {
+  const table = tableOf([
+    segment(0, 60, { level: "activity", activity: 0 }),
+    ...[0, 20, 40].map((start) => segment(start, start + 20, { activity: 0 })),
+  ]);
+  table.annotation = { ...table.annotation, excluded: [30] };
+  const [walk] = repetitionsOf(table);
+  expect(walk!.durations).toHaveLength(3);
+  expect(walk!.leftOut).toEqual([false, true, false]);
+  expect(walk!.mean_s).toBe(2);
+  table.annotation = { ...table.annotation, excluded: [0, 20, 40] };
+  expect(repetitionsOf(table)[0]!.mean_s).toBeNull();
+});

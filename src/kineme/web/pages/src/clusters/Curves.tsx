@@ -6,18 +6,23 @@ import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
 import { clusterColor } from "../colors";
 import type { ClusterCurves, CycleChannel, CycleCurve } from "../messages";
-import type { Store } from "../store";
+import { BesideSelect, idOf, othersOf, whatIsBeside } from "./Beside";
+import { cycleAt, leftOutOf, selectCycle } from "./cycles";
+import { Chosen, Farthest, LeftOut } from "./Outliers";
 import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
 import { shownCluster, useClusterCurves } from "./useClusterCurves";
 
-const FARTHEST = 3; // repetitions named that differ most from the mean
 const DASHED = " (dashed)";
 
 export function Curves(): JSX.Element {
   const store = useStore();
   const chosen = useSignal("");
-  const measured = useClusterCurves(chosen);
-  const selected = useComputed(() => cycleAt(store, measured.value?.curves?.cycles ?? []));
+  const besideId = useSignal("");
+  const beside = useComputed(() => othersOf(store).find((each) => idOf(each) === besideId.value));
+  const measured = useClusterCurves(chosen, beside);
+  const cycles = useComputed(() => measured.value?.curves?.cycles ?? []);
+  const selected = useComputed(() => cycleAt(store, cycles.value));
+  const leftOut = useComputed(() => leftOutOf(store, cycles.value));
   const now = measured.value;
   if (!store.clusters.value.length) return <p class="empty quiet">No cluster to show.</p>;
   if (!now?.curves)
@@ -39,10 +44,15 @@ export function Curves(): JSX.Element {
         />
         <span class="quiet">{curves.unit}</span>
       </div>
+      <BesideSelect
+        others={othersOf(store)}
+        id={beside.value ? besideId.value : ""}
+        choose={(id) => (besideId.value = id)}
+      />
       <div class="curve-room">
         <Canvas
           label={`Curves of ${curves.total} repetitions, with mean and deviation. Click one to go to it.`}
-          watch={() => void [measured.value, selected.value, store.cluster.value]}
+          watch={() => void [measured.value, selected.value, leftOut.value, store.cluster.value]}
           draw={(pen, width, height) => {
             const shown = measured.value;
             if (shown?.curves)
@@ -51,6 +61,7 @@ export function Curves(): JSX.Element {
                 {
                   curves: shown.curves,
                   opposite: shown.opposite,
+                  leftOut: leftOut.value,
                   selected: selected.value,
                   color: clusterColor(shownCluster(store)),
                 },
@@ -61,14 +72,20 @@ export function Curves(): JSX.Element {
           onClick={(event) => {
             const { left, top, width, height } = event.currentTarget.getBoundingClientRect();
             const [x, y] = [event.clientX - left, event.clientY - top];
-            go(store, curves.cycles[nearestCurve(now.curves!, now.opposite, x, y, width, height)]);
+            selectCycle(
+              store,
+              curves.cycles[nearestCurve(now.curves!, now.opposite, x, y, width, height)],
+            );
           }}
         />
         <Now cycles={curves.cycles} />
       </div>
-      <Farthest curves={curves} />
+      <Chosen curves={curves} at={selected.value} leftOut={leftOut.value} />
+      <Farthest curves={curves} leftOut={leftOut.value} />
+      <LeftOut curves={curves} leftOut={leftOut.value} />
       <p class="quiet note">
         {whatIsShown(curves)}
+        {beside.value && whatIsBeside(store, beside.value, curves)}
         {opposite && `; ${opposite.channel}${DASHED}`}
         {curves.turned > 0 &&
           `; ${curves.turned} ${curves.turned === 1 ? "activity" : "activities"} turned to the phase of the others`}
@@ -78,12 +95,15 @@ export function Curves(): JSX.Element {
 }
 
 /** How many repetitions the mean is of, and which. */
-function whatIsShown({ n, total, ends, cycles }: ClusterCurves): string {
+function whatIsShown({ n, total, ends, left_out, cycles }: ClusterCurves): string {
   const mean = "mean ± standard deviation";
   const drawn = cycles.length < total ? `, ${cycles.length} drawn` : "";
+  const without = left_out ? `, ${left_out} left out by hand` : "";
+  if (!n && left_out) return `${total} repetitions${drawn}${without}, no other recorded as a whole`;
   if (!n) return `${total} repetitions${drawn}, none recorded as a whole`;
-  if (ends) return `${n} of ${total} repetitions${drawn}, ${mean}`;
-  return `${n} inner of ${total} repetitions${drawn}, ${mean}`;
+  if (n === 1)
+    return `1${ends ? "" : " inner"} of ${total} repetitions${drawn}${without}, bold: too few for a mean`;
+  return `${n}${ends ? "" : " inner"} of ${total} repetitions${drawn}${without}, ${mean}`;
 }
 
 interface Choice {
@@ -123,47 +143,6 @@ function ChannelSelect({ channels, channel, choose }: Choice): JSX.Element {
       </select>
     </>
   );
-}
-
-/** The repetitions that differ most from the mean, each a way to it. */
-function Farthest({ curves: { cycles, unit, n } }: { curves: ClusterCurves }): JSX.Element | null {
-  const store = useStore();
-  if (n < 3) return null;
-  return (
-    <p class="farthest" aria-label="Farthest from the mean">
-      <span class="quiet">Farthest:</span>
-      {cycles.slice(0, FARTHEST).map((each) => {
-        const far = `${each.distance?.toPrecision(2)} ${unit}`.trim();
-        return (
-          <button
-            key={each.start_frame}
-            type="button"
-            title={`${far} from the mean, from ${each.start_s.toFixed(2)} to ${each.stop_s.toFixed(2)} s`}
-            onClick={() => go(store, each)}
-          >
-            {each.start_s.toFixed(1)} s
-          </button>
-        );
-      })}
-    </p>
-  );
-}
-
-/** Selects the segment of a repetition, if it is there still. */
-function go(store: Store, cycle: CycleCurve | undefined): void {
-  const segment = store.primitives.value.find(
-    ({ start_frame }) => start_frame === cycle?.start_frame,
-  );
-  if (segment) store.select(segment);
-}
-
-/** The number of the repetition under the playhead, else of the selected one; -1: neither. */
-function cycleAt(store: Store, cycles: readonly CycleCurve[]): number {
-  const at = store.playhead.value;
-  const present = cycles.findIndex((each) => each.start_s <= at && at < each.stop_s);
-  if (present >= 0) return present;
-  const selected = store.selected.value;
-  return cycles.findIndex((each) => each.start_frame === selected?.start_frame);
 }
 
 /** How far the present repetition is; apart from the canvas, so that playing redraws no curves. */

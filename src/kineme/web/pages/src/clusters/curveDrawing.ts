@@ -11,6 +11,8 @@ export interface CurvePicture {
   curves: ClusterCurves;
   /** The other side of the body, of which the mean is drawn. */
   opposite: ClusterCurves | null;
+  /** Numbers of the repetitions that people left out. */
+  leftOut: ReadonlySet<number>;
   /** Which of the repetitions is selected; -1: none. */
   selected: number;
   color: string;
@@ -25,8 +27,9 @@ const ABOVE = 8;
 const DASHES = [5, 4];
 
 export function drawCurves(pen: Pen, picture: CurvePicture, width: number, height: number): void {
-  const { curves, opposite, selected } = picture;
+  const { curves, opposite, leftOut, selected } = picture;
   const { cycles, mean } = curves;
+  const { beside } = curves;
   const [low, high] = boundsOf(curves, opposite);
   const last = mean.length - 1;
   const x = (i: number): number => LEFT + (i / last) * (width - LEFT - RIGHT);
@@ -35,25 +38,36 @@ export function drawCurves(pen: Pen, picture: CurvePicture, width: number, heigh
   drawAxes(pen, { low, high, x, y, height, last });
   const color = onPage(picture.color, theme.value);
   pen.lineJoin = "round";
+  if (beside) {
+    pen.fillStyle = cssColor("quiet");
+    pen.globalAlpha = 0.2;
+    band(pen, beside, x, y);
+  }
   pen.fillStyle = color;
   pen.globalAlpha = 0.25;
   band(pen, curves, x, y);
   const alpha = Math.max(0.18, Math.min(0.6, 6 / cycles.length));
-  pen.strokeStyle = color;
   pen.lineWidth = 1;
-  for (const { values, counts } of cycles) {
-    pen.globalAlpha = counts ? alpha : alpha / 2; // what is in no mean stands back
+  for (const [i, { values, counts }] of cycles.entries()) {
+    pen.strokeStyle = leftOut.has(i) ? cssColor("quiet") : color;
+    pen.globalAlpha = counts && !leftOut.has(i) ? alpha : alpha / 2; // in no mean: it stands back
     line(pen, values, x, y);
   }
+  pen.strokeStyle = color;
   pen.globalAlpha = 1;
   pen.lineWidth = 2.5;
   line(pen, mean, x, y);
-  if (opposite) {
-    pen.lineWidth = 1.5;
+  const other = beside ?? opposite;
+  if (other) {
+    if (beside) pen.strokeStyle = cssColor("quiet");
+    pen.lineWidth = beside ? 2 : 1.5;
     pen.setLineDash(DASHES);
-    line(pen, opposite.mean, x, y);
+    line(pen, other.mean, x, y);
     pen.setLineDash([]);
   }
+  pen.fillStyle = color;
+  for (const [i, differs] of (beside?.differs ?? []).entries())
+    if (differs) pen.fillRect(x(i - 0.5), height - BELOW - 3, x(1) - x(0) + 0.5, 3);
   pen.strokeStyle = cssColor("text");
   pen.lineWidth = 1.5;
   if (cycles[selected]) line(pen, cycles[selected].values, x, y);
@@ -78,7 +92,8 @@ export function nearestCurve(
 
 function boundsOf(curves: ClusterCurves, opposite: ClusterCurves | null): [number, number] {
   let [low, high] = [Infinity, -Infinity];
-  for (const values of [...curves.cycles.map((each) => each.values), opposite?.mean ?? []])
+  const means = [opposite?.mean ?? [], curves.beside?.mean ?? []];
+  for (const values of [...curves.cycles.map((each) => each.values), ...means])
     for (const value of values) {
       if (value === null) continue;
       if (value < low) low = value;
@@ -149,7 +164,12 @@ function line(pen: Pen, curve: Values, x: Axes["x"], y: Axes["y"]): void {
 }
 
 /** A deviation from the mean; nothing where there is none, as of a single repetition. */
-function band(pen: Pen, { mean, sd }: ClusterCurves, x: Axes["x"], y: Axes["y"]): void {
+function band(
+  pen: Pen,
+  { mean, sd }: Pick<ClusterCurves, "mean" | "sd">,
+  x: Axes["x"],
+  y: Axes["y"],
+): void {
   if (mean.includes(null) || sd.includes(null)) return;
   pen.beginPath();
   for (let i = 0; i < mean.length; i++) pen.lineTo(x(i), y(mean[i]! + sd[i]!));

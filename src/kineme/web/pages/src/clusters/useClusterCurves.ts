@@ -2,6 +2,7 @@
 import { useComputed, useSignal, useSignalEffect, type ReadonlySignal } from "@preact/signals";
 import { useStore } from "../context";
 import type { ClusterCurves, CycleChannel } from "../messages";
+import type { OpenRecording } from "../opened";
 import type { RecordingData } from "../recordingData";
 import type { Store } from "../store";
 
@@ -14,18 +15,27 @@ export interface Measured {
   opposite: ClusterCurves | null;
 }
 
-/** Those before stay until the next ones are here; those of another recording do not. */
-export function useClusterCurves(chosen: ReadonlySignal<string>): ReadonlySignal<Measured | null> {
+/**
+ * Those before stay until the next ones are here; those of another recording do not. In place of
+ * the other side of the body there may be another recording (`beside`).
+ */
+export function useClusterCurves(
+  chosen: ReadonlySignal<string>,
+  beside: ReadonlySignal<OpenRecording | undefined>,
+): ReadonlySignal<Measured | null> {
   const store = useStore();
   const measured = useSignal<Measured | null>(null);
   const revision = useComputed(() => store.recording.value?.revision ?? 0); // not with each edit
   const data = useComputed(() => store.active.value?.data);
   const cluster = useComputed(() => shownCluster(store));
+  const id = useComputed(() => beside.value?.recording.value.id ?? "");
+  const revisionBeside = useComputed(() => beside.value?.recording.value.revision ?? 0);
   useSignalEffect(() => {
     let asked = true;
     const [from, of, channel, now] = [data.value, cluster.value, chosen.value, revision.value];
+    void revisionBeside.value;
     if (!from) return;
-    void measure(from, of, channel, now).then(
+    void measure(from, of, channel, now, id.value).then(
       (found) => {
         if (asked) measured.value = found;
       },
@@ -46,12 +56,13 @@ async function measure(
   cluster: number,
   chosen: string,
   revision: number,
+  beside: string,
 ): Promise<Measured> {
   if (cluster < 0) return { data, channels: [], curves: null, opposite: null };
   const channels = await data.cycleChannels();
   const channel = channels.some(({ name }) => name === chosen) ? chosen : "";
-  const curves = await data.clusterCurves(cluster, channel, revision);
-  const other = channels.find(({ name }) => name === curves?.channel)?.opposite;
+  const curves = await data.clusterCurves(cluster, channel, revision, beside);
+  const other = !beside && channels.find(({ name }) => name === curves?.channel)?.opposite;
   const opposite = other ? await data.clusterCurves(cluster, other, revision) : null;
   return { data, channels, curves, opposite };
 }

@@ -11,8 +11,14 @@ export function Repetitions(): JSX.Element | null {
   const table = store.recording.value?.segmentation;
   const rows = table ? repetitionsOf(table) : [];
   if (!rows.length) return <p class="empty quiet">Nothing repeats itself here.</p>;
+  const out = rows.reduce((sum, { leftOut }) => sum + leftOut.filter(Boolean).length, 0);
   return (
     <table class="repetitions">
+      {out > 0 && (
+        <caption class="quiet">
+          {out === 1 ? "1 repetition is" : `${out} repetitions are`} left out of means by hand.
+        </caption>
+      )}
       <thead>
         <tr>
           <th scope="col">Activity</th>
@@ -26,7 +32,7 @@ export function Repetitions(): JSX.Element | null {
         </tr>
       </thead>
       <tbody>
-        {rows.map(({ activity, durations, mean_s, deviation_s }) => (
+        {rows.map(({ activity, durations, leftOut, mean_s, deviation_s }) => (
           <tr key={activity.start_frame}>
             <th scope="row">
               <button type="button" class="plain" onClick={() => store.select(activity)}>
@@ -36,17 +42,28 @@ export function Repetitions(): JSX.Element | null {
             </th>
             <td class="number">{clock(activity.start_s, 1)}</td>
             <td class="number">{durationOf(activity).toFixed(1)} s</td>
-            <td class="number">{durations.length}</td>
+            <td class="number">{timesOf(leftOut)}</td>
             <td class="number">
-              {mean_s.toFixed(2)}
+              {mean_s?.toFixed(2)}
               {deviation_s !== null && ` ± ${deviation_s.toFixed(2)}`}
             </td>
-            <td class="each">{durations.map((each) => each.toFixed(2)).join("  ")}</td>
+            <td class="each">
+              {durations.map((each, i) => [
+                i > 0 && "  ",
+                leftOut[i] ? <s title="left out by hand">{each.toFixed(2)}</s> : each.toFixed(2),
+              ])}
+            </td>
           </tr>
         ))}
       </tbody>
     </table>
   );
+}
+
+/** How often, and where some are left out how many of them are in the mean. */
+function timesOf(leftOut: readonly boolean[]): string {
+  const counted = leftOut.filter((each) => !each).length;
+  return counted < leftOut.length ? `${counted} of ${leftOut.length}` : `${counted}`;
 }
 
 /** What is printed below the pictures: what was found in what, and the repetitions. */

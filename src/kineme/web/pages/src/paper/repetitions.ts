@@ -1,13 +1,15 @@
 /** How often each activity is repeated, and how long each repetition is. Pure functions. */
 import type { Segment, Segments } from "../messages";
-import { durationOf, laneOf } from "../segments";
+import { durationOf, isExcluded, laneOf } from "../segments";
 
 /** An activity with its repetitions. */
 export interface Repeated {
   activity: Segment;
-  /** Seconds of each repetition, in time order. */
+  /** Seconds of each repetition, in time order, and whether people left it out. */
   durations: number[];
-  mean_s: number;
+  leftOut: boolean[];
+  /** Of those that are not left out; null where there are none. */
+  mean_s: number | null;
   /** Standard deviation, of two or more; null for one. */
   deviation_s: number | null;
 }
@@ -17,13 +19,21 @@ export function repetitionsOf(table: Segments): Repeated[] {
   const lane = laneOf(table, "activity");
   const primitives = laneOf(table, "primitive");
   return lane.flatMap((activity, number) => {
-    const durations = primitives
-      .filter((row) => row.activity === number && row.kind === "primitive")
-      .map(durationOf);
-    if (activity.kind === "transition" || !durations.length) return [];
-    const mean_s = durations.reduce((sum, each) => sum + each, 0) / durations.length;
-    const squares = durations.reduce((sum, each) => sum + (each - mean_s) ** 2, 0);
-    const deviation_s = durations.length > 1 ? Math.sqrt(squares / (durations.length - 1)) : null;
-    return [{ activity, durations, mean_s, deviation_s }];
+    const rows = primitives.filter((row) => row.activity === number && row.kind === "primitive");
+    if (activity.kind === "transition" || !rows.length) return [];
+    const durations = rows.map(durationOf);
+    const leftOut = rows.map((row) => isExcluded(table.annotation, row));
+    const counted = durations.filter((_, i) => !leftOut[i]);
+    return [{ activity, durations, leftOut, ...meanOf(counted) }];
   });
+}
+
+function meanOf(values: readonly number[]): Pick<Repeated, "mean_s" | "deviation_s"> {
+  if (!values.length) return { mean_s: null, deviation_s: null };
+  const mean_s = values.reduce((sum, each) => sum + each, 0) / values.length;
+  const squares = values.reduce((sum, each) => sum + (each - mean_s) ** 2, 0);
+  return {
+    mean_s,
+    deviation_s: values.length > 1 ? Math.sqrt(squares / (values.length - 1)) : null,
+  };
 }

@@ -34,6 +34,7 @@ function start(): void {
     nameCluster: (cluster, label) => editor.nameCluster(cluster, label),
     mergeClusters: (cluster, into) => editor.mergeClusters(cluster, into),
     orderClusters: (order) => editor.orderClusters(order),
+    exclude: (frames, excluded) => editor.exclude(frames, excluded),
   };
   effect(() => {
     if (editor.naming.value) front.tab.value = "segment";

@@ -33,6 +33,7 @@ export async function show(component: JSX.Element, table: Segments): Promise<Pag
     nameCluster: () => undefined,
     mergeClusters: () => undefined,
     orderClusters: () => undefined,
+    exclude: () => undefined,
   };
   await session.open("take");
   const page = render(

@@ -43,7 +43,13 @@ function renamedAt(of: number, value: string): Edited {
   const none = { added: [], removed: [] };
   const cells = [{ column: "label", value, rows: [2] }];
   const rows = { removed: [], at: [], added: [], cells, ids: [] };
-  const annotation = { checked: none, by_hand: none, comments: null, cluster_names: null };
+  const annotation = {
+    checked: none,
+    by_hand: none,
+    comments: null,
+    cluster_names: null,
+    excluded: null,
+  };
   const change = { of, ...rows, ...annotation, corrections: 1 };
   const rest = { can_undo: true, can_redo: false, saved: "take.segments.json", notes: [] };
   return { revision: of + 1, segmentation: null, ids: [], change, ...rest };

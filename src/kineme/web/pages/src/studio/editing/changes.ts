@@ -35,6 +35,7 @@ function annotationAfter(before: Annotation, change: TableChange): Annotation {
     comments: change.comments ?? before.comments,
     cluster_names: change.cluster_names ?? before.cluster_names,
     corrections: change.corrections,
+    excluded: change.excluded ?? before.excluded,
   };
 }
 

@@ -9,7 +9,7 @@ import type { ByHand, Edit, Kind, Level, Segment } from "../../messages";
 import type { Store } from "../../store";
 import * as commands from "./commands";
 import type { Session } from "../session";
-import { nearestBorder } from "../../segments";
+import { isExcluded, nearestBorder } from "../../segments";
 import { counted } from "./words";
 
 export class Editor {
@@ -162,6 +162,24 @@ export class Editor {
       return frames.length ? [{ kind: "check" as const, level, frames, checked }] : [];
     });
     this.together(edits, "");
+  }
+
+  /** The primitives that start at these frames count in no mean, or do so again. */
+  exclude(frames: number[], excluded: boolean): void {
+    const what = excluded ? "left out of means" : "in means again";
+    const undo = (): void => this.undo();
+    this.send({ kind: "exclude", frames, excluded }, () => {
+      this.session.bulletin.tell(`${counted(frames.length, "repetition")} ${what}.`, undo);
+    });
+  }
+
+  /** Leaves the selected repetition out of means, or brings it back. */
+  toggleExcluded(): void {
+    const row = this.store.selected.value;
+    const table = this.store.recording.value?.segmentation;
+    if (row?.kind === "primitive" && table)
+      this.exclude([row.start_frame], !isExcluded(table.annotation, row));
+    else this.session.bulletin.tell("Select the repetition to leave out of means first.");
   }
 
   /** Several edits as one step, which says how many segments it reached. */

@@ -96,6 +96,8 @@ function placesOf(edit: Edit, table: Segments): Place[] {
       ];
     case "check":
       return edit.frames.map((frame) => ({ level: edit.level, frame, end: "start" }));
+    case "exclude":
+      return edit.frames.map((frame) => ({ level: "primitive", frame, end: "start" }));
     case "split_cluster": {
       const level = levelOf(table.segments.filter((row) => row.cluster === edit.cluster));
       return edit.frames.map((frame) => ({ level, frame, end: "start" }));
@@ -122,6 +124,7 @@ function withFrames(edit: Edit, frames: readonly number[]): Edit {
     case "merge":
       return { ...edit, start_frame: first, stop_frame: last };
     case "check":
+    case "exclude":
     case "split_cluster":
       return { ...edit, frames: [...frames] };
     case "together": {

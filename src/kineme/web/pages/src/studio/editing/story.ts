@@ -47,7 +47,8 @@ export function isSame(a: IdentifiedTable, b: IdentifiedTable): boolean {
     ids.every((id, i) => id === b.ids[i]) &&
     (["segments", "cluster_names", "checked", "by_hand", "comments"] as const).every(
       (what) => JSON.stringify(one[what]) === JSON.stringify(other[what]),
-    )
+    ) &&
+    String(one.annotation.excluded) === String(other.annotation.excluded)
   );
 }
 

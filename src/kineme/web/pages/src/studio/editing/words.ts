@@ -46,6 +46,8 @@ export function inWords(edit: Edit, fps: number): string {
         : `comment on the ${edit.level} at ${at(edit.frame)} removed`;
     case "check":
       return `${counted(edit.frames.length, ...LEVELS[edit.level])} ${edit.checked ? "checked" : "not checked any more"}`;
+    case "exclude":
+      return `${counted(edit.frames.length, "repetition")} ${edit.excluded ? "left out of means" : "in means again"}`;
     case "together":
       return edit.edits.length === 1
         ? inWords(edit.edits[0]!, fps)

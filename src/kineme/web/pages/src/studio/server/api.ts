@@ -106,10 +106,16 @@ export class Api {
     return answer.channels;
   }
 
-  /** The repetitions of a cluster; null where the server has none. */
-  clusterCurves(id: string, cluster: number, channel: string): Promise<ClusterCurves | null> {
+  /** The repetitions of a cluster, beside those of another recording; null where there are none. */
+  clusterCurves(
+    id: string,
+    cluster: number,
+    channel: string,
+    beside = "",
+  ): Promise<ClusterCurves | null> {
     const path = "/api/recordings/{id}/cycles/{cluster}";
-    return orNull(this.get<ClusterCurves, typeof path>(path, { id, cluster }, { channel }));
+    const query: Record<string, string> = beside ? { channel, beside } : { channel };
+    return orNull(this.get<ClusterCurves, typeof path>(path, { id, cluster }, query));
   }
 
   edit(id: string, request: EditRequest): Promise<Edited> {

@@ -39,7 +39,12 @@ export class ServerData implements RecordingData {
     return this.channels;
   }
 
-  clusterCurves(cluster: number, channel: string): Promise<ClusterCurves | null> {
-    return this.api.clusterCurves(this.id, cluster, channel);
+  clusterCurves(
+    cluster: number,
+    channel: string,
+    _: number,
+    beside?: string,
+  ): Promise<ClusterCurves | null> {
+    return this.api.clusterCurves(this.id, cluster, channel, beside);
   }
 }

@@ -3,7 +3,7 @@ import type { ByHand, Edit, Segments } from "../../../messages";
 import { deleteBorder, merge, moveBorder, split } from "./borders";
 import { mergeClusters, orderClusters, setCluster, setKind, splitCluster } from "./clusters";
 import { nameCluster, nameSegment, namesIn } from "./names";
-import { check, comment, commentsIn, keyOf, markedIn, noted } from "./notes";
+import { check, comment, commentsIn, exclude, keyOf, markedIn, noted } from "./notes";
 import { allRows, draftOf, Impossible, type Draft } from "./rows";
 
 /**
@@ -28,7 +28,7 @@ function isByHand(edit: Edit): edit is ByHand {
 
 function afterOne(draft: Draft, edit: ByHand): Draft {
   const after = made(draft, edit);
-  return edit.kind === "check" || edit.kind === "comment" ? after : noted(draft, after);
+  return ["check", "comment", "exclude"].includes(edit.kind) ? after : noted(draft, after);
 }
 
 function made(draft: Draft, edit: ByHand): Draft {
@@ -59,6 +59,8 @@ function made(draft: Draft, edit: ByHand): Draft {
       return comment(draft, edit.level, edit.frame, edit.text);
     case "check":
       return check(draft, edit.level, edit.frames, edit.checked);
+    case "exclude":
+      return exclude(draft, edit.frames, edit.excluded);
   }
 }
 

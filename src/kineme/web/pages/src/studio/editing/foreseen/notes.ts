@@ -1,4 +1,4 @@
-/** What people vouch for and say of segments, as `marks.py` and `comments.py` have it. */
+/** What people vouch for and say of segments, as `annotating.py` has it. */
 import type { Annotation, Level, Segment } from "../../../messages";
 import { allRows, starting, type Draft } from "./rows";
 
@@ -21,9 +21,16 @@ export function check(
 export function comment(draft: Draft, level: Level, frame: number, text: string): Draft {
   const row = starting(draft, level, frame);
   const kept = commentsIn(draft).filter(([of, at]) => of !== row.level || !holds(row, at));
-  const middle = Math.floor((row.start_frame + row.stop_frame) / 2);
-  const comments: Comment[] = text ? [...kept, [level, middle, text]] : kept;
+  const comments: Comment[] = text ? [...kept, [level, middleOf(row), text]] : kept;
   return { ...draft, annotation: { ...draft.annotation, comments } };
+}
+
+export function exclude(draft: Draft, frames: readonly number[], excluded: boolean): Draft {
+  const rows = frames.map((frame) => starting(draft, "primitive", frame));
+  const others = draft.annotation.excluded.filter((at) => !rows.some((row) => holds(row, at)));
+  const all = new Set(excluded ? [...others, ...rows.map(middleOf)] : others);
+  const sorted = [...all].sort((a, b) => a - b);
+  return { ...draft, annotation: { ...draft.annotation, excluded: sorted } };
 }
 
 /** The table with what an edit made of it marked as made by hand, and the edit counted. */
@@ -63,6 +70,10 @@ function withAnnotation(draft: Draft, mark: Mark, keys: ReadonlySet<string>): Dr
     return [level as Level, Number(start), Number(stop)];
   });
   return { ...draft, annotation: { ...draft.annotation, [mark]: spans } };
+}
+
+function middleOf({ start_frame, stop_frame }: Segment): number {
+  return Math.floor((start_frame + stop_frame) / 2);
 }
 
 function holds({ start_frame, stop_frame }: Segment, frame: number): boolean {

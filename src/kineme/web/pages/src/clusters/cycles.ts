@@ -1,0 +1,32 @@
+/** Which of the repetitions drawn are which segments of the table. */
+import type { CycleCurve } from "../messages";
+import { isExcluded } from "../segments";
+import type { Store } from "../store";
+
+/** Selects the segment of a repetition, if it is there still, and goes to where it is measured from. */
+export function selectCycle(store: Store, cycle: CycleCurve | undefined): void {
+  const segment = store.primitives.value.find(
+    ({ start_frame }) => start_frame === cycle?.start_frame,
+  );
+  if (!segment || !cycle) return;
+  store.select(segment);
+  if (segment.start_s < cycle.start_s && cycle.start_s < segment.stop_s) store.seek(cycle.start_s);
+}
+
+/** The numbers of the repetitions that people left out, by the table as it is shown. */
+export function leftOutOf(store: Store, cycles: readonly CycleCurve[]): ReadonlySet<number> {
+  const annotation = store.recording.value?.segmentation.annotation;
+  if (!annotation?.excluded.length) return new Set();
+  const rows = store.primitives.value.filter((row) => isExcluded(annotation, row));
+  const starts = new Set(rows.map(({ start_frame }) => start_frame));
+  return new Set(cycles.flatMap(({ start_frame }, i) => (starts.has(start_frame) ? [i] : [])));
+}
+
+/** The number of the selected repetition, else of the one under the playhead; -1: neither. */
+export function cycleAt(store: Store, cycles: readonly CycleCurve[]): number {
+  const { level, start_frame } = store.selected.value ?? {};
+  const at = store.playhead.value;
+  const selected = cycles.findIndex((each) => each.start_frame === start_frame);
+  if (selected >= 0 && level === "primitive") return selected;
+  return cycles.findIndex((each) => each.start_s <= at && at < each.stop_s);
+}
