@@ -299,3 +299,17 @@ def test_the_room_can_be_called_whatever_was_imported_first() -> None:
     assert isinstance(kineme.Cycles, type)
     with pytest.raises(ParameterError):
         room(Motion, None)
+
+
+@pytest.mark.parametrize("shift", [0.0, 30.0])
+def test_places_in_a_cycle_are_averaged_round_its_end(cycles, shift: float) -> None:
+    """Least at the start in some and at the end in others is least there, not in the middle."""
+    walking = rows_of(cycles, "walk")
+    places = (np.resize([98.0, 2.0, 99.0, 1.0], len(cycles)) + shift) % 100
+    moved = replace(cycles, columns={**cycles.columns, "knee_l.min_at": places})
+    summary = moved.summary(ends=True)
+    at = (summary["group"] == "walk") & (summary["measure"] == "knee_l.min_at")
+    assert summary["n"][at] == len(walking)
+    for name in ("mean", "median", "q25", "q75"):
+        assert abs((summary[name][at][0] - shift + 50) % 100 - 50) <= 2
+    assert summary["sd"][at][0] < 2.5

@@ -99,3 +99,16 @@ def test_one_cycle_has_no_bounds_and_none_no_means(cycles: Cycles) -> None:
     none = compare_sides(cycles.exclude(range(len(cycles))))
     assert (none["n"] == 0).all()
     assert np.isnan(none["left"]).all()
+
+
+def test_times_on_both_sides_of_the_end_are_near(walks) -> None:
+    cycles = kineme.cycles(walks.motion, walks.truth, channels=["knee_*"])
+    columns = {
+        **cycles.columns,
+        "knee_l.max_at": np.full(len(cycles), 99.0),
+        "knee_r.max_at": np.full(len(cycles), 2.0),
+    }
+    sides = compare_sides(replace(cycles, columns=columns))
+    at = (sides["measure"] == "max_at") & (sides["group"] == "walk")
+    assert np.allclose(sides["difference"][at], -3)
+    assert np.allclose([sides["left"][at], sides["right"][at]], [[99], [2]])

@@ -13,6 +13,7 @@ import re
 import numpy as np
 
 from kineme._checks import check_flag, check_type
+from kineme.cycles.phases import is_phase, mean_phase, shorter_way
 from kineme.cycles.table import CONFIDENCE, Columns, Cycles, Floats
 
 MEASURES = ("range", "min", "max", "mean", "min_at", "max_at")
@@ -65,7 +66,7 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
                     cycles.columns[f"{name}.{measure}"][rows] for name in (left, right)
                 )
                 indexed = is_stance or measure == "range"
-                compared = _compared(of_left, of_right, indexed=indexed)
+                compared = _compared(of_left, of_right, measure, indexed=indexed)
                 lines.append((group, left, right, measure, *compared))
     names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
              "difference", "low", "high", "symmetry_index")  # fmt: skip
@@ -85,7 +86,7 @@ def right_of(name: str) -> str:
     return turned if turned != name else re.sub("_l$", "_r", name)
 
 
-def _compared(left: Floats, right: Floats, *, indexed: bool) -> tuple[float, ...]:
+def _compared(left: Floats, right: Floats, measure: str, *, indexed: bool) -> tuple[float, ...]:
     """Number, means, difference with bounds, symmetry index."""
     from scipy.special import stdtrit
 
@@ -94,7 +95,11 @@ def _compared(left: Floats, right: Floats, *, indexed: bool) -> tuple[float, ...
     if n == 0:
         return 0, *[np.nan] * 6
     apart = left[both] - right[both]
-    of_left, of_right, mean = left[both].mean(), right[both].mean(), apart.mean()
+    of_left, of_right = left[both].mean(), right[both].mean()
+    if is_phase(measure):
+        apart = shorter_way(apart)
+        of_left, of_right = mean_phase(left[both]), mean_phase(right[both])
+    mean = apart.mean()
     half = np.nan
     if n > 1:
         half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * apart.std(ddof=1) / np.sqrt(n)
