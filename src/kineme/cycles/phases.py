@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 PHASES = ("min_at", "max_at")
 """Of the statistics of a channel, those that are places in a cycle."""
 
-WHOLE = 100.0
+CYCLE = 100.0
 
 
 def is_phase(measure: str) -> bool:
@@ -35,16 +35,16 @@ def mean_phase(phases: Floats) -> float:
     """
     if not len(phases):
         return np.nan
-    directions = np.exp(2j * np.pi * phases / WHOLE)
-    return float(np.angle(directions.sum()) / (2 * np.pi) * WHOLE % WHOLE)
+    directions = np.exp(2j * np.pi * phases / CYCLE)
+    return float(np.angle(directions.sum()) / (2 * np.pi) * CYCLE % CYCLE)
 
 
-def shorter_way(differences: Floats) -> Floats:
+def phase_differences(differences: Floats) -> Floats:
     """Differences of places in a cycle, from -50 to 50.
 
     Examples
     --------
-    >>> shorter_way(np.array([96.0, -3.0, 50.0])).tolist()
+    >>> phase_differences(np.array([96.0, -3.0, 50.0])).tolist()
     [-4.0, -3.0, -50.0]
     """
-    return np.asarray((differences + WHOLE / 2) % WHOLE - WHOLE / 2)
+    return np.asarray((differences + CYCLE / 2) % CYCLE - CYCLE / 2)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import check_type
-from kineme.cycles.phases import is_phase, shorter_way
+from kineme.cycles.phases import is_phase, phase_differences
 from kineme.cycles.table import CONFIDENCE, Columns, Cycles
 from kineme.errors import ParameterError
 
@@ -62,7 +62,7 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
     two = {name: sides[1][name][rows[1]][order] for name in ("n", "mean", "sd")}
     difference, low, high = _welch(*(each[n] for each in (one, two) for n in ("n", "mean", "sd")))
     turned = np.where([is_phase(m) for m in one["measure"].tolist()],
-                      shorter_way(difference) - difference, 0.0)  # fmt: skip
+                      phase_differences(difference) - difference, 0.0)  # fmt: skip
     difference, low, high = difference + turned, low + turned, high + turned
     return {
         "group": one["group"],

@@ -13,7 +13,7 @@ import re
 import numpy as np
 
 from kineme._checks import check_flag, check_type
-from kineme.cycles.phases import is_phase, mean_phase, shorter_way
+from kineme.cycles.phases import is_phase, mean_phase, phase_differences
 from kineme.cycles.table import CONFIDENCE, Columns, Cycles, Floats
 
 MEASURES = ("range", "min", "max", "mean", "min_at", "max_at")
@@ -97,7 +97,7 @@ def _compared(left: Floats, right: Floats, measure: str, *, indexed: bool) -> tu
     apart = left[both] - right[both]
     of_left, of_right = left[both].mean(), right[both].mean()
     if is_phase(measure):
-        apart = shorter_way(apart)
+        apart = phase_differences(apart)
         of_left, of_right = mean_phase(left[both]), mean_phase(right[both])
     mean = apart.mean()
     half = np.nan

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from kineme._checks import as_indices, check_flag, is_number
 from kineme._counts import counted
-from kineme.cycles.phases import WHOLE, is_phase, mean_phase, shorter_way
+from kineme.cycles.phases import CYCLE, is_phase, mean_phase, phase_differences
 from kineme.errors import MissingDependencyError, ParameterError
 
 if TYPE_CHECKING:
@@ -396,15 +396,15 @@ def _described(values: Floats, measure: str) -> tuple[float, ...]:
     if n == 0:
         return 0, *[np.nan] * 6
     circular = is_phase(measure)
-    if circular:  # laid open where they are fewest, as far from their mean as can be
+    if circular:  # as near to their mean as they can be
         middle = mean_phase(values)
-        values = middle + shorter_way(values - middle)
+        values = middle + phase_differences(values - middle)
     mean, sd = float(values.mean()), float(values.std(ddof=1)) if n > 1 else np.nan
     # Of angles a share of the mean says nothing: their zero is chosen.
     cv = sd / mean if measure in ("duration_s", "cadence_per_min") else np.nan
     low, median, high = np.percentile(values, [25, 50, 75]).tolist()
     if circular:
-        mean, median, low, high = (each % WHOLE for each in (mean, median, low, high))
+        mean, median, low, high = (each % CYCLE for each in (mean, median, low, high))
     return n, mean, sd, cv, median, low, high
 
 
