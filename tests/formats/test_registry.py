@@ -69,7 +69,7 @@ def test_what_is_worth_a_warning_is_warned_of_once(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "what"),
     [
-        ("a.mvnx", "export BVH or C3D"),
+        ("a.qtm", "export BVH or C3D"),
         ("a.xlsx", "save it as CSV"),
         ("a.csv.gz", "unpack it first"),
     ],

@@ -93,7 +93,7 @@ class Format:
 _EXPORT = "export BVH or C3D from the program that made it"
 _UNPACK = "unpack it first"
 INSTEAD = {
-    **dict.fromkeys((".mvnx", ".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
+    **dict.fromkeys((".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
     **dict.fromkeys((".xlsx", ".xls", ".ods"), "save it as CSV"),
     **dict.fromkeys(
         (".usdz", ".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz"), _UNPACK
@@ -121,6 +121,7 @@ FORMATS: Registry[Format] = Registry(
         "skeletons.bvh:FORMAT",
         "skeletons.amc:FORMAT",
         "skeletons.amc:SKELETON",
+        "skeletons.mvnx:FORMAT",
         "scenes.fbx:FORMAT",
         "scenes.gltf:FORMAT",
         "scenes.usd:FORMAT",

@@ -1,0 +1,172 @@
+"""MVNX: what Xsens' MVN exports of a suit, as XML.
+
+A ``subject`` has ``segments`` with labels, a ``frameRate``, and ``frames``. Each ``frame`` of the
+type ``normal`` has the ``position`` of the origin of each segment (metres, z up) and its
+``orientation`` (quaternions w, x, y, z, from the segment to the world). Frames of other types are
+poses of calibration. The origin of a segment is the joint that it hangs on. The 23 segments of the
+body are read; props, fingers, sensors and joint angles are passed over.
+
+Source: Xsens, "MVN User Manual", chapter on the file format MVNX.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from io import BytesIO
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme._counts import listed
+from kineme._files import HEAD
+from kineme.errors import SeveralPeopleError
+from kineme.formats.files import FileContent
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
+from kineme.formats.skeletons.placing import place
+from kineme.recordings import Motion, Skeleton
+
+Floats = NDArray[np.float64]
+
+_LIMBS = {
+    "Shoulder": "T8", "UpperArm": "Shoulder", "ForeArm": "UpperArm", "Hand": "ForeArm",
+    "UpperLeg": "Pelvis", "LowerLeg": "UpperLeg", "Foot": "LowerLeg", "Toe": "Foot",
+}  # fmt: skip
+PARENTS = {
+    "Pelvis": "", "L5": "Pelvis", "L3": "L5", "T12": "L3", "T8": "T12", "Neck": "T8",
+    "Head": "Neck",
+    **{f"{side}{part}": parent if parent in ("T8", "Pelvis") else f"{side}{parent}"
+       for side in ("Right", "Left") for part, parent in _LIMBS.items()},
+}  # fmt: skip
+"""Of each segment of the body that which it hangs on."""
+
+
+@dataclass
+class Subject:
+    """What is read of somebody: the values of each frame as they stand."""
+
+    name: str
+    rate: float
+    segments: list[str] = field(default_factory=list)
+    positions: list[Floats] = field(default_factory=list)
+    orientations: list[Floats] = field(default_factory=list)
+
+
+def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
+    """The motion of a suit in an MVNX file."""
+    subject = _chosen(content, list(_subjects(content)), options.person)
+    names = [name for name in PARENTS if name in subject.segments]
+    if "Pelvis" not in names:
+        raise content.error("none of its segments is a 'Pelvis'")
+    n, chosen = len(subject.segments), [subject.segments.index(name) for name in names]
+    positions = _stacked(content, "position", subject.positions, 3 * n).reshape(-1, n, 3)
+    world = _stacked(content, "orientation", subject.orientations, 4 * n).reshape(-1, n, 4)
+    if len(positions) != len(world):
+        raise content.error("not all frames have positions and orientations: export both")
+    positions, world = positions[:, chosen], world[:, chosen]
+    lengths = np.linalg.norm(world, axis=2, keepdims=True)
+    if not (np.isfinite(positions).all() and np.isfinite(lengths).all() and (lengths > 0).all()):
+        raise content.error("positions or orientations are not all numbers")
+    world = world / lengths
+    parents = [_parent(name, names) for name in names]
+    local, offsets = world.copy(), np.zeros((len(names), 3))
+    for joint, parent in enumerate(parents):
+        if parent >= 0:
+            back = rot.conjugate(world[:, parent])
+            local[:, joint] = rot.multiply(back, world[:, joint])
+            apart = rot.rotate(back, positions[:, joint] - positions[:, parent])
+            offsets[joint] = np.median(apart, axis=0)
+    fps = options.fps or subject.rate
+    if not fps > 0:
+        raise content.error("it tells no frameRate: give fps= (--fps)")
+    left = [name for name in subject.segments if name not in PARENTS]
+    notes = [f"segments left out: {', '.join(left)}"] if left else []
+    return place(
+        Skeleton(tuple(names), tuple(parents), offsets),
+        local,
+        {0: positions[:, 0]},
+        fps,
+        unit=options.unit or "m",
+        up=options.up or "z",
+        provenance=content.provenance("MVNX", notes),
+    )
+
+
+def _subjects(content: FileContent) -> Iterator[Subject]:
+    """The people in a file, read element by element; ReadError where it breaks off."""
+    subject: Subject | None = None
+    if b"<!DOCTYPE" in content.data[:HEAD]:  # without one no entity can grow
+        raise content.error("has a document type, which MVN's have not")
+    events = ET.iterparse(BytesIO(content.data), events=("start", "end"))  # noqa: S314 (see above)
+    try:
+        for event, element in events:
+            tag = element.tag.rpartition("}")[2]
+            if tag == "subject" and event == "start":
+                rate = _number(element.get("frameRate", ""))
+                subject = Subject(element.get("label", ""), rate)
+            elif event == "start" or subject is None:
+                continue
+            elif tag == "segment":
+                subject.segments.append(element.get("label", ""))
+            elif tag == "frame":
+                if element.get("type", "normal") == "normal":
+                    _take_frame(content, subject, element)
+                element.clear()
+            elif tag == "subject":
+                yield subject
+                element.clear()
+    except ET.ParseError as error:
+        raise content.error(f"is no whole XML: {error}") from None
+
+
+def _take_frame(content: FileContent, subject: Subject, frame: Any) -> None:
+    for child in frame:
+        tag = child.tag.rpartition("}")[2]
+        if tag in ("position", "orientation"):
+            try:
+                values = np.array((child.text or "").split(), np.float64)
+            except ValueError:
+                raise content.error(f"a frame has a {tag} that is no number") from None
+            (subject.positions if tag == "position" else subject.orientations).append(values)
+
+
+def _stacked(content: FileContent, what: str, frames: list[Floats], width: int) -> Floats:
+    if not frames:
+        raise content.error(f"no frame has a {what} of segments: export it with them")
+    if any(len(values) != width for values in frames):
+        raise content.error(f"a frame has another number of values in {what} than {width}")
+    return np.stack(frames)
+
+
+def _chosen(content: FileContent, people: list[Subject], person: str | None) -> Subject:
+    if not people:
+        raise content.error("there is no subject in it")
+    found = [each for each in people if person in (None, each.name)]
+    if len(found) == 1:
+        return found[0]
+    names = [each.name for each in people]
+    raise SeveralPeopleError(
+        content.path, f"choose one of its subjects with person= (--person): {listed(names)}", names
+    )
+
+
+def _parent(name: str, names: list[str]) -> int:
+    """The place of the nearest segment that is there of those that one hangs on; -1 for none."""
+    parent = PARENTS[name]
+    while parent and parent not in names:
+        parent = PARENTS[parent]
+    return names.index(parent) if parent else -1
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return 0.0
+
+
+FORMAT = Format("MVNX", (".mvnx",), lambda head: b"<mvnx" in head, read_mvnx)

@@ -1,0 +1,126 @@
+"""MVNX of Xsens' suits: a walk of a random body comes back, and wrong files say why."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import kineme
+from kineme.errors import ReadError, SeveralPeopleError
+from kineme.formats.skeletons.mvnx import PARENTS
+from kineme.recordings import Motion, Skeleton
+
+NAMES = tuple(PARENTS)
+HEIGHTS = {
+    "Pelvis": 0.95, "Neck": 0.25, "UpperLeg": -0.02, "LowerLeg": -0.42, "Foot": -0.4, "Toe": -0.08,
+    "UpperArm": 0.0, "ForeArm": -0.28, "Hand": -0.25,
+}  # fmt: skip
+
+
+def suit(frames: int = 12) -> Motion:
+    """Somebody in a suit who bends all joints a little, y up."""
+    rng = np.random.default_rng(3)
+    parents = [NAMES.index(PARENTS[name]) if PARENTS[name] else -1 for name in NAMES]
+    offsets = np.zeros((len(NAMES), 3))
+    for i, name in enumerate(NAMES):
+        part = name.removeprefix("Right").removeprefix("Left")
+        side = 0.0 if part == name else 0.1 if name.startswith("Left") else -0.1
+        offsets[i] = (side * (part in ("Shoulder", "UpperLeg")), HEIGHTS.get(part, 0.1), 0.02)
+    turns = Rotation.from_rotvec(rng.normal(scale=0.2, size=(frames * len(NAMES), 3)))
+    rotations = turns.as_quat(scalar_first=True).reshape(frames, len(NAMES), 4)
+    places = np.repeat(offsets[None], frames, axis=0)
+    places[:, 0] += np.linspace(0, 2, frames)[:, None] * [0, 0, 1]
+    skeleton = Skeleton(NAMES, tuple(parents), offsets)
+    return Motion.from_rotations(skeleton, rotations, 60, translations=places)
+
+
+def mvnx(motion: Motion, *, more: str = "", name: str = "Anna", positions: bool = True) -> str:
+    """As MVN writes it: z up, world orientations, a frame of calibration first."""
+    up = Rotation.from_euler("x", 90, degrees=True)
+    world = np.empty((motion.n_frames, len(NAMES), 4))
+    for joint, parent in enumerate(motion.skeleton.parents):
+        own = Rotation.from_quat(motion.rotations[:, joint], scalar_first=True)
+        before = up if parent < 0 else Rotation.from_quat(world[:, parent], scalar_first=True)
+        world[:, joint] = (before * own).as_quat(scalar_first=True)
+    frames = []
+    for i, frame in enumerate(motion.positions):
+        values = {"orientation": world[i].ravel().tolist()}
+        if positions:
+            values["position"] = up.apply(frame.copy()).ravel().tolist()
+        inside = "".join(f"<{key}>{' '.join(map(repr, v))}</{key}>" for key, v in values.items())
+        frames.append(f'<frame time="{i}" index="{i}" type="normal">{inside}<jointAngle/></frame>')
+    segments = "".join(f'<segment label="{name}" id="{i}"/>' for i, name in enumerate(NAMES, 1))
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        '<mvnx xmlns="http://www.xsens.com/mvn/mvnx" version="4">'
+        f'<subject label="{name}" frameRate="60" segmentCount="23"><segments>{segments}{more}'
+        '</segments><frames><frame type="identity"><orientation>1 0 0 0</orientation>'
+        f"<position>0 0 0</position></frame>{''.join(frames)}</frames></subject></mvnx>"
+    )
+
+
+def read(folder: Path, text: str, **options: object) -> Motion:
+    (folder / "a.mvnx").write_text(text, encoding="utf-8")
+    return kineme.read(folder / "a.mvnx", **options)
+
+
+def test_a_suit_comes_back(tmp_path: Path) -> None:
+    motion = suit()
+    found = read(tmp_path, mvnx(motion))
+    assert (found.fps, found.n_frames, found.skeleton.names) == (60, 12, NAMES)
+    assert found.provenance.format == "MVNX"
+    assert found.rotations is not None
+    assert np.allclose(found.positions, motion.positions, atol=1e-9)
+    kineme.write(found, tmp_path / "a.bvh")
+    again = kineme.read(tmp_path / "a.bvh", unit="cm", up="y")
+    at = [again.joint(name) for name in NAMES]
+    assert np.allclose(again.positions[:, at], motion.positions, atol=1e-4)
+    kineme.pose_features(found)
+
+
+def test_a_prop_and_a_missing_segment(tmp_path: Path) -> None:
+    motion = suit()
+    text = mvnx(motion)
+    renamed = text.replace('label="L3"', 'label="Prop1"')
+    found = read(tmp_path, renamed)
+    assert found.provenance.notes == ("segments left out: Prop1",)
+    assert found.skeleton.names[found.skeleton.parents[found.joint("T12")]] == "L5"
+
+
+def test_one_of_several_subjects(tmp_path: Path) -> None:
+    one = mvnx(suit(), name="Anna")
+    other = mvnx(replace(suit(), positions=suit().positions + 1), name="Bob")
+    text = one.replace("</mvnx>", other[other.index("<subject") :])
+    with pytest.raises(SeveralPeopleError, match="Anna, Bob"):
+        read(tmp_path, text)
+    assert read(tmp_path, text, person="Bob").positions[0, 0, 0] > 0.5
+
+
+@pytest.mark.parametrize(
+    ("spoil", "reason"),
+    [
+        (lambda text: text[: len(text) // 2], "is no whole XML"),
+        (lambda text: text.replace('label="Pelvis"', 'label="Hip"'), "'Pelvis'"),
+        (lambda text: text.replace('frameRate="60"', ""), "no frameRate: give fps"),
+        (lambda text: text.replace("subject", "actor"), "there is no subject in it"),
+        (lambda text: text.replace('"normal"', '"npose"'), "no frame has a position"),
+        (lambda text: text.replace("</position>", " 1</position>", 2), "another number of values"),
+        (lambda text: text.replace("<position>", "<position>x ", 2), "that is no number"),
+        (lambda text: text.replace("<position>", "<position>nan ", 2), "another number of values"),
+        (lambda _: mvnx(suit(), positions=False), "no frame has a position"),
+    ],
+)
+def test_wrong_files(tmp_path: Path, spoil, reason: str) -> None:
+    with pytest.raises(ReadError, match=reason):
+        read(tmp_path, spoil(mvnx(suit(2))))
+
+
+def test_entities_do_not_grow(tmp_path: Path) -> None:
+    levels = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 12))
+    head = f'<?xml version="1.0"?><!DOCTYPE mvnx [<!ENTITY e0 "ha">{levels}]>'
+    with pytest.raises(ReadError):
+        read(tmp_path, f"{head}<mvnx><subject label='x'>&e11;</subject></mvnx>")
