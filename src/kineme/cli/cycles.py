@@ -123,7 +123,8 @@ def cycles(
         raise typer.BadParameter("takes two recordings", param_hint="--compare")
     recordings: list[Motion | Signals] = []
     tables: list[Segmentation] = []
-    for path, table in zip(batch.paths, batch.tables("--segments", segments), strict=True):
+    cuts = batch.tables("--segments", segments, request.person)
+    for path, table in zip(batch.paths, cuts, strict=True):
         with batch.caught(path), batch.progress(path) as stage:
             stage("reading")
             recording = request.read(path)

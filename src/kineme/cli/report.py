@@ -46,7 +46,7 @@ def report(
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     pages = batch.files("--output", output, ".html")
-    tables = batch.tables("--segments", segments)
+    tables = batch.tables("--segments", segments, request.person)
     for path, page, table in zip(batch.paths, pages, tables, strict=True):
         with batch.caught(path):
             check_writable(page=page)

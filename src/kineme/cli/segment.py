@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme._files import of_person
 from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
 from kineme.cli.options.request import Request, Stage
-from kineme.cli.options.targets import check_writable, of_person
+from kineme.cli.options.targets import check_writable
 from kineme.errors import ReadError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
@@ -85,7 +86,7 @@ def segment(
                 people = request.of_each_person(path)
             failures = []
             for person, asked in people:
-                targets = [of_person(each, person) for each in (table, picture, page)]
+                targets = [each and of_person(each, person) for each in (table, picture, page)]
                 try:
                     with batch.progress(path) as stage:
                         result = _segmented(path, asked, targets, stage)

@@ -78,7 +78,7 @@ def split(
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
-    tables = batch.tables("--segments", segments)
+    tables = batch.tables("--segments", segments, request.person)
     for path, folder, table in zip(batch.paths, folders, tables, strict=True):
         with batch.caught(path):
             with batch.progress(path) as stage:

@@ -92,12 +92,12 @@ class Batch:
         with self._nothing_without():
             return folders_for(option, given, self.paths, single=self.single)
 
-    def tables(self, option: str, given: Path | None) -> list[Path | None]:
-        """The table or label file that belongs to each recording."""
+    def tables(self, option: str, given: Path | None, person: str = "") -> list[Path | None]:
+        """The table or label file that belongs to each recording, or to this person in it."""
         if given is None:
             return [None] * len(self.paths)
         with self._nothing_without():
-            return [*tables_for(option, given, self.paths)]
+            return [*tables_for(option, given, self.paths, person)]
 
     @contextmanager
     def caught(self, path: Path) -> Iterator[None]:

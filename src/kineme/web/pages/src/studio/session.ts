@@ -130,33 +130,48 @@ export class Session {
       void this.refresh();
       await loadMotion(opened);
     } catch (error) {
-      this.bulletin.problem(explain(error), "open");
-      this.notRead(id, error);
+      const isAsked = this.notRead(id, error) && !store.opened.value.length;
+      if (!isAsked) this.bulletin.problem(explain(error), "open"); // else the stage asks
     } finally {
       if (this.opening.value === id) this.opening.value = null;
     }
   }
 
-  /** Reads a recording otherwise from now on, and shows it. */
+  /** Reads a file otherwise from now on, and shows it, or the people of it who are asked for. */
   async readAs(id: string, request: ReadingRequest): Promise<void> {
+    let asked: string[];
     try {
-      await this.api.readAs(id, request);
+      asked = await this.api.readAs(id, request);
     } catch (error) {
       this.bulletin.problem(explain(error), "reading");
       this.notRead(id, error);
       return;
     }
-    this.bulletin.solved("reading");
-    this.close(id);
-    await this.open(id);
+    for (const what of ["reading", "open"]) this.bulletin.solved(what);
+    const { value: recording } = this.store.recording;
+    const shown = recording?.id === id ? this.store.people.value : [];
+    const before = shown.map((each) => each.recording.value.id);
+    const isSame = asked.length === 1 && asked[0] === id;
+    for (const each of [id, ...before]) this.close(each);
+    await this.refresh(); // of several people each is listed now
+    await this.openTogether(isSame && before.length ? before : asked);
   }
 
-  /** Offers to say how a recording is to be read, where that is what is wrong. */
-  private notRead(id: string, error: unknown): void {
+  /** Shows recordings beside each other, the first of them in front. */
+  private async openTogether(ids: readonly string[]): Promise<void> {
+    for (const [i, id] of ids.entries()) await this.open(id, { beside: i > 0 });
+    const { opened } = this.store;
+    const first = opened.value.findIndex((each) => each.recording.value.id === ids[0]);
+    if (ids.length > 1 && first >= 0) this.store.show(first);
+  }
+
+  /** Offers to say how a recording is to be read, where that is what is wrong; whether of people. */
+  private notRead(id: string, error: unknown): boolean {
     const people = notRead(error);
     const name = this.state.value?.recordings.find((each) => each.id === id)?.name;
     const before = this.unread.value?.id === id ? this.unread.value.people : [];
     if (people && name) this.unread.value = { id, name, people: people.length ? people : before };
+    return Boolean(people?.length && name);
   }
 
   /** Opens the next recording of the list, or the one before. */
@@ -213,8 +228,10 @@ export class Session {
     const { recordings } = this.state.value!;
     const listed = new Set(recordings.map((each) => each.id));
     const before = openInAddress().filter((id) => listed.has(id));
-    const first = before.length || listed.size > 1 ? before : listed;
-    for (const id of first) await this.open(id, { beside: true });
+    const files = new Set(recordings.map((each) => each.file));
+    if (before.length || files.size !== 1)
+      for (const id of before) await this.open(id, { beside: true });
+    else await this.openTogether([...listed]);
     if (secondsInAddress()) this.store.seek(secondsInAddress());
     effect(() => openToAddress(this.store.opened.value));
   }

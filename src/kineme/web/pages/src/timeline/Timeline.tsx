@@ -34,6 +34,11 @@ export function Timeline(): JSX.Element {
     activities: store.activities.value,
     primitives: store.primitives.value,
     others: store.others.value,
+    people: store.people.value.map(({ recording: { value } }) => ({
+      name: value.person ?? value.name,
+      index: store.opened.value.findIndex((each) => each.recording.value.id === value.id),
+      segmentation: value.id === store.recording.value?.id ? null : value.segmentation,
+    })),
   });
   return (
     <div class="timeline">

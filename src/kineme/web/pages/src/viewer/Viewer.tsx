@@ -64,7 +64,15 @@ function Caption(): JSX.Element {
       {stepping && <p class="quiet">{count} in step</p>}
       {!stepping && store.opened.value.length > 1 && (
         <p class="quiet">
-          {store.opened.value.map((each) => each.recording.value.name).join(" · ")}
+          {store.opened.value.map(({ recording: { value } }, i) => {
+            const name = store.people.value.length ? (value.person ?? value.name) : value.name;
+            return (
+              <span key={value.id}>
+                {i > 0 && " · "}
+                {i === store.current.value ? <strong>{name}</strong> : name}
+              </span>
+            );
+          })}
         </p>
       )}
     </div>

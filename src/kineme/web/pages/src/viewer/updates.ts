@@ -90,6 +90,7 @@ function watchFigures(store: Store): void {
 
 function watchPose(store: Store): void {
   void [store.playhead.value, store.primitives.value, store.selected.value];
+  for (const { recording } of store.opened.value) void recording.value; // whose colours are seen
   void [store.trails.value, store.follow.value, store.ghost.value];
 }
 

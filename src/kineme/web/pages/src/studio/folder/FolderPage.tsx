@@ -24,7 +24,8 @@ const MORE = 6; // rows drawn above and below what is seen
 
 export function FolderPage(): JSX.Element | null {
   const { session, front } = useStudio();
-  const several = (session.state.value?.recordings.length ?? 0) > 1;
+  const files = new Set(session.state.value?.recordings.map((each) => each.file));
+  const several = files.size > 1;
   const none = !session.store.opened.value.length && !session.opening.value;
   if (!(front.folder.value ?? (several && none))) return null;
   return <Page />;
