@@ -10,6 +10,7 @@ import { anatomyOfCached } from "./anatomy";
 import { inStep, isFree, timeOf, putInPlace, sideBySide, type PlacedFigure } from "./placement";
 import { Figure } from "./figure";
 import { Ghost } from "./ghost";
+import type { Tag } from "./nameTags";
 import { Stage } from "./stage";
 import { Trails } from "./trails";
 
@@ -123,6 +124,20 @@ export class FigureScene {
     this.stage.look(target, isApart ? side : usual, apart + 1.25 * this.size, 1.4 * this.size);
   }
 
+  /** Over whose heads the names of several people stand. */
+  tags(): Tag[] {
+    const { store } = this;
+    if (!store.people.value.length || store.inStep.value) return [];
+    return this.placed.flatMap((each, i) => {
+      const at = new THREE.Vector3().fromArray(this.poses[i]!, 3 * rootOf(each.motion.head));
+      at.y = highest(this.poses[i]!) + 0.06 * this.size;
+      at.project(this.stage.camera);
+      if (Number.isNaN(at.x) || Math.abs(at.z) > 1) return [];
+      const front = each.motion === store.active.value?.motion.value;
+      return [{ name: each.name, x: (1 + at.x) / 2, y: (1 - at.y) / 2, front }];
+    });
+  }
+
   /** The figure nearest to a point of the canvas (from -1 to 1, y up). */
   pick(x: number, y: number): PlacedFigure | undefined {
     const near = this.placed.map((each, i) => {
@@ -143,8 +158,9 @@ export class FigureScene {
     const motion = store.active.value?.motion.value;
     const members = store.shownCluster.value?.members ?? [];
     const shown = store.opened.value.flatMap((opened) => {
-      const { name, file } = opened.recording.value;
-      return opened.motion.value ? [{ motion: opened.motion.value, name, file }] : [];
+      const { name, file, person } = opened.recording.value;
+      const { value: motion } = opened.motion;
+      return motion ? [{ motion, name: person ?? name, file }] : [];
     });
     this.size = Math.max(...shown.map((each) => anatomyOfCached(each.motion).size), 0) || 1;
     const ground = Math.min(...shown.map((each) => anatomyOfCached(each.motion).ground));
@@ -244,6 +260,13 @@ export class FigureScene {
     this.trails?.dispose();
     this.trails = null;
   }
+}
+
+/** The height of a pose's highest joint. */
+function highest(pose: Float32Array): number {
+  let top = -Infinity;
+  for (let i = 1; i < pose.length; i += 3) if (pose[i]! > top) top = pose[i]!;
+  return top;
 }
 
 /** From one to the other of the two who stand farthest apart. */
