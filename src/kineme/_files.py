@@ -200,6 +200,8 @@ def of_person(path: Path, person: str) -> Path:
 
     The same path where nobody is named.
     """
+    if not person:
+        return path
     suffix = CORRECTED if path.name.endswith(CORRECTED) else path.suffix
     return path.with_name(f"{path.name.removesuffix(suffix)}{ending_of(person)}{suffix}")
 

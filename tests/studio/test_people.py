@@ -141,6 +141,35 @@ def test_the_command_line_takes_the_table_of_a_person(duet: Studio) -> None:
         assert f"by {person}" in Path(f"{duet.path}.csv").read_text()
 
 
+def test_commands_take_all_people(duet: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    choose(duet, everybody=True)
+    for person in ("Anna", "Bob"):
+        one = of(duet, person)
+        call = {"cluster": 0, "label": f"by {person}"}
+        one.done(one.recording()["revision"], "name_cluster", **call)
+    monkeypatch.chdir(duet.folder)
+
+    def run(*arguments: str) -> str:
+        asked = [arguments[0], "duet.trc", "--person", "all", *arguments[1:]]
+        done = CliRunner().invoke(app, asked)
+        assert done.exit_code == 0, done.output
+        return done.output
+
+    run("cycles", "--segments", ".", "--ends", "-q", "-o", "cycles.csv")
+    rows = Path("cycles.csv").read_text()
+    assert "duet_Anna" in rows
+    assert "duet_Bob" in rows
+    assert "by Anna" in rows
+    run("split", "--segments", ".", "--level", "primitive", "-o", "clips")
+    assert any("Anna" in each.name for each in Path("clips_Anna").iterdir())
+    assert any(Path("clips_Bob").iterdir())
+    run("report", "--segments", ".", "-o", "page.html")
+    assert "by Anna" in Path("page_Anna.html").read_text()
+    assert "by Anna" not in Path("page_Bob.html").read_text()
+    run("events", "-o", "feet.csv")
+    assert {path.name for path in Path().glob("feet*.csv")} == {"feet_Anna.csv", "feet_Bob.csv"}
+
+
 def test_everybody_can_be_asked_for_at_the_start(duet: Studio) -> None:
     _tell_apart([duet.path, duet.folder / "take.bvh"], ReadingOptions())
     assert [*ids_of(duet)] == ["duet.trc · Anna", "duet.trc · Bob"]

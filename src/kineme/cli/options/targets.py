@@ -66,7 +66,10 @@ def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -
     if not person:
         return usual
     named = [_kept(path.with_name(f"{path.name}{ending_of(person)}"), recordings) for path in paths]
-    return [one if one.exists() else other for one, other in zip(named, usual, strict=True)]
+    return [
+        one if one.exists() or not other.exists() else other
+        for one, other in zip(named, usual, strict=True)
+    ]
 
 
 def check_place(pattern: Path) -> None:
