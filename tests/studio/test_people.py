@@ -188,4 +188,5 @@ def test_names_that_files_cannot_hold() -> None:
     odd = ListedRecording(Path("walk.c3d"), "A/../b c")
     assert odd.called.name == "walk_A_.._b_c.c3d"
     assert odd.name == "walk.c3d · A/../b c"
+    assert ListedRecording(Path("walk.json"), "1").name == "walk.json · person 1"
     assert odd.id != ListedRecording(Path("walk.c3d"), "A").id

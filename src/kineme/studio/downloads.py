@@ -26,6 +26,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
 from kineme.studio.http.bodies import safe_name
+from kineme.studio.loading import without_others
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.storage.sidecars import offset_of
 
@@ -49,7 +50,8 @@ def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str
         return _called(stem, _what(kind, of_level), found)
     if kind == REPORT:
         name = opened.listed.name
-        page = partial(write_report, loaded.recording, table, name=name, effectors=loaded.effectors)
+        shown = without_others(loaded.recording)
+        page = partial(write_report, shown, table, name=name, effectors=loaded.effectors)
         return _called(stem, kind, _written(stem, lambda to: page(to / f"{stem}.html")))
     return table_file(_with_video(opened), stem, kind, level)
 

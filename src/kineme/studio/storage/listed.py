@@ -47,7 +47,8 @@ class ListedRecording:
     @property
     def name(self) -> str:
         """What it is called where people read it."""
-        return f"{self.path.name} · {self.person}" if self.person else self.path.name
+        person = f"person {self.person}" if self.person.isdecimal() else self.person
+        return f"{self.path.name} · {person}" if person else self.path.name
 
     @property
     def called(self) -> Path:

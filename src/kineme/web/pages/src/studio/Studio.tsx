@@ -105,7 +105,6 @@ function Stage(): JSX.Element {
   const store = useStore();
   const { session } = useStudio();
   const turn = useStageTurn();
-  const { value: unread } = session.unread;
   if (store.recording.value?.motion === null)
     return (
       <>
@@ -123,10 +122,8 @@ function Stage(): JSX.Element {
         <p class="empty quiet">
           {session.opening.value || !session.state.value ? (
             <span class="busy" role="status" aria-label="Opening" />
-          ) : unread?.people.length ? (
-            `${unread.people.length} people are in ${unread.name}: choose one of them on the left, or all.`
           ) : (
-            "Choose a recording on the left, or drop files here."
+            session.question.value || "Choose a recording on the left, or drop files here."
           )}
         </p>
       )}

@@ -44,6 +44,12 @@ export class Session {
   readonly opening = signal<string | null>(null);
   /** The recording that could not be read, and the people in it. */
   readonly unread = signal<Unread | null>(null);
+  /** Who of several people is to be seen, in a sentence; empty where nothing is asked. */
+  readonly question = computed(() => {
+    const { people = [], name } = this.unread.value ?? {};
+    const many = `${people.length} people are in ${name}: choose one of them on the left, or all.`;
+    return people.length > 1 ? many : "";
+  });
   readonly bulletin: Bulletin;
   /** Those that are open, and those whose edits are on their way. */
   readonly recordings = signal<EditedRecording[]>([]);
@@ -130,8 +136,10 @@ export class Session {
       void this.refresh();
       await loadMotion(opened);
     } catch (error) {
-      const isAsked = this.notRead(id, error) && !store.opened.value.length;
-      if (!isAsked) this.bulletin.problem(explain(error), "open"); // else the stage asks
+      const isAsked = this.notRead(id, error);
+      if (!isAsked || store.opened.value.length)
+        // else the stage asks
+        this.bulletin.problem(isAsked ? this.question.value : explain(error), "open");
     } finally {
       if (this.opening.value === id) this.opening.value = null;
     }
@@ -143,8 +151,9 @@ export class Session {
     try {
       asked = await this.api.readAs(id, request);
     } catch (error) {
-      this.bulletin.problem(explain(error), "reading");
-      this.notRead(id, error);
+      const isAsked = this.notRead(id, error);
+      this.bulletin.solved("open");
+      this.bulletin.problem(isAsked ? this.question.value : explain(error), "reading");
       return;
     }
     for (const what of ["reading", "open"]) this.bulletin.solved(what);
@@ -171,7 +180,7 @@ export class Session {
     const name = this.state.value?.recordings.find((each) => each.id === id)?.name;
     const before = this.unread.value?.id === id ? this.unread.value.people : [];
     if (people && name) this.unread.value = { id, name, people: people.length ? people : before };
-    return Boolean(people?.length && name);
+    return (people?.length ?? 0) > 1 && this.question.value !== "";
   }
 
   /** Opens the next recording of the list, or the one before. */

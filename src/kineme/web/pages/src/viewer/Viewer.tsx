@@ -2,6 +2,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
+import { personCalled } from "../opened";
 import { nameOf } from "../segments";
 import { NO_COLOR } from "../colors";
 import { clock } from "../view";
@@ -65,7 +66,9 @@ function Caption(): JSX.Element {
       {!stepping && store.opened.value.length > 1 && (
         <p class="quiet">
           {store.opened.value.map(({ recording: { value } }, i) => {
-            const name = store.people.value.length ? (value.person ?? value.name) : value.name;
+            const name = store.people.value.length
+              ? personCalled(value.person ?? value.name)
+              : value.name;
             return (
               <span key={value.id}>
                 {i > 0 && " · "}

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { NO_COLOR, onPage } from "../colors";
 import type { Segment, Segments } from "../messages";
 import { headingAt, poseAt, rootOf, type Motion } from "../motion";
+import { personCalled } from "../opened";
 import { laneOf, segmentAt } from "../segments";
 import type { Store } from "../store";
 import { cssColor, theme } from "../theme";
@@ -160,7 +161,7 @@ export class FigureScene {
     const shown = store.opened.value.flatMap((opened) => {
       const { name, file, person } = opened.recording.value;
       const { value: motion } = opened.motion;
-      return motion ? [{ motion, name: person ?? name, file }] : [];
+      return motion ? [{ motion, name: personCalled(person ?? name), file }] : [];
     });
     this.size = Math.max(...shown.map((each) => anatomyOfCached(each.motion).size), 0) || 1;
     const ground = Math.min(...shown.map((each) => anatomyOfCached(each.motion).ground));

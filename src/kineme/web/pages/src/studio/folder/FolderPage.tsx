@@ -26,7 +26,8 @@ export function FolderPage(): JSX.Element | null {
   const { session, front } = useStudio();
   const files = new Set(session.state.value?.recordings.map((each) => each.file));
   const several = files.size > 1;
-  const none = !session.store.opened.value.length && !session.opening.value;
+  const asks = session.question.value !== ""; // on the stage
+  const none = !session.store.opened.value.length && !session.opening.value && !asks;
   if (!(front.folder.value ?? (several && none))) return null;
   return <Page />;
 }

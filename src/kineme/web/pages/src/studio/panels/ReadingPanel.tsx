@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import type { JSX, TargetedEvent } from "preact";
+import { personCalled } from "../../opened";
 import { useStudio } from "../context";
 
 const UNITS = ["m", "cm", "mm", "inch", "cmu"];
@@ -126,21 +127,19 @@ function People(props: {
   const all = shown.length === names.length;
   return (
     <fieldset class="people-choice">
-      <legend>
-        {question ? `Who of the ${names.length} people in it?` : "People in this file"}
-      </legend>
+      <legend>{question ? "Who is to be seen?" : "People in this file"}</legend>
       {names.map((name) => (
         <button
           key={name}
           type="button"
           aria-pressed={shown.includes(name)}
-          title={`Show ${name} alone: each has a table of their own`}
+          title={`Show ${personCalled(name)} alone: each has a table of their own`}
           onClick={() => void read({ person: name })}
         >
-          {name}
+          {personCalled(name)}
         </button>
       ))}
-      {!session.state.value?.of_library && (
+      {names.length > 1 && !session.state.value?.of_library && (
         <button
           type="button"
           class={question ? "primary" : ""}
