@@ -23,6 +23,8 @@ TAIL = 1 << 16
 """Bytes at the end of a Parquet file, where it names its columns."""
 CORRECTED = ".segments.json"
 """How the name of a table ends that somebody corrected in the studio."""
+LONGEST_PERSON = 60
+"""Bytes of a person's name in that of a file, which may have 255 in all."""
 VIDEOS = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
 if sys.platform != "win32":  # where an open file cannot be removed anyway
     import fcntl
@@ -208,8 +210,8 @@ def of_person(path: Path, person: str) -> Path:
 
 def ending_of(person: str) -> str:
     """What the names of files end in that are of one person: ``_anna``; nothing for nobody."""
-    name = re.sub(r"[^\w.-]+", "_", person).strip("._") or "person"
-    return f"_{name}" if person else ""
+    name = re.sub(r"[^\w.-]+", "_", person).encode(errors="ignore")[:LONGEST_PERSON]
+    return f"_{name.decode(errors='ignore').strip('._') or 'person'}" if person else ""
 
 
 def head_of(path: Path) -> bytes:

@@ -23,6 +23,7 @@ def test_two_people_are_corrected_side_by_side(new_tab, tmp_path: Path) -> None:
         screen = Screen(page)
         screen.wait("k?.recordings.length === 2 && k.name === 'duet.trc · Anna' && k.hasMotion")
         page.get_by_text("Anna · Bob").wait_for()
+        page.locator(".name-tags span").nth(1).wait_for()
         assert page.locator(".name-tags span").all_inner_texts() == ["Anna", "Bob"]
 
         def call(name: str) -> None:

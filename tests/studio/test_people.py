@@ -147,6 +147,11 @@ def test_commands_take_all_people(duet: Studio, monkeypatch: pytest.MonkeyPatch)
         one = of(duet, person)
         call = {"cluster": 0, "label": f"by {person}"}
         one.done(one.recording()["revision"], "name_cluster", **call)
+    ids = [*ids_of(duet).values()]
+    sent = {"name": "known", "recordings": ids}
+    assert duet.client.post("/api/knowledge", json=sent).status_code == 200
+    known = kineme.KnowledgeBase.load(duet.folder / "known.npz")
+    assert {*known.labels} == {"by Anna", "by Bob"}
     monkeypatch.chdir(duet.folder)
 
     def run(*arguments: str) -> str:
@@ -190,3 +195,7 @@ def test_names_that_files_cannot_hold() -> None:
     assert odd.name == "walk.c3d · A/../b c"
     assert ListedRecording(Path("walk.json"), "1").name == "walk.json · person 1"
     assert odd.id != ListedRecording(Path("walk.c3d"), "A").id
+    for person in ("é" * 500, "\ud800", "..."):
+        long = ListedRecording(Path("walk.c3d"), person)
+        assert len(long.called.name.encode()) < 80
+        assert long.id

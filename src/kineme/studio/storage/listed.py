@@ -42,7 +42,7 @@ class ListedRecording:
         """By which pages ask for it."""
         if self.is_first or not self.person:
             return file_id(self.path)
-        return _digest(f"{self.path.absolute()}\0{self.person}")
+        return _digest(str(self.path.absolute()), self.person)
 
     @property
     def name(self) -> str:
@@ -61,5 +61,6 @@ class ListedRecording:
         return self.path if self.is_first else self.called
 
 
-def _digest(text: str) -> str:
-    return blake2b(text.encode(errors="surrogateescape"), digest_size=9).hexdigest()
+def _digest(path: str, person: str = "") -> str:
+    behind = f"\0{person}".encode(errors="backslashreplace") if person else b""
+    return blake2b(path.encode(errors="surrogateescape") + behind, digest_size=9).hexdigest()

@@ -119,7 +119,7 @@ export class Session {
     const index = store.opened.value.findIndex((each) => each.recording.value.id === id);
     if (index >= 0) {
       store.show(index);
-      if (!beside) this.closeOthers(id);
+      if (!beside) this.closeOthers(id, store.people.value);
       shown();
       return;
     }
@@ -277,9 +277,11 @@ export class Session {
     if (closed.length) this.recordings.value = kept;
   }
 
-  private closeOthers(id: string): void {
-    for (const { recording } of this.store.opened.value)
-      if (recording.value.id !== id) this.close(recording.value.id);
+  /** Closes all but one, and people who are shown with that one. */
+  private closeOthers(id: string, kept: readonly OpenRecording[] = []): void {
+    for (const each of this.store.opened.value)
+      if (each.recording.value.id !== id && !kept.includes(each))
+        this.close(each.recording.value.id);
   }
 
   private async changed(change: Changed): Promise<void> {
