@@ -258,42 +258,52 @@ class OpenRecordings:
         all. KinemeError where it cannot be read so: it is read as before.
         """
         listed = _found(self.folder.recordings(), name, "recording")
-        path = listed.path
-        before, former_people = options_of(path), people_of(path)
-        first = before.get("person", "") if listed.person else self._first_person(listed)
-        person = options.get("person") or listed.person
-        keep_options(path, options, former_people)
-        try:
-            people = self._cache.people(path) if everybody else ()
-            found = self._cache.read(ListedRecording(path, people[0] if people else person))
-            people = people or found.provenance.people
-            several = len(people) > 1 and not self.folder.of_library
-            if several:
-                keep_options(path, {**options, "person": first}, people)
-            elif former_people and not self.folder.of_library:  # of another file of that name
-                keep_options(path, options, ())
-        except KinemeError:
-            keep_options(path, before, former_people)
-            raise
-        person = found.provenance.person or ""
-        former = self._open.get(name)
-        chosen = several and (
-            everybody or former is None or former.loaded.provenance.person != person
-        )
-        present = [each for each in self.folder.recordings().values() if each.path == path]
+        before, former = options_of(listed.path), self._open.get(name)
+        person, several = self._keep_reading(listed, options, everybody=everybody)
+        chosen = several and (former is None or former.loaded.provenance.person != person)
+        after = options_of(listed.path)
+        differ = {option for option in OPTIONS if before.get(option) != after.get(option)}
+        if several:  # another person is another recording
+            differ.discard("person")
+        present = [each for each in self.folder.recordings().values() if each.path == listed.path]
         if name not in {each.id for each in present}:
             self._open.pop(name, None)
             self._sketches.pop(name, None)
-        after = options_of(path)
-        differ = {each for each in OPTIONS if before.get(each) != after.get(each)}
-        if several:
-            differ -= {"person"}
         whom = [each for each in present if everybody or not several or each.person == person]
         for each in present:
-            has_changed = bool(differ) and (each.id in self._open or usual_table(each) is not None)
-            if has_changed or (each in whom and not chosen and not everybody):
+            if each in whom and not (chosen or everybody):
                 self._open_anew(each, with_table=differ != {"take"})
+            elif differ and (each.id in self._open or usual_table(each) is not None):
+                with suppress(KinemeError):  # who is not in another take
+                    self._open_anew(each, with_table=differ != {"take"})
         return [each.id for each in whom]
+
+    def _keep_reading(
+        self, listed: ListedRecording, options: dict[str, Any], *, everybody: bool
+    ) -> tuple[str, bool]:
+        """Keep how a file is read once it can be: who was read then, and whether of several people.
+
+        KinemeError where it cannot; what was kept before holds.
+        """
+        path = listed.path
+        before, former = options_of(path), people_of(path)
+        first = before.get("person", "") if listed.person else self._first_person(listed)
+        keep_options(path, options, former)
+        try:
+            people = self._cache.people(path) if everybody else ()
+            person = people[0] if people else options.get("person") or listed.person
+            found = self._cache.read(ListedRecording(path, person)).provenance
+            people = people or found.people
+            several = len(people) > 1 and not self.folder.of_library
+            if several:
+                kept = former if {*people} <= {*former} and not everybody else people
+                keep_options(path, {**options, "person": first}, kept)
+            elif former and not self.folder.of_library:  # of another file of that name
+                keep_options(path, options, ())
+        except KinemeError:
+            keep_options(path, before, former)
+            raise
+        return found.person or "", several
 
     def _first_person(self, listed: ListedRecording) -> str:
         """Whose the table of a file is, where somebody was read before any were told apart."""
