@@ -22,7 +22,11 @@ def test_two_people_are_corrected_side_by_side(new_tab, tmp_path: Path) -> None:
         page.get_by_role("button", name="All 2 people").click()
         screen = Screen(page)
         screen.wait("k?.recordings.length === 2 && k.name === 'duet.trc · Anna' && k.hasMotion")
-        page.get_by_text("Anna · Bob").wait_for()
+        page.locator(".caption p").nth(1).wait_for()
+        assert [each.split()[0] for each in page.locator(".caption p").all_inner_texts()] == [
+            "Anna",
+            "Bob",
+        ]
         page.locator(".name-tags span").nth(1).wait_for()
         assert page.locator(".name-tags span").all_inner_texts() == ["Anna", "Bob"]
 

@@ -1,10 +1,10 @@
 /** Brings the state of the page into the picture: which figure where, in which pose and colour. */
 import * as THREE from "three";
 import { NO_COLOR, onPage } from "../colors";
-import type { Segment, Segments } from "../messages";
+import type { Segment } from "../messages";
 import { headingAt, poseAt, rootOf, type Motion } from "../motion";
 import { personCalled } from "../opened";
-import { laneOf, segmentAt } from "../segments";
+import { primitiveAt } from "../segments";
 import type { Store } from "../store";
 import { cssColor, theme } from "../theme";
 import { anatomyOfCached } from "./anatomy";
@@ -47,7 +47,7 @@ export class FigureScene {
     for (const figure of this.figures) this.stage.scene.add(figure.group);
     const lead = this.placed[0];
     if (!lead) return;
-    const paths = handsAndFeet(lead.motion).length * this.placed.length;
+    const paths = this.placed.reduce((sum, each) => sum + handsAndFeet(each.motion).length, 0);
     if (!lead.segment && paths > 0) {
       this.trails = new Trails(this.stage.haze, paths, 0.022 * this.size);
       this.stage.scene.add(this.trails.mesh);
@@ -73,7 +73,7 @@ export class FigureScene {
       const pose = this.poses[i]!;
       this.placedPose(each, timeOf(each, store.playhead.value, leader), pose);
       this.figures[i]!.pose(pose);
-      const color = onPage(this.colorOf(this.presentOf(each)), theme.value);
+      const color = onPage(this.colorOf(this.presentOf(each, store.playhead.value)), theme.value);
       const leads = each.segment !== null && each.segment === leader;
       const joints = each.segment ? joint : color;
       this.figures[i]!.paint({ body: leads ? color : body, joint: leads ? color : joints, shadow });
@@ -213,13 +213,11 @@ export class FigureScene {
     this.stage.moveTo(target.x + share * (x - target.x), target.z + share * (z - target.z));
   }
 
-  /** The primitive of a figure's own recording at the playhead. */
-  private presentOf({ motion }: PlacedFigure): Segment | undefined {
-    const { store } = this;
-    const opened = store.opened.value.find((each) => each.motion.value === motion);
-    if (!opened || opened === store.active.value) return store.present.value;
-    const { segmentation, fps } = opened.recording.value;
-    return segmentAt(primitivesOf(segmentation), Math.floor(store.playhead.value * fps + 1e-6));
+  /** The primitive of a figure's own recording at a time. */
+  private presentOf({ motion }: PlacedFigure, time: number): Segment | undefined {
+    const { opened, active } = this.store;
+    const shown = opened.value.find((each) => each.motion.value === motion) ?? active.value;
+    return shown && primitiveAt(shown.recording.value.segmentation, time);
   }
 
   private colorOf(segment: Segment | undefined): string {
@@ -228,16 +226,18 @@ export class FigureScene {
 
   private drawTrails(): void {
     if (!this.trails) return;
-    const { playhead, primitives, fps } = this.store;
+    const { playhead } = this.store;
     this.trails.mesh.visible = this.store.trails.value && playhead.value > 0;
     if (!this.trails.mesh.visible) return;
     const times = Trails.times(playhead.value, TRAIL_LENGTH);
-    const colors = times.map((time) => {
-      const segment = segmentAt(primitives.value, Math.floor(time * fps.value));
-      return new THREE.Color(onPage(this.colorOf(segment), theme.value));
+    const paths = this.placed.map((each) => this.pathsOf(each, times));
+    const colors = this.placed.flatMap((each, i) => {
+      const ofTimes = times.map(
+        (time) => new THREE.Color(onPage(this.colorOf(this.presentOf(each, time)), theme.value)),
+      );
+      return paths[i]!.map(() => ofTimes);
     });
-    const paths = this.placed.flatMap((each) => this.pathsOf(each, times));
-    this.trails.draw(paths, colors, this.stage.camera.position);
+    this.trails.draw(paths.flat(), colors, this.stage.camera.position);
   }
 
   private pathsOf(placed: PlacedFigure, times: readonly number[]): Float32Array[] {
@@ -276,15 +276,6 @@ function longest(roots: readonly [number, number][]): [number, number] {
     roots.slice(i + 1).map((other): [number, number] => [other[0] - x, other[1] - z]),
   );
   return pairs.sort((a, b) => Math.hypot(...b) - Math.hypot(...a))[0] ?? [0, 0];
-}
-
-const primitives = new WeakMap<Segments, readonly Segment[]>();
-
-/** The primitives of a table, in order; each pose asks for them. */
-function primitivesOf(table: Segments): readonly Segment[] {
-  const found = primitives.get(table) ?? laneOf(table, "primitive");
-  primitives.set(table, found);
-  return found;
 }
 
 function handsAndFeet(motion: Motion): number[] {
