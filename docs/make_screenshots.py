@@ -19,12 +19,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 import kineme
 from kineme._files import atomic_write
 from kineme.datasets import Action, bundled_truth, synthesize
+from kineme.recordings import Skeleton
+from kineme.recordings.operations import move, turn
 from kineme.report.sessions import write_sessions
 
 IMAGES = Path(__file__).parent / "images"
@@ -50,6 +53,11 @@ def main() -> None:
         browser = driver.chromium.launch(executable_path=chromium, args=DRAWN_IN_SOFTWARE)
         with studio(folder) as address:
             draw_studio(browser.new_page(viewport=SIZE, color_scheme="dark"), address)
+        people = folder / "people"
+        people.mkdir()
+        write_people(people / "duet.trc")
+        with studio(people) as address:
+            draw_people(browser.new_page(viewport=SIZE, color_scheme="dark"), address)
         library = folder / "library"
         kineme.library.build(kineme.bundled_recording(), library)
         with studio(library) as address:
@@ -79,6 +87,35 @@ def draw_studio(page: Page, address: str) -> None:
     page.get_by_role("button", name="truth.csv").click()
     page.get_by_text("Stop comparing").wait_for()
     save(page, "studio-compare")
+
+
+def write_people(path: Path) -> None:
+    """Markers of two people: one squats, the other jumps, facing each other."""
+    actions = {
+        "Anna": [Action("squat", 4), Action("arm circles", 6)],
+        "Bob": [Action("jump", 7), Action("squat", 4)],
+    }
+    made = [synthesize(each, fps=60, seed=7).motion for each in actions.values()]
+    n = min(motion.n_frames for motion in made)
+    places = [
+        move(turn(motion[:n], angle), (0, 0, far)).positions
+        for motion, angle, far in zip(made, (0, np.pi), (-0.9, 0.9), strict=True)
+    ]
+    names = tuple(
+        f"{who}:{joint}"
+        for who, motion in zip(actions, made, strict=True)
+        for joint in motion.skeleton.names
+    )
+    skeleton = Skeleton(names, (-1,) * len(names), np.zeros((len(names), 3)))
+    kineme.write(kineme.Motion(skeleton, np.concatenate(places, axis=1), 60), path)
+
+
+def draw_people(page: Page, address: str) -> None:
+    page.goto(address)
+    page.get_by_role("button", name="All 2 people").click()
+    page.locator(".name-tags span").nth(1).wait_for()
+    go_on(page, 130)
+    save(page, "studio-people")
 
 
 def draw_library(page: Page, address: str) -> None:

@@ -21,6 +21,10 @@ HEAD = 4096
 """Bytes by which a file is known without reading it whole."""
 TAIL = 1 << 16
 """Bytes at the end of a Parquet file, where it names its columns."""
+CORRECTED = ".segments.json"
+"""How the name of a table ends that somebody corrected in the studio."""
+LONGEST_PERSON = 60
+"""Bytes of a person's name in that of a file, which may have 255 in all."""
 VIDEOS = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
 if sys.platform != "win32":  # where an open file cannot be removed anyway
     import fcntl
@@ -191,6 +195,23 @@ def video_beside(recording: Path) -> Path | None:
             if path.is_file() and not path.is_symlink():
                 return path
     return None
+
+
+def of_person(path: Path, person: str) -> Path:
+    """What is called after one of the people in a recording: ``walk_anna.csv`` for ``walk.csv``.
+
+    The same path where nobody is named.
+    """
+    if not person:
+        return path
+    suffix = CORRECTED if path.name.endswith(CORRECTED) else path.suffix
+    return path.with_name(f"{path.name.removesuffix(suffix)}{ending_of(person)}{suffix}")
+
+
+def ending_of(person: str) -> str:
+    """What the names of files end in that are of one person: ``_anna``; nothing for nobody."""
+    name = re.sub(r"[^\w.-]+", "_", person).encode(errors="ignore")[:LONGEST_PERSON]
+    return f"_{name.decode(errors='ignore').strip('._') or 'person'}" if person else ""
 
 
 def head_of(path: Path) -> bytes:

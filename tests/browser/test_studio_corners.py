@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kineme.studio.folder import file_id
+from kineme.studio.storage.listed import file_id
 from screen import Screen, box_of, until
 
 ON_TOP = """button => {

@@ -30,6 +30,7 @@ from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings.operations import split_at_gaps
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.reading import ReadingOptions, RecordingCache
+from kineme.studio.storage.listed import ListedRecording
 
 REAL = ["Dec_real", "Eb015pi", "Eb015pr", "Eb015si", "sample_propulsion", "walkingOptiTrack"]
 POINTS = z_up_millimetres(walking())
@@ -311,7 +312,7 @@ def test_muscles_of_a_laboratory(tmp_path, labels, more, muscles) -> None:
 
 def test_channels_beside_a_motion_are_curves_of_its_frames(tmp_path) -> None:
     path = laboratory(tmp_path, ["Fx1", "EMG1"])
-    loaded = LoadedRecording(path, RecordingCache(ReadingOptions()))
+    loaded = LoadedRecording(ListedRecording(path), RecordingCache(ReadingOptions()))
     heads = loaded.curves().head().curves
     number = next(
         i for i, head in enumerate(heads) if (head.name, head.group) == ("EMG1", "analog")

@@ -13,7 +13,7 @@ from typing import Any
 import httpx2 as httpx
 
 import kineme
-from kineme.studio.folder import file_id
+from kineme.studio.storage.listed import file_id
 from screen import Screen
 from studio_server import StudioServer
 

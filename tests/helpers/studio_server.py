@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Self
 
 import kineme
-from kineme.studio.folder import file_id
+from kineme.studio.storage.listed import file_id
 
 ADDRESS = re.compile(r"http://127\.0\.0\.1:(\d+)/\?token=\S+")
 

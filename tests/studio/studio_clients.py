@@ -13,7 +13,7 @@ from typing import Any
 
 import httpx2 as httpx
 
-from kineme.studio.folder import file_id
+from kineme.studio.storage.listed import file_id
 
 TOKEN, PORT = "the token", 8750
 Answer = httpx.Response

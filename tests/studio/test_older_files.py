@@ -10,9 +10,10 @@ from starlette.testclient import TestClient
 from studio_clients import PORT, TOKEN, Studio
 
 from kineme.studio.app import create_app
-from kineme.studio.folder import Folder, file_id
+from kineme.studio.folder import Folder
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
+from kineme.studio.storage.listed import file_id
 
 OLDER = Path(__file__).parents[1] / "older" / "studio"
 

@@ -26,6 +26,7 @@ from kineme.labels import label_formats
 from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.http.events import Hub
 from kineme.studio.reading import ReadingOptions, RecordingCache
+from kineme.studio.storage.listed import ListedRecording
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
 from kineme.web.encoding import to_json
@@ -353,6 +354,9 @@ def test_a_file_that_cannot_be_read_is_a_sentence(studio, folder: Path) -> None:
         assert name in answer.json()["error"]
 
 
+NAMES = ["take.bvh", "other.bvh"]
+
+
 def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None:
     shutil.copy(folder / "take.bvh", folder / "other.bvh")
     both = threading.Barrier(2, timeout=20)
@@ -364,8 +368,8 @@ def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None
     monkeypatch.setattr("kineme.studio.reading.read_quietly", read_together)
     cache = RecordingCache(ReadingOptions())
     with ThreadPoolExecutor(2) as threads:
-        found = threads.map(cache.read, [folder / "take.bvh", folder / "other.bvh"])
-        assert list(found) == ["take.bvh", "other.bvh"]
+        found = threads.map(cache.read, [ListedRecording(folder / each) for each in NAMES])
+        assert list(found) == NAMES
 
 
 def test_only_files_that_were_named_are_listed(make_studio, folder: Path) -> None:

@@ -17,8 +17,8 @@ import kineme
 from kineme.clips.loops import Carry
 from kineme.formats.scenes.gltf_writer import write_animations
 from kineme.recordings.operations import turn
-from kineme.studio.folder import file_id
 from kineme.studio.overview import brief_of, saved_brief
+from kineme.studio.storage.listed import file_id
 from kineme.web.encoding import to_json
 
 
@@ -273,9 +273,12 @@ def test_one_of_several_people_is_chosen_from_a_list(studio: Studio) -> None:
     assert (refused.status_code, refused.json()["people"]) == (400, [])
     assert "fps" in refused.json()["error"]
     chosen = {"fps": 30.0, "person": "bob"}
-    assert studio.client.post(f"{address}/reading", json=chosen).status_code == 200
-    assert studio.get(address).json()["reading"] == {"person": "bob", "fps": 30.0}
-    assert studio.get(f"{address}/people").json() == ["ann", "bob"]
+    answered = studio.client.post(f"{address}/reading", json=chosen)
+    assert answered.status_code == 200
+    (bob,) = answered.json()
+    shown = studio.get(f"/api/recordings/{bob}").json()
+    assert (shown["name"], shown["reading"]) == ("two.csv · bob", {"fps": 30.0})
+    assert (shown["person"], shown["people"]) == ("bob", ["ann", "bob"])
 
 
 def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:

@@ -15,7 +15,7 @@ from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import PresetName
 from kineme.cli.options.reading import Quiet, with_reading_options
-from kineme.cli.options.request import Request
+from kineme.cli.options.request import EVERYBODY, Request
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 
@@ -129,16 +129,21 @@ def cycles(
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
     _check_targets(output, plot, compare, sides)
-    if compare is not None and len(batch.paths) != 2:
+    if compare is not None and len(batch.paths) != 2 and request.person != EVERYBODY:
         raise typer.BadParameter("takes two recordings", param_hint="--compare")
     recordings: list[Motion | Signals] = []
     tables: list[Segmentation] = []
-    for path, table in zip(batch.paths, batch.tables("--segments", segments), strict=True):
-        with batch.caught(path), batch.progress(path) as stage:
+    batch.tables("--segments", segments)  # whether there are any
+
+    def read(path: Path, asked: Request, table: Path | None) -> None:
+        with batch.progress(path) as stage:
             stage("reading")
-            recording = request.read(path)
-            tables.append(request.segments(recording, table, stage))
+            recording = asked.read(path)
+            tables.append(asked.segments(recording, table, stage))
             recordings.append(recording)
+
+    for path in batch.paths:
+        batch.each_person(path, request, read, tables=("--segments", segments))
     failures = Failures()
     if recordings:
         with failures.caught(""):

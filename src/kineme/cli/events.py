@@ -83,26 +83,29 @@ def events(
         raise typer.BadParameter(
             "a C3D has its own frame rate: leave out --fps", param_hint="--c3d"
         )
-    places = zip(batch.paths, tables, gaits, spans, copies, strict=True)
-    for path, table, measured, span, copy in places:
-        with batch.caught(path):
-            with batch.progress(path) as stage:
-                stage("reading")
-                recording = request.read(path)
-                found = foot_events(recording, left=left, right=right)
-                measures = gait_of(found, recording)
-            for target in filter(None, (table, measured, span, copy)):
-                target.parent.mkdir(exist_ok=True)
-            if table is not None:
-                write_table(found.columns(), table)
-            if measured is not None:
-                write_table(measures, measured)
-            if span is not None:
-                write_segments(found.segmentation(), span)
-            if copy is not None:
-                write_events(path, copy, found.times, found.names)
-            if not quiet:
-                _show(path, found, measures, [table, measured, span, copy])
+
+    def work(path: Path, asked: Request, _: None, *targets: Path | None) -> None:
+        with batch.progress(path) as stage:
+            stage("reading")
+            recording = asked.read(path)
+            found = foot_events(recording, left=left, right=right)
+            measures = gait_of(found, recording)
+        for target in filter(None, targets):
+            target.parent.mkdir(exist_ok=True)
+        table, measured, span, copy = targets
+        if table is not None:
+            write_table(found.columns(), table)
+        if measured is not None:
+            write_table(measures, measured)
+        if span is not None:
+            write_segments(found.segmentation(), span)
+        if copy is not None:
+            write_events(path, copy, found.times, found.names)
+        if not quiet:
+            _show(path, found, measures, [*targets])
+
+    for path, *targets in zip(batch.paths, tables, gaits, spans, copies, strict=True):
+        batch.each_person(path, request, work, *targets)
     batch.exit()
 
 

@@ -58,7 +58,7 @@ def graph(
     """
     request = Request.of(reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
-    tables = batch.tables("--segments", segments)
+    tables = batch.tables("--segments", segments, request.person)
     failures = Failures()
     with failures.caught(output):
         check_place(output)

@@ -48,7 +48,7 @@ def label(
     """
     request = Request.of(reading=reading, effectors=effectors)
     batch = Batch(files, recursive=recursive, quiet=quiet)
-    tables = batch.tables("--labels", labels)
+    tables = batch.tables("--labels", labels, request.person)
     failures = Failures()
     from kineme.transfer import KnowledgeBase
 

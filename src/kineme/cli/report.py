@@ -46,18 +46,21 @@ def report(
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     pages = batch.files("--output", output, ".html")
-    tables = batch.tables("--segments", segments)
-    for path, page, table in zip(batch.paths, pages, tables, strict=True):
-        with batch.caught(path):
-            check_writable(page=page)
-            with batch.progress(path) as stage:
-                stage("reading")
-                recording = request.read(path)
-                result = request.segments(recording, table, stage)
-            from kineme.report.page import write_report
+    batch.tables("--segments", segments)  # whether there are any
 
-            drawn = request.drawn(recording)
-            write_report(drawn, result, page, name=path.name, effectors=request.effectors)
-            if not quiet:
-                typer.echo(page)
+    def work(path: Path, asked: Request, table: Path | None, page: Path) -> None:
+        check_writable(page=page)
+        with batch.progress(path) as stage:
+            stage("reading")
+            recording = asked.read(path)
+            result = asked.segments(recording, table, stage)
+        from kineme.report.page import write_report
+
+        drawn = asked.drawn(recording)
+        write_report(drawn, result, page, name=path.name, effectors=asked.effectors)
+        if not quiet:
+            typer.echo(page)
+
+    for path, page in zip(batch.paths, pages, strict=True):
+        batch.each_person(path, request, work, page, tables=("--segments", segments))
     batch.exit()

@@ -14,8 +14,7 @@ from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
 from kineme.cli.options.request import Request, Stage
-from kineme.cli.options.targets import check_writable, of_person
-from kineme.errors import ReadError
+from kineme.cli.options.targets import check_writable
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 
@@ -77,24 +76,15 @@ def segment(
     tables = batch.targets("--output", output, ".csv")
     pictures = batch.targets("--plot", plot, ".png")
     pages = batch.targets("--report", report, ".html")
-    for path, table, picture, page in zip(batch.paths, tables, pictures, pages, strict=True):
-        with batch.caught(path):
-            check_writable(table, picture, page)
-            with batch.progress(path) as stage:
-                stage("reading")
-                people = request.of_each_person(path)
-            failures = []
-            for person, asked in people:
-                targets = [of_person(each, person) for each in (table, picture, page)]
-                try:
-                    with batch.progress(path) as stage:
-                        result = _segmented(path, asked, targets, stage)
-                except ReadError as error:  # which costs this person alone
-                    failures.append(error)
-                    continue
-                print_segments(result, level, targets, json=json, quiet=quiet)
-            if failures:
-                raise failures[0]
+
+    def work(path: Path, asked: Request, _: None, *targets: Path | None) -> None:
+        check_writable(*targets)
+        with batch.progress(path) as stage:
+            result = _segmented(path, asked, targets, stage)
+        print_segments(result, level, [*targets], json=json, quiet=quiet)
+
+    for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
+        batch.each_person(path, request, work, *targets)
     batch.exit()
 
 

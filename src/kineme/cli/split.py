@@ -78,31 +78,34 @@ def split(
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
-    tables = batch.tables("--segments", segments)
-    for path, folder, table in zip(batch.paths, folders, tables, strict=True):
-        with batch.caught(path):
-            with batch.progress(path) as stage:
-                stage("reading")
-                recording = request.read(path)
-                cuts = request.segments(recording, table, stage)
-            from kineme.clips.split import split as write_clips
+    batch.tables("--segments", segments)  # whether there are any
 
-            if not batch.single:
-                make_folder_of(folder)
-            clips = write_clips(
-                recording,
-                cuts,
-                folder,
-                level=level,
-                cluster=cluster,
-                loops=loop,
-                format=to_format,
-                best=best,
-                in_place=in_place,
-                straight=straight,
-                mirror=mirror,
-                close=close,
-            )
-            if not quiet:
-                typer.echo(f"{counted(len(clips), 'clip')} in {folder}")
+    def work(path: Path, asked: Request, table: Path | None, folder: Path) -> None:
+        with batch.progress(path) as stage:
+            stage("reading")
+            recording = asked.read(path)
+            cuts = asked.segments(recording, table, stage)
+        from kineme.clips.split import split as write_clips
+
+        if not batch.single:
+            make_folder_of(folder)
+        clips = write_clips(
+            recording,
+            cuts,
+            folder,
+            level=level,
+            cluster=cluster,
+            loops=loop,
+            format=to_format,
+            best=best,
+            in_place=in_place,
+            straight=straight,
+            mirror=mirror,
+            close=close,
+        )
+        if not quiet:
+            typer.echo(f"{counted(len(clips), 'clip')} in {folder}")
+
+    for path, folder in zip(batch.paths, folders, strict=True):
+        batch.each_person(path, request, work, folder, tables=("--segments", segments))
     batch.exit()

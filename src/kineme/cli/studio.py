@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.reading import Effectors, effector_names, with_body_options
+from kineme.cli.options.request import of_everybody
 from kineme.errors import ParameterError
+
+if TYPE_CHECKING:
+    from kineme.studio.reading import ReadingOptions
 
 
 @with_body_options
@@ -61,7 +65,11 @@ def studio(
         from kineme.studio.reading import ReadingOptions
         from kineme.studio.server import serve
 
-        options = ReadingOptions(ReadOptions(**(reading or {})), effector_names(effectors))
+        everybody, reading = of_everybody(reading or {})
+        options = ReadingOptions(ReadOptions(**reading), effector_names(effectors))
+        if everybody:
+            _tell_apart(recordings, options)
+
         library = None
         if recordings is None and (root / HEAD).is_file():
             if reading or effectors:
@@ -79,6 +87,20 @@ def studio(
             library=library, development=dev,
         )  # fmt: skip
     failures.exit()
+
+
+def _tell_apart(recordings: list[Path] | None, options: ReadingOptions) -> None:
+    """Have each of the people in the files that were named be a recording of its own."""
+    if recordings is None:
+        raise ParameterError("--person all is for files: name them, or choose in the page")
+    from kineme.studio.folder import Folder
+    from kineme.studio.open_recordings import OpenRecordings
+    from kineme.studio.storage.sidecars import options_of
+
+    present = OpenRecordings(Folder(Path(), recordings), lambda *_: None, options)
+    for listed in present.folder.recordings().values():
+        if not listed.person:
+            present.read_as(listed.id, options_of(listed.path), everybody=True)
 
 
 def _opened(given: list[Path]) -> tuple[Path, list[Path] | None]:

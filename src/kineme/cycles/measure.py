@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import as_indices, check_flag, check_one_of, check_type
+from kineme._files import ending_of
 from kineme._version import __version__
 from kineme.cycles.align import ALIGNMENTS, LINEAR, aligned
 from kineme.cycles.anchors import anchored
@@ -213,8 +214,19 @@ def _check_same(measured: Sequence[Sequence[Channel]], names: Sequence[str]) -> 
 
 
 def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
-    """The names of the files without suffix; numbers where there are none or equal ones."""
-    names = [Path(each.provenance.path or "").stem for each in recordings]
+    """The names of the files without suffix, with that of the person where equal ones differ by it.
+
+    Numbers where there are none, or still equal ones.
+    """
+    files = [Path(each.provenance.path or "") for each in recordings]
+    counts = Counter(path.stem for path in files)
+    people = [
+        each.provenance.person if len(each.provenance.people) > 1 else "" for each in recordings
+    ]
+    names = [
+        path.stem + ending_of(person or "") * (counts[path.stem] > 1)
+        for path, person in zip(files, people, strict=True)
+    ]
     counts = Counter(names)
     return [
         name

@@ -11,8 +11,6 @@ from kineme.errors import ParameterError
 from kineme.formats.units import AXES, UNITS
 
 AnyPath = str | PathLike[str]
-NOBODY = "\0"
-"""A person that no file has: asked for, the others are named."""
 
 
 @dataclass(frozen=True)

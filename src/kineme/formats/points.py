@@ -76,7 +76,8 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     names, subjects = of_one_subject(given, points.person)
     names = unique(names)
     if len(subjects) > 1:
-        provenance = provenance.noted(_subjects_note(path, subjects, points.person))
+        subject = _subjects_note(path, subjects, points.person)
+        provenance = provenance.noted(subject).of_person(points.person or subjects[0], subjects)
     positions = np.array(points.positions, np.float64)
     gaps = fill_gaps(positions, points.fps)
     body = _least_broken(names, gaps, len(positions))

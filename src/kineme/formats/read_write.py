@@ -12,8 +12,7 @@ from kineme._checks import check_path, check_type
 from kineme._files import reading
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
 from kineme.formats.files import FileContent, load, warn
-from kineme.formats.keypoints.people import PASSING_NOTE
-from kineme.formats.options import NOBODY, AnyPath, ReadOptions
+from kineme.formats.options import AnyPath, ReadOptions
 from kineme.formats.registry import Sketch, recognise, supported_formats
 from kineme.recordings import Motion, Signals
 
@@ -132,15 +131,12 @@ def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, .
     >>> people_in(kineme.bundled_recording())
     ()
     """
-    anybody = replace(options or ReadOptions(), person=None)
     try:
-        found = read_quietly(path, anybody)
-        if any(PASSING_NOTE in note for note in found.provenance.notes):
-            return ()
-        read_quietly(path, replace(anybody, person=NOBODY))
+        found = read_quietly(path, replace(options or ReadOptions(), person=None))
     except SeveralPeopleError as error:
         return error.people if len(error.people) > 1 else ()
-    return ()
+    people = found.provenance.people
+    return people if len(people) > 1 else ()
 
 
 def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:

@@ -67,6 +67,10 @@ class Provenance:
         The animation that was read, of a file that may have several.
     takes : sequence of str
         Those that could have been.
+    person : str, optional
+        Who was read, of a file that may have several people.
+    people : sequence of str
+        Those who could have been.
 
     Examples
     --------
@@ -82,11 +86,14 @@ class Provenance:
     clock: Clock | None = None
     take: str | None = None
     takes: tuple[str, ...] = ()
+    person: str | None = None
+    people: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "notes", _as_notes(self.notes))
         object.__setattr__(self, "events", tuple(self.events))
         object.__setattr__(self, "takes", tuple(self.takes))
+        object.__setattr__(self, "people", tuple(self.people))
 
     @property
     def warnings(self) -> tuple[Note, ...]:
@@ -95,9 +102,13 @@ class Provenance:
 
     @property
     def input(self) -> dict[str, str | None]:
-        """What a result says of where it was found: the file, and the take where it has several."""
-        file = {"path": self.path, "format": self.format, "sha256": self.sha256}
-        return {**file, "take": self.take} if len(self.takes) > 1 else file
+        """What a result says of where it was found: the file; take and person of several."""
+        found = {"path": self.path, "format": self.format, "sha256": self.sha256}
+        if len(self.takes) > 1:
+            found["take"] = self.take
+        if len(self.people) > 1:
+            found["person"] = self.person
+        return found
 
     def noted(self, *notes: Note | str) -> Provenance:
         """The same with notes added; plain texts become notes of severity "info"."""
@@ -114,6 +125,10 @@ class Provenance:
     def of_take(self, name: str, names: Iterable[str]) -> Provenance:
         """The same of this take, one of those in the file."""
         return replace(self, take=name, takes=tuple(names))
+
+    def of_person(self, name: str, people: Iterable[str]) -> Provenance:
+        """The same of this person, one of those in the file."""
+        return replace(self, person=name, people=tuple(people))
 
 
 def _as_notes(notes: Iterable[Note | str]) -> tuple[Note, ...]:

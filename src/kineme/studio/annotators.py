@@ -13,8 +13,8 @@ from pathlib import Path
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.labels.collections import LabelSource, labels_of
-from kineme.studio.folder import file_id
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
+from kineme.studio.storage.listed import ListedRecording, file_id
 from kineme.studio.storage.tables import usual_table
 from kineme.web.annotator_messages import (
     Agreement,
@@ -40,10 +40,11 @@ class Annotator:
 
 def annotators_of(recordings: OpenRecordings) -> dict[str, Annotator]:
     """The people who labelled recordings of the folder by id; whoever works here last."""
-    paths = [*recordings.folder.recordings().values()]
+    listed = _by_file(recordings)
+    paths = [*listed]
+    files = recordings.folder.annotations(listed.values()).values()
     if not paths:
         return {}
-    files = recordings.folder.annotations(paths).values()
     found: dict[str, Annotator] = {}
     for place in (*recordings.folder.folders(), *files):
         try:
@@ -57,7 +58,9 @@ def annotators_of(recordings: OpenRecordings) -> dict[str, Annotator]:
         if file_id(path) not in found and (named := _named(path, paths)):
             beside.setdefault(named[0], {})[named[1]] = LabelSource(path)
     found |= {f"beside {name}": Annotator(name, sources) for name, sources in beside.items()}
-    saved = {path: LabelSource(table) for path in paths if (table := usual_table(path))}
+    saved = {
+        path: LabelSource(table) for path, each in listed.items() if (table := usual_table(each))
+    }
     if saved:
         found[TABLES_HERE] = Annotator("Tables of this studio", saved)
     return found
@@ -78,16 +81,16 @@ def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement
     from kineme.evaluation.tables import finite
 
     people = _chosen(recordings, chosen)
+    listed = _by_file(recordings)
     labelled, failures = labels_of_annotators(
         {who.name: who.sources for who in people},
-        recordings.extent,
+        lambda path: recordings.extent(listed[path]),
     )
     if not any(len(sides) > 1 for sides in labelled.values()):
         reason = f": {failures[0]}" if failures else ""
         raise ParameterError(f"there is no recording of which two of them have labels{reason}")
     found = annotator_agreement(labelled)
-    listed = recordings.folder.recordings().items()
-    ids = {text: name for name, path in listed for text in (str(path), path.name)}
+    ids = {text: each.id for path, each in listed.items() for text in (str(path), path.name)}
     return Agreement(
         annotators=list(found.annotators),
         by_names=found.by == "names",
@@ -119,8 +122,9 @@ def lanes_of(recordings: OpenRecordings, name: str, chosen: Sequence[str]) -> li
     """What some of them say of a recording, one lane each."""
     from kineme.web.page_data import segments_message
 
-    path = recordings.get(name).path
-    n_frames, fps, clock = recordings.extent(path)
+    listed = recordings.get(name).listed
+    path = listed.called
+    n_frames, fps, clock = recordings.extent(listed)
     return [
         LabelLane(
             name=who.name,
@@ -131,6 +135,11 @@ def lanes_of(recordings: OpenRecordings, name: str, chosen: Sequence[str]) -> li
         for who in _chosen(recordings, chosen)
         if path in who.sources
     ]
+
+
+def _by_file(recordings: OpenRecordings) -> dict[Path, ListedRecording]:
+    """The recordings of the folder by the files that labels of them are called after."""
+    return {each.called: each for each in recordings.folder.recordings().values()}
 
 
 def _chosen(recordings: OpenRecordings, chosen: Sequence[str]) -> list[Annotator]:

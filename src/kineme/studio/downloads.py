@@ -26,6 +26,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
 from kineme.studio.http.bodies import safe_name
+from kineme.studio.loading import without_others
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.storage.sidecars import offset_of
 
@@ -48,8 +49,9 @@ def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str
         found = _written(stem, lambda to: split(motion, table, to / stem, level=of_level))
         return _called(stem, _what(kind, of_level), found)
     if kind == REPORT:
-        name = loaded.path.name
-        page = partial(write_report, loaded.recording, table, name=name, effectors=loaded.effectors)
+        name = opened.listed.name
+        shown = without_others(loaded.recording)
+        page = partial(write_report, shown, table, name=name, effectors=loaded.effectors)
         return _called(stem, kind, _written(stem, lambda to: page(to / f"{stem}.html")))
     return table_file(_with_video(opened), stem, kind, level)
 
@@ -64,7 +66,7 @@ def exported_together(
     files = [exported(each, kind, level) for each in opened]
     what = files[0][0].removeprefix(_stem_of(opened[0])).removesuffix(PACKED)
     if kind == "csv":
-        names = [each.path.name for each in opened]
+        names = [each.listed.called.name for each in opened]
         tables = [content for _, content in files]
         files.append((f"{stem}.all{what}", table_of_all(names, tables)))
     return together(files, f"{stem}.checked{what}")
@@ -130,7 +132,7 @@ def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]
 
 def _stem_of(opened: OpenRecording) -> str:
     """What downloads are called after: the recording, in letters that archives can hold."""
-    stem = opened.path.stem
+    stem = opened.listed.called.stem
     return stem if is_text(stem) else safe_name(stem)
 
 

@@ -91,7 +91,7 @@ def edited(
     if isinstance(edit, sent.TakeLabels):
         path = files.annotation(edit.annotation)
         labels = labels_for(
-            loaded.path, path, n_frames=table.n_frames, fps=table.fps, clock=table.clock
+            loaded.listed.called, path, n_frames=table.n_frames, fps=table.fps, clock=table.clock
         )
         return Outcome(labels, [f"the table is that of {path.name}"], replaced=True)
     if isinstance(edit, sent.Restore):

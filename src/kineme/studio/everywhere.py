@@ -26,8 +26,8 @@ def call_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> TablesC
     if not sent.before:
         raise ParameterError("the cluster had no name before, by which others would be known")
     changed, left = 0, []
-    for name, path in recordings.folder.recordings().items():
-        at = usual_table(path)
+    for name, listed in recordings.folder.recordings().items():
+        at = usual_table(listed)
         table = saved_brief(at) if at and name != sent.recording else None
         if table is None or sent.before not in table.label:
             continue
@@ -39,7 +39,7 @@ def call_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> TablesC
                 recordings.edit(name, edit)
                 changed += 1
         except (KinemeError, UnknownError, ConflictError) as error:
-            left.append(f"{path.name}: {error}")
+            left.append(f"{listed.name}: {error}")
     return TablesChanged(tables=changed, others=0, left=left)
 
 

@@ -1,27 +1,25 @@
-"""What there is to open: the files of a folder, each known to the page by an id.
+"""What there is to open: the recordings of a folder, each known to the page by an id.
 
-An id says nothing and is good for nothing but to find one of the files that
-are listed then, so that no request can name any other. How far each
-recording is, its table tells; the recording is not opened for it.
+An id says nothing and is good for nothing but to find one of the recordings that
+are listed then, so that no request can name any other file. How far each
+recording is, its table tells; the recording is not opened for it. Who the people
+in a file are, a small file beside it tells, once somebody has chosen of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from hashlib import blake2b
 from pathlib import Path
 
+from kineme._files import CORRECTED
 from kineme.formats.listing import files_in, holds_recording
 from kineme.labels import holds_labels
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.overview import saved_brief
-from kineme.studio.storage.tables import SUFFIX, usual_table, usual_tables
-
-
-def file_id(path: Path) -> str:
-    """The id of a file: the same for as long as it lies there."""
-    return blake2b(str(path.absolute()).encode(errors="surrogateescape"), digest_size=9).hexdigest()
+from kineme.studio.storage.listed import ListedRecording, file_id
+from kineme.studio.storage.sidecars import listed_in
+from kineme.studio.storage.tables import usual_table, usual_tables
 
 
 class Folder:
@@ -38,12 +36,14 @@ class Folder:
         if self._files is not None and path not in self._files:
             self._files.append(path)
 
-    def recordings(self) -> dict[str, Path]:
+    def recordings(self) -> dict[str, ListedRecording]:
         """The recordings by id, in the order of their names, or as given."""
         if self._files is not None:
-            return {file_id(path): path for path in self._files if path.is_file()}
-        listed = (path for path in self._listed() if not path.name.endswith(SUFFIX))
-        return {file_id(path): path for path in listed if holds_recording(path)}
+            files = [path for path in self._files if path.is_file()]
+        else:
+            present = (path for path in self._listed() if not path.name.endswith(CORRECTED))
+            files = [path for path in present if holds_recording(path)]
+        return {each.id: each for each in listed_in(files)}
 
     def knowledge_bases(self) -> dict[str, Path]:
         """The knowledge bases by id."""
@@ -54,13 +54,13 @@ class Folder:
 
         return {file_id(path): path for path in archives if holds_knowledge(path)}
 
-    def annotations(self, recordings: Iterable[Path] | None = None) -> dict[str, Path]:
+    def annotations(self, recordings: Iterable[ListedRecording] | None = None) -> dict[str, Path]:
         """The label files by id, without the tables that the studio itself saves.
 
         ``recordings`` are those of the folder, where they have been listed already.
         """
         listed = self.recordings().values() if recordings is None else recordings
-        tables = {table for path in listed for table in usual_tables(path)}
+        tables = {table for each in listed for table in usual_tables(each)}
         found = [path for path in self._listed() if path not in tables and holds_labels(path)]
         return {file_id(path): path for path in found}
 
@@ -93,9 +93,9 @@ class Progress:
     to_name: int
 
 
-def progress(recording: Path) -> Progress | None:
+def progress(listed: ListedRecording) -> Progress | None:
     """How far a recording is; None where it has no table, or one that cannot be read."""
-    path = usual_table(recording)
+    path = usual_table(listed)
     table = saved_brief(path) if path else None
     if table is None:
         return None

@@ -31,12 +31,13 @@ from kineme.library.storage.layout import EDITS, HEAD
 from kineme.library.storage.places import is_remote
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
-from kineme.studio.folder import Folder, file_id, progress
+from kineme.studio.folder import Folder, progress
 from kineme.studio.library_history import LibraryHistory
 from kineme.studio.library_tables import LibraryTables, as_in_library, in_library
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.reading import ReadingOptions, stamp_of
+from kineme.studio.storage.listed import ListedRecording, file_id
 from kineme.studio.storage.tables import usual_table
 from kineme.web.library_messages import (
     CallCluster,
@@ -154,7 +155,7 @@ class ShownLibrary:
         changed, kept, left = 0, 0, []
         edits = read_edits(self._folder)
         for path in self.files():
-            of_library = self.table_of(path) if usual_table(path) else None
+            of_library = self.table_of(path) if usual_table(ListedRecording(path)) else None
             if of_library is None:
                 continue
             others = 0
@@ -223,10 +224,10 @@ class LibraryFolder(Folder):
         """The table of a recording as the library has it."""
         return self._shown.table_of(path)
 
-    def recordings(self) -> dict[str, Path]:
-        """The recordings by id, whose files are there."""
-        listed = {file_id(path): path for path in self._shown.files() if path.is_file()}
-        return {**listed, **super().recordings()}
+    def recordings(self) -> dict[str, ListedRecording]:
+        """The recordings by id, whose files are there; of several people the library has one."""
+        files = [path for path in self._shown.files() if path.is_file()]
+        return {**{file_id(path): ListedRecording(path) for path in files}, **super().recordings()}
 
 
 class Searches:
@@ -294,7 +295,7 @@ def segment_of(table: Segmentation, start_s: float, stop_s: float) -> Segment | 
 
 def name_of(recording: Path, start_s: float, stop_s: float) -> str:
     """What the segment that a span shows is called in the table beside its recording, if at all."""
-    path = usual_table(recording)
+    path = usual_table(ListedRecording(recording))
     table = _table(path, *stamp_of(path)) if path else None
     row = segment_of(table, start_s, stop_s) if table is not None else None
     return row.label if row is not None else ""
@@ -368,7 +369,7 @@ def _recording(name: str, path: Path, vocabulary: str, lasts: float) -> LibraryR
 
 
 def _status(path: Path) -> Literal["as found", "corrected", "checked"]:
-    counts = progress(path)
+    counts = progress(ListedRecording(path))
     if counts is None:
         return "as found"
     return "checked" if counts.segments and counts.checked == counts.segments else "corrected"

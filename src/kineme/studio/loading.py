@@ -8,18 +8,20 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from kineme.errors import MotionError, ParameterError, ReadError
 from kineme.methods.presets import DEFAULT
-from kineme.recordings import Motion
+from kineme.recordings import Motion, Skeleton
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind
 from kineme.studio.choices import check_offered
 from kineme.studio.reading import RecordingCache, stamp_of
 from kineme.studio.running import Run, Runs
+from kineme.studio.storage.listed import ListedRecording
 
 if TYPE_CHECKING:
     from kineme.recordings import Signals
@@ -39,12 +41,12 @@ class LoadedRecording:
     ReadError where it cannot be read, or is another now.
     """
 
-    def __init__(self, path: Path, cache: RecordingCache):
-        self.path = path
+    def __init__(self, listed: ListedRecording, cache: RecordingCache):
+        self.listed, self.path = listed, listed.path
         self._cache = cache
         self.effectors = cache.options.effectors
-        self._stamp = stamp_of(path)
-        found = cache.read(path)
+        self._stamp = stamp_of(self.path)
+        found = cache.read(listed)
         self.n_frames, self.fps = found.n_frames, found.fps
         self.is_motion = isinstance(found, Motion)
         self.provenance = found.provenance
@@ -60,7 +62,7 @@ class LoadedRecording:
         """The recording itself, read again if need be."""
         if self.changed():
             raise ReadError(self.path, "has changed since it was opened: open it again")
-        return self._cache.read(self.path)
+        return self._cache.read(self.listed)
 
     @property
     def motion(self) -> Motion:
@@ -88,7 +90,8 @@ class LoadedRecording:
 
         with self._lock:
             if self._page_data is None:
-                self._page_data = page_data(self.recording, effectors=self.effectors)
+                shown = without_others(self.recording)
+                self._page_data = page_data(shown, effectors=self.effectors)
             return self._page_data
 
     def forget_pictures(self) -> None:
@@ -116,7 +119,7 @@ class LoadedRecording:
 
     def _analog(self) -> Signals | None:
         """The channels beside a motion."""
-        return self._cache.analog(self.path) if self.is_motion else None
+        return self._cache.analog(self.listed) if self.is_motion else None
 
     def source(self, analog: bool) -> Motion | Signals:
         """What a curve is of: the recording, or the channels beside it."""
@@ -186,7 +189,7 @@ class LoadedRecording:
 
     def fits(self, segmentation: Segmentation) -> bool:
         """Whether a table is of this recording: as long, and made from it if it says from what."""
-        if segmentation.n_frames != self.n_frames or self.is_of_another_take(segmentation):
+        if segmentation.n_frames != self.n_frames or self.is_of_another(segmentation):
             return False
         digest = digest_in(segmentation)
         if not digest:
@@ -194,9 +197,11 @@ class LoadedRecording:
         name = Path(str(segmentation.provenance["input"].get("path") or "")).name
         return digest == self.provenance.sha256 or name == self.path.name
 
-    def is_of_another_take(self, segmentation: Segmentation) -> bool:
-        """Whether a table says that it is of another take of the file."""
-        return _input_of(segmentation).get("take", self.provenance.take) != self.provenance.take
+    def is_of_another(self, segmentation: Segmentation) -> bool:
+        """Whether a table says that it is of another take or person of the file."""
+        file, read = _input_of(segmentation), self.provenance
+        names = {"take": read.take, "person": read.person}
+        return any(file.get(option, name) != name for option, name in names.items())
 
     def _one_segment(self, kind: Kind) -> Segmentation:
         read = self.provenance
@@ -205,6 +210,24 @@ class LoadedRecording:
             "notes": [*read.notes],
         }
         return one_segment(kind, self.n_frames, self.fps, provenance)
+
+
+def without_others(recording: Motion | Signals) -> Motion | Signals:
+    """The recording without the markers of the other people in its file."""
+    provenance = recording.provenance
+    others = {*provenance.people} - {provenance.person}
+    if not others or not isinstance(recording, Motion) or recording.rotations is not None:
+        return recording
+    skeleton = recording.skeleton
+    kept = [i for i, name in enumerate(skeleton.names) if name.rpartition(":")[0] not in others]
+    places = {joint: place for place, joint in enumerate(kept)}
+    parents = [skeleton.parents[joint] for joint in kept]
+    if len(kept) == skeleton.n_joints or not {*parents} <= {-1, *kept}:
+        return recording
+    names = tuple(skeleton.names[joint] for joint in kept)
+    above = tuple(places.get(parent, -1) for parent in parents)
+    alone = Skeleton(names, above, skeleton.offsets[kept])
+    return replace(recording, skeleton=alone, positions=recording.positions[:, kept])
 
 
 def digest_in(segmentation: Segmentation) -> str:

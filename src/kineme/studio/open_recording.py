@@ -33,6 +33,7 @@ from kineme.studio.reading import RecordingCache
 from kineme.studio.running import Run
 from kineme.studio.storage.identities import Identities
 from kineme.studio.storage.journal import Change, Journal
+from kineme.studio.storage.listed import ListedRecording, file_id
 from kineme.studio.storage.sidecars import (
     notes_on_sidecars,
     options_of,
@@ -66,15 +67,14 @@ class OpenRecording:
 
     def __init__(
         self,
-        name: str,
-        path: Path,
+        listed: ListedRecording,
         cache: RecordingCache,
         others: set[Path],
         revision: int,
         initial: Segmentation | None = None,
     ):
-        self.id, self.path = name, path
-        self.loaded = LoadedRecording(path, cache)
+        self.listed, self.id, self.path = listed, listed.id, listed.path
+        self.loaded = LoadedRecording(listed, cache)
         self._others = others
         self._lock = threading.RLock()
         self._file, table, self._notes = self._saved_table()
@@ -90,7 +90,7 @@ class OpenRecording:
                 table, notes = first.result()
                 self._notes = [*self._notes, *notes]
         elif digest_in(table) not in ("", self.loaded.provenance.sha256):
-            self._notes = [*self._notes, f"{path.name} has changed since its table was made"]
+            self._notes = [*self._notes, f"{self.path.name} has changed since its table was made"]
         self._table, self._journal = table, Journal(self._file.path, table)
         self.revision = max(revision, self._journal.revision) - self.finding  # one more once found
 
@@ -134,7 +134,9 @@ class OpenRecording:
 
         with self._lock:
             anew = self._file.changed() and self._read_anew()
-            shown = recording_message(self.loaded.page_data(), self._table, name=self.path.name)
+            shown = recording_message(self.loaded.page_data(), self._table, name=self.listed.name)
+            read = self.loaded.provenance
+            people = [*read.people] if len(read.people) > 1 else []
             message = structs.replace(
                 shown,
                 id=self.id,
@@ -145,8 +147,11 @@ class OpenRecording:
                 saved=self._saved,
                 video=video_message(self.path),
                 reading=options_of(self.path),
-                take=self.loaded.provenance.take,
-                takes=[*self.loaded.provenance.takes],
+                take=read.take,
+                takes=[*read.takes],
+                file=file_id(self.path),
+                person=read.person if people else None,
+                people=people,
                 finding=self.finding,
                 warnings=[
                     *shown.warnings,
@@ -301,9 +306,7 @@ class OpenRecording:
     def _saved_table(self) -> tuple[TableFile, Segmentation | None, list[str]]:
         """What is on the disk."""
         loaded = self.loaded
-        return saved_table(
-            self.path, loaded.fits, self._others, of_another_take=loaded.is_of_another_take
-        )
+        return saved_table(self.listed, loaded.fits, self._others, of_another=loaded.is_of_another)
 
     def _edited(
         self, notes: list[str], before: tuple[Segmentation, Identities] | None = None

@@ -10,11 +10,12 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from msgspec import UNSET, Struct
 
-from kineme.errors import KinemeError, ParameterError
+from kineme._counts import counted
+from kineme.errors import KinemeError, ParameterError, SeveralPeopleError
 from kineme.formats import sketch
 from kineme.labels.collections import Extent
 from kineme.segments.segmentation import Segmentation
@@ -25,10 +26,12 @@ from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.overview import brief_of, saved_brief
 from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.studio.running import NOTHING, READING
+from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import (
     OPTIONS,
     keep_options,
     options_of,
+    people_of,
     read_options,
     video_message,
 )
@@ -45,6 +48,7 @@ from kineme.web.messages import (
 from kineme.web.requests import EditRequest
 
 Listener = Callable[[str, int], None]
+File = TypeVar("File", Path, ListedRecording)
 MOST_DRAWN = 6
 """Recordings whose pictures stay in memory: those asked for last."""
 LARGE = 16_000_000
@@ -90,27 +94,42 @@ class OpenRecordings:
         present = self._open.get(name)
         if present is not None and not present.loaded.changed():
             return present
-        path = _found(self.folder.recordings(), name, "recording")
+        listed = _found(self.folder.recordings(), name, "recording")
         with self._lock:
             opening = self._opening.setdefault(name, threading.Lock())
         with opening:
             present = self._open.get(name)
             if present is None or present.loaded.changed():
-                return self._opened(name, path, present)
+                return self._opened(listed, present)
             return present
 
-    def _opened(self, name: str, path: Path, before: OpenRecording | None) -> OpenRecording:
+    def _opened(self, listed: ListedRecording, before: OpenRecording | None) -> OpenRecording:
         """Open a recording, perhaps once more, and say later when its segments are there."""
-        others = [other for other in list(self._open.values()) if other.path != path]
+        self._check_person(listed)
+        others = [other for other in list(self._open.values()) if other.id != listed.id]
         tables = {other.table_path for other in others}
         revision = 1 if before is None else before.revision + 1
-        initial = self.folder.first_table(path)
-        opened = self._open[name] = OpenRecording(
-            name, path, self._cache, tables, revision, initial
+        initial = self.folder.first_table(listed.path)
+        opened = self._open[listed.id] = OpenRecording(
+            listed, self._cache, tables, revision, initial
         )
         if opened.finding:
             self._in_background(lambda: self._find(opened))
         return opened
+
+    def _check_person(self, listed: ListedRecording) -> None:
+        """SeveralPeopleError where nobody has said who of several people it is to be.
+
+        Markers are read without being told; but which are whose people should know. Where a table
+        of them has been saved, or a library was made of them, it is that person.
+        """
+        person = listed.person or read_options(listed, self._cache.options.file).person
+        if person or self.folder.of_library or usual_table(listed):
+            return
+        people = self._cache.read(listed).provenance.people
+        if len(people) > 1:
+            reason = f"{counted(len(people), 'person')} are in it: choose one of them, or all"
+            raise SeveralPeopleError(listed.path, reason, people)
 
     def _forget_others(self, name: str) -> None:
         """Let go of the pictures of recordings that nobody has asked for since many others."""
@@ -143,10 +162,10 @@ class OpenRecordings:
         """What there is to show of a recording that is being read; made once, and read then."""
         if name in self._open:
             return None
-        path = _found(self.folder.recordings(), name, "recording")
+        listed = _found(self.folder.recordings(), name, "recording")
         with self._sketching:
             if name not in self._sketches:
-                made = self._sketches[name] = sketched(name, path, self._cache.options)
+                made = self._sketches[name] = sketched(listed, self._cache.options)
                 if made is not None:
                     self._in_background(lambda: self._read(name, made))
             present = self._sketches[name]
@@ -189,18 +208,16 @@ class OpenRecordings:
         """The tables of all recordings, those that were found and not saved among them."""
         listed = self.folder.recordings().items()
         return FolderTables(
-            recordings=[
-                FolderRecording(id=name, table=self._brief(name, at)) for name, at in listed
-            ]
+            recordings=[FolderRecording(id=name, table=self._brief(each)) for name, each in listed]
         )
 
-    def _brief(self, name: str, path: Path) -> BriefTable | None:
-        opened = self._open.get(name)
-        at = usual_table(path) if opened is None else opened.table_path
+    def _brief(self, listed: ListedRecording) -> BriefTable | None:
+        opened = self._open.get(listed.id)
+        at = usual_table(listed) if opened is None else opened.table_path
         found = saved_brief(at) if at else None
         if found is None and opened is not None and not opened.finding:
             return brief_of(opened.table)
-        initial = self.folder.first_table(path) if found is None else None
+        initial = self.folder.first_table(listed.path) if found is None else None
         return found if initial is None else brief_of(initial)
 
     def renew(self) -> None:
@@ -232,35 +249,84 @@ class OpenRecordings:
         self._changed(name, result.revision)
         return result
 
-    def read_as(self, name: str, options: dict[str, Any]) -> None:
-        """Read a recording otherwise from now on; its table is made anew, the one before kept.
+    def read_as(self, name: str, options: dict[str, Any], *, everybody: bool = False) -> list[str]:
+        """Read a file otherwise from now on; the ids of the recordings that are asked for.
 
-        Another take of the file has a table of its own, which is as it was left. Options have the
-        names of `kineme.formats.ReadOptions`; others are as for all. KinemeError where it cannot
-        be read so: it is read as before.
+        Tables are made anew, those before kept. Another take of the file has a table of its own,
+        and so has each of several people in it, once one or ``everybody`` was chosen: these are as
+        they were left. Options have the names of `kineme.formats.ReadOptions`; others are as for
+        all. KinemeError where it cannot be read so: it is read as before.
         """
-        path = _found(self.folder.recordings(), name, "recording")
-        before = options_of(path)
-        keep_options(path, options)
+        listed = _found(self.folder.recordings(), name, "recording")
+        before, former = options_of(listed.path), self._open.get(name)
+        person, several = self._keep_reading(listed, options, everybody=everybody)
+        chosen = several and (former is None or former.loaded.provenance.person != person)
+        after = options_of(listed.path)
+        differ = {option for option in OPTIONS if before.get(option) != after.get(option)}
+        if several:  # another person is another recording
+            differ.discard("person")
+        present = [each for each in self.folder.recordings().values() if each.path == listed.path]
+        if name not in {each.id for each in present}:
+            self._open.pop(name, None)
+            self._sketches.pop(name, None)
+        whom = [each for each in present if everybody or not several or each.person == person]
+        for each in present:
+            if each in whom and not (chosen or everybody):
+                self._open_anew(each, with_table=differ != {"take"})
+            elif differ and (each.id in self._open or usual_table(each) is not None):
+                with suppress(KinemeError):  # who is not in another take
+                    self._open_anew(each, with_table=differ != {"take"})
+        return [each.id for each in whom]
+
+    def _keep_reading(
+        self, listed: ListedRecording, options: dict[str, Any], *, everybody: bool
+    ) -> tuple[str, bool]:
+        """Keep how a file is read once it can be: who was read then, and whether of several people.
+
+        KinemeError where it cannot; what was kept before holds.
+        """
+        path = listed.path
+        before, former = options_of(path), people_of(path)
+        first = before.get("person", "") if listed.person else self._first_person(listed)
+        keep_options(path, options, former)
         try:
-            self._cache.read(path)
+            people = self._cache.people(path) if everybody else ()
+            person = people[0] if people else options.get("person") or listed.person
+            found = self._cache.read(ListedRecording(path, person)).provenance
+            people = people or found.people
+            several = len(people) > 1 and not self.folder.of_library
+            if several:
+                kept = former if {*people} <= {*former} and not everybody else people
+                keep_options(path, {**options, "person": first}, kept)
+            elif former and not self.folder.of_library:  # of another file of that name
+                keep_options(path, options, ())
         except KinemeError:
-            keep_options(path, before)
+            keep_options(path, before, former)
             raise
-        former = self._open.get(name)
-        opened = self._opened(name, path, former)
-        differ = {
-            option for option in OPTIONS if before.get(option) != options_of(path).get(option)
-        }
-        if opened.table_path.exists() and differ != {"take"}:
+        return found.person or "", several
+
+    def _first_person(self, listed: ListedRecording) -> str:
+        """Whose the table of a file is, where somebody was read before any were told apart."""
+        if usual_table(listed) is None:
+            return ""
+        try:
+            return self._cache.read(listed).provenance.person or ""
+        except KinemeError:
+            return ""
+
+    def _open_anew(self, listed: ListedRecording, *, with_table: bool) -> None:
+        """Open a recording that is read otherwise now, and make its saved table anew."""
+        former = self._open.get(listed.id)
+        opened = self._opened(listed, former)
+        if opened.table_path.exists() and with_table:
             shown = opened if former is None else former
             signals = not opened.loaded.is_motion
             opened.edit(opened.revision, same_again(shown.table, signals=signals), self)
-        self._changed(name, opened.revision)
+        self._changed(listed.id, opened.revision)
 
-    def extent(self, path: Path) -> Extent:
-        """How long the recording in a file is, as `RecordingCache.extent`."""
-        return self._cache.extent(path)
+    def extent(self, listed: ListedRecording) -> Extent:
+        """How long a recording is, as `RecordingCache.extent`."""
+        return self._cache.extent(listed)
 
     def progress(self, name: str) -> Progress:
         """What is being computed for a recording, which nobody opens for it."""
@@ -276,10 +342,6 @@ class OpenRecordings:
         if opened is not None:
             opened.loaded.runs.cancel()
 
-    def people(self, name: str) -> list[str]:
-        """The people in a recording of whom one was chosen."""
-        return self._cache.people(self.get(name).path)
-
     def knowledge_base(self, name: str) -> Path:
         """The file of the knowledge base of that id."""
         return _found(self.folder.knowledge_bases(), name, "knowledge base")
@@ -289,7 +351,7 @@ class OpenRecordings:
         return _found(self.folder.annotations(), name, "label file")
 
 
-def _found(files: dict[str, Path], name: str, what: str) -> Path:
+def _found(files: dict[str, File], name: str, what: str) -> File:
     if name not in files:
         raise UnknownError(f"there is no such {what}; it may have been taken away")
     return files[name]
@@ -303,7 +365,7 @@ class Sketched(Struct):
     reading: bool = True
 
 
-def sketched(name: str, path: Path, options: ReadingOptions) -> Sketched | None:
+def sketched(listed: ListedRecording, options: ReadingOptions) -> Sketched | None:
     """What can be shown of a recording before it is read.
 
     None for a file that is soon read, or whose format has no shorter way.
@@ -311,10 +373,11 @@ def sketched(name: str, path: Path, options: ReadingOptions) -> Sketched | None:
     from kineme.web.display import display_motion
     from kineme.web.page_data import segments_message
 
+    path = listed.path
     try:
         if path.stat().st_size < LARGE:
             return None
-        found = sketch(path, read_options(path, options.file), POSES)
+        found = sketch(path, read_options(listed, options.file), POSES)
         if found is None:
             return None
         head, binary = display_motion(found.motion, effectors=options.effectors)
@@ -322,8 +385,8 @@ def sketched(name: str, path: Path, options: ReadingOptions) -> Sketched | None:
         return None
     table = one_segment("transition", found.n_frames, found.fps)
     message = Recording(
-        id=name,
-        name=path.name,
+        id=listed.id,
+        name=listed.name,
         n_frames=found.n_frames,
         fps=found.fps,
         motion=head,

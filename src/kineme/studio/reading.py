@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import threading
 from collections import OrderedDict
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kineme.errors import ReadError, SeveralPeopleError
-from kineme.formats import ReadOptions, read_analog, read_quietly
-from kineme.formats.options import NOBODY
+from kineme.errors import ReadError
+from kineme.formats import ReadOptions, people_in, read_analog, read_quietly
 from kineme.labels.collections import Extent
+from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import read_options
 
 if TYPE_CHECKING:
@@ -41,12 +41,12 @@ class RecordingCache:
         self._recent: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
         self._extents: dict[tuple[Path, Stamp, str], Extent] = {}
 
-    def read(self, path: Path) -> Motion | Signals:
-        """The recording in a file, read if it is not in memory; ReadError where it cannot be.
+    def read(self, listed: ListedRecording) -> Motion | Signals:
+        """A recording, read from its file if it is not in memory; ReadError where it cannot be.
 
         Its provenance has what there is to warn of.
         """
-        options = read_options(path, self.options.file)
+        path, options = listed.path, read_options(listed, self.options.file)
         key = path, stamp_of(path), repr(options)
         with self._lock:
             reading = self._reading.setdefault(key, threading.Lock())
@@ -62,28 +62,22 @@ class RecordingCache:
                 self._reading.pop(key, None)
         return found
 
-    def extent(self, path: Path) -> Extent:
+    def extent(self, listed: ListedRecording) -> Extent:
         """How long a recording is, for which it is read once."""
-        key = path, stamp_of(path), repr(read_options(path, self.options.file))
+        options = read_options(listed, self.options.file)
+        key = listed.path, stamp_of(listed.path), repr(options)
         if key not in self._extents:
-            found = self.read(path)
+            found = self.read(listed)
             self._extents[key] = Extent(found.n_frames, found.fps, found.provenance.clock)
         return self._extents[key]
 
-    def people(self, path: Path) -> list[str]:
-        """Those one of whom was chosen, where people said which; read for it."""
-        options = read_options(path, self.options.file)
-        if options.person is None:
-            return []
-        try:
-            read_quietly(path, replace(options, person=NOBODY))
-        except SeveralPeopleError as error:
-            return [*error.people]
-        return []
+    def people(self, path: Path) -> tuple[str, ...]:
+        """Those in a file, where there are several; it is read for it."""
+        return people_in(path, read_options(ListedRecording(path), self.options.file))
 
-    def analog(self, path: Path) -> Signals | None:
+    def analog(self, listed: ListedRecording) -> Signals | None:
         """The channels beside the motion in a file, read each time; None where there are none."""
-        return read_analog(path, read_options(path, self.options.file))
+        return read_analog(listed.path, read_options(listed, self.options.file))
 
 
 def stamp_of(path: Path) -> Stamp:

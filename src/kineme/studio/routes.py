@@ -24,7 +24,7 @@ from kineme.segments.table import Level
 from kineme.studio import choices
 from kineme.studio.annotators import agreement_of, annotator_choices, lanes_of
 from kineme.studio.everywhere import call_everywhere
-from kineme.studio.folder import file_id, progress
+from kineme.studio.folder import progress
 from kineme.studio.http.bodies import (
     LIMIT,
     MessageResponse,
@@ -39,6 +39,7 @@ from kineme.studio.http.bodies import (
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
+from kineme.studio.storage.listed import ListedRecording, file_id
 from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels
 from kineme.web.annotator_messages import (
     Agreement,
@@ -119,7 +120,6 @@ class Api:
             route(f"{one}/video", self.video),
             route(f"{one}/video", self.offset, VideoRequest),
             route(f"{one}/reading", self.reading, ReadingRequest),
-            route(f"{one}/people", self.people),
             Route("/api/events", self.events),
             Route("/api{rest:path}", self.unknown),
         ]
@@ -136,7 +136,7 @@ class Api:
             folder=str(folder.root.absolute()),
             of_library=folder.of_library,
             suffixes=recording_suffixes(),
-            recordings=[_listing(name, path) for name, path in recordings.items()],
+            recordings=[_listing(listed) for listed in recordings.values()],
             presets=choices.presets(),
             default_preset=DEFAULT,
             details=choices.details(),
@@ -179,7 +179,7 @@ class Api:
 
         kind, level = request.path_params["format"], _level(request)
         folder = self._recordings.folder
-        counts = {name: progress(path) for name, path in folder.recordings().items()}
+        counts = {name: progress(listed) for name, listed in folder.recordings().items()}
         names = [name for name, n in counts.items() if n and n.checked >= n.segments]
         if not names:
             raise ParameterError("no recording is checked yet: check all segments of one first")
@@ -201,7 +201,7 @@ class Api:
             path = await run_in_threadpool(upload.finish)
         self._recordings.folder.add(path)
         self._hub.tell(file_id(path), 0)
-        return MessageResponse(_listing(file_id(path), path))
+        return MessageResponse(_listing(ListedRecording(path)))
 
     def recording(self, request: Request) -> Recording:
         return self._recordings.message(request.path_params["id"])
@@ -280,7 +280,11 @@ class Api:
             path = self._recordings.annotation(sent.annotation)
             title = path.name
             other = labels_for(
-                opened.path, path, n_frames=table.n_frames, fps=table.fps, clock=table.clock
+                opened.listed.called,
+                path,
+                n_frames=table.n_frames,
+                fps=table.fps,
+                clock=table.clock,
             )
         else:
             raise ParameterError("compare with a preset or with an annotation: name one of them")
@@ -337,13 +341,10 @@ class Api:
         set_offset(self._opened(request).path, sent.offset_s)
         return sent
 
-    def reading(self, request: Request, sent: ReadingRequest) -> dict[str, object]:
+    def reading(self, request: Request, sent: ReadingRequest) -> list[str]:
         options = structs.asdict(sent)
-        self._recordings.read_as(request.path_params["id"], options)
-        return {name: value for name, value in options.items() if value}
-
-    def people(self, request: Request) -> list[str]:
-        return self._recordings.people(request.path_params["id"])
+        everybody = options.pop("everybody")
+        return self._recordings.read_as(request.path_params["id"], options, everybody=everybody)
 
     async def events(self, _: Request) -> Response:
         # sse-starlette would be one more dependency for the few lines of Hub.stream, no shorter.
@@ -377,12 +378,13 @@ def _size(path: Path) -> int:
         return 0
 
 
-def _listing(name: str, path: Path) -> Listing:
-    counts = progress(path)
+def _listing(listed: ListedRecording) -> Listing:
+    counts = progress(listed)
     return Listing(
-        id=name,
-        name=path.name,
-        bytes=_size(path),
+        id=listed.id,
+        file=file_id(listed.path),
+        name=listed.name,
+        bytes=_size(listed.path),
         corrected=counts is not None,
         segments=counts.segments if counts else 0,
         checked=counts.checked if counts else 0,

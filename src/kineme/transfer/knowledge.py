@@ -130,7 +130,10 @@ class KnowledgeBase:
         rows = _labelled(segments)
         features = transfer_features(motion, effectors=effectors)
         starts, stops = working_frames(rows, segments.fps, len(features))
-        path, digest = motion.provenance.path, motion.provenance.sha256
+        source = motion.provenance
+        path, digest = source.path, source.sha256
+        if digest and len(source.people) > 1:
+            digest = f"{digest} {source.person}"
         return cls(
             np.concatenate([features[a:b] for a, b in zip(starts, stops, strict=True)]),
             stops - starts,

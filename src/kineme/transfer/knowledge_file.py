@@ -8,7 +8,7 @@
 ``lengths``  int64            frames of each primitive; the others go with it
 ``labels``   text             its name
 ``sources``  text             file name of the recording
-``digests``  text             SHA-256 of the recording, or empty
+``digests``  text             SHA-256 of the file, with the person of several, or empty
 ``start_s``  float64          where it starts in the recording, seconds
 ``stop_s``   float64          where it stops
 ============ ================ ==================================================

@@ -201,9 +201,10 @@ class Recording(Struct, frozen=True, kw_only=True):
     """Everything a page needs of one recording but the binary parts.
 
     ``reading`` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
-    ``takes`` the animations in its file, of which ``take`` is this one,
-    ``levels`` the tables at all details, coarsest first, in a report; the studio's server is
-    asked for them.
+    ``takes`` the animations in its file, of which ``take`` is this one, ``people`` those in it,
+    where there are several, of whom ``person`` is this one: what has the same ``file`` is of the
+    same time and space. ``levels`` are the tables at all details, coarsest first, in a report; the
+    studio's server is asked for them.
     While ``finding`` its segments are still to be found, and the table is a single transition.
     ``ids`` say who each row of the table is, whatever edits made of it; a report has none.
     """
@@ -220,6 +221,9 @@ class Recording(Struct, frozen=True, kw_only=True):
     reading: dict[str, Any]
     take: str | None = None
     takes: list[str] = []
+    file: str = ""
+    person: str | None = None
+    people: list[str] = []
     revision: int
     can_undo: bool
     can_redo: bool
@@ -465,13 +469,14 @@ class PresetChoice(Struct, frozen=True, kw_only=True):
 
 
 class Listing(Struct, frozen=True, kw_only=True):
-    """A recording of the folder, opened or not.
+    """A recording of the folder, opened or not; people in the same file have the same ``file``.
 
     ``segments``, ``checked`` and ``named`` count the rows of its table, if it has been saved
     (``corrected``), that are there, checked, have a name, and are no transitions.
     """
 
     id: str
+    file: str
     name: str
     bytes: int
     corrected: bool

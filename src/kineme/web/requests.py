@@ -254,9 +254,13 @@ class VideoRequest(Request, frozen=True, kw_only=True):
 
 
 class ReadingRequest(Request, frozen=True, kw_only=True):
-    """How a recording is read; empty: as the file says."""
+    """How a recording is read; empty: as the file says.
+
+    Of several people in it ``person`` is to be shown, or ``everybody``.
+    """
 
     person: Text = ""
+    everybody: bool = False
     take: Text = ""
     fps: Number = 0
     unit: Text = ""

@@ -10,14 +10,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from kineme._files import of_person
 from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
 from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for
 from kineme.errors import KinemeError, ReadError, WriteError
+
+if TYPE_CHECKING:
+    from kineme.cli.options.request import Request
 
 Files = Annotated[
     list[Path],
@@ -52,6 +56,7 @@ class Batch:
         self._messages: list[tuple[Callable[[str], None], str]] = []
         self._at = 0
         self._given_as: dict[Path, set[Path]] = {}
+        self._tables: dict[tuple[str, Path | None, str], dict[Path, Path | None]] = {}
         self.paths: list[Path] = []
         if Path("-") in given and not Path("-").exists():
             raise typer.BadParameter(
@@ -92,12 +97,46 @@ class Batch:
         with self._nothing_without():
             return folders_for(option, given, self.paths, single=self.single)
 
-    def tables(self, option: str, given: Path | None) -> list[Path | None]:
-        """The table or label file that belongs to each recording."""
+    def tables(self, option: str, given: Path | None, person: str = "") -> list[Path | None]:
+        """The table or label file that belongs to each recording, or to this person in it."""
         if given is None:
             return [None] * len(self.paths)
         with self._nothing_without():
-            return [*tables_for(option, given, self.paths)]
+            return [*tables_for(option, given, self.paths, person)]
+
+    def table(self, path: Path, option: str, given: Path | None, person: str = "") -> Path | None:
+        """That of a recording among `tables`."""
+        key = option, given, person
+        if key not in self._tables:
+            tables = self.tables(option, given, person)
+            self._tables[key] = dict(zip(self.paths, tables, strict=True))
+        return self._tables[key][path]
+
+    def each_person(
+        self,
+        path: Path,
+        request: Request,
+        work: Callable[..., None],
+        *targets: Path | None,
+        tables: tuple[str, Path | None] = ("", None),
+    ) -> None:
+        """Have work done for each of the people in a recording who are asked for; once by default.
+
+        It is called with the path, what is asked, the table of that person where ``tables`` are
+        given by option and place, and the targets, called after the person. What is wrong with one
+        person costs that one alone.
+        """
+        with self.caught(path):
+            failures = []
+            for person, asked in request.of_each_person(path):
+                table = self.table(path, *tables, asked.person)
+                places = [each and of_person(each, person) for each in targets]
+                try:
+                    work(path, asked, table, *places)
+                except ReadError as error:
+                    failures.append(error)
+            if failures:
+                raise failures[0]
 
     @contextmanager
     def caught(self, path: Path) -> Iterator[None]:

@@ -26,6 +26,13 @@ Stage = Callable[[str], None]
 EVERYBODY = "all"
 
 
+def of_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
+    """Whether all the people in a file are asked for, and how it is read otherwise."""
+    if reading.get("person") != EVERYBODY:
+        return False, reading
+    return True, {name: value for name, value in reading.items() if name != "person"}
+
+
 @dataclass(frozen=True)
 class Request:
     """The options of a command, checked: how recordings are read and segmented, in what detail."""
@@ -61,6 +68,11 @@ class Request:
         """Joints for head, hands and feet, where they were named."""
         return self.options.effectors
 
+    @property
+    def person(self) -> str:
+        """Who was named of several people."""
+        return str(self.reading.get("person", ""))
+
     def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, of the kind that it is or was said to be."""
         from kineme.formats import read
@@ -72,11 +84,11 @@ class Request:
 
         A single one, or the one who was named, goes without a name.
         """
-        if self.reading.get("person") != EVERYBODY:
+        everybody, others = of_everybody(self.reading)
+        if not everybody:
             return [("", self)]
         from kineme.formats import ReadOptions, people_in
 
-        others = {name: value for name, value in self.reading.items() if name != "person"}
         people = people_in(path, ReadOptions(**others))
         if not people:
             return [("", replace(self, reading=others))]

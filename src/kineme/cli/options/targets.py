@@ -17,13 +17,12 @@ from pathlib import Path
 
 import typer
 
+from kineme._files import CORRECTED, ending_of
 from kineme.errors import ReadError, WriteError
 
 NAME, PARENT = "{name}", "{parent}"
 PICTURES = (".png", ".pdf", ".svg")
 PAGES = (".html", ".htm")
-CORRECTED = ".segments.json"
-"""How the studio ends the name of a table that somebody has corrected."""
 
 _FIELD = re.compile(r"\{(name|parent)\}")
 
@@ -53,13 +52,24 @@ def folders_for(option: str, given: Path, inputs: list[Path], *, single: bool) -
     return paths
 
 
-def tables_for(option: str, given: Path, inputs: list[Path]) -> list[Path]:
-    """The table of each recording: a file, by a pattern, or that of its name in a folder."""
+def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -> list[Path]:
+    """The table of each recording: a file, by a pattern, or that of its name in a folder.
+
+    In a folder that of this ``person`` in it, where there is one.
+    """
     if not _is_folder(given):
         return _one_each(option, given, inputs)
     if not given.exists() and not _FIELD.search(str(given)):
         raise ReadError(given, "there is no such file or folder")
-    return [_kept(path, set(inputs)) for path in _one_each(option, given / NAME, inputs)]
+    recordings, paths = set(inputs), _one_each(option, given / NAME, inputs)
+    usual = [_kept(path, recordings) for path in paths]
+    if not person:
+        return usual
+    named = [_kept(path.with_name(f"{path.name}{ending_of(person)}"), recordings) for path in paths]
+    return [
+        one if one.exists() or not other.exists() else other
+        for one, other in zip(named, usual, strict=True)
+    ]
 
 
 def check_place(pattern: Path) -> None:
@@ -87,15 +97,6 @@ def check_writable(
         if path.suffix.lower() not in suffixes:
             raise WriteError(path, f"the suffix must be one of {', '.join(suffixes)}")
         make_folder_of(path)
-
-
-def of_person(path: Path | None, person: str) -> Path | None:
-    """Where the result of one of several people goes: ``walk_anna.csv`` beside ``walk.csv``."""
-    if path is None or not person:
-        return path
-    name = re.sub(r"[^\w.-]+", "_", person).strip("._") or "person"
-    ending = CORRECTED if path.name.endswith(CORRECTED) else path.suffix
-    return path.with_name(f"{path.name.removesuffix(ending)}_{name}{ending}")
 
 
 def make_folder_of(path: Path) -> None:

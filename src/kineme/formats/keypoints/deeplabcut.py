@@ -49,7 +49,9 @@ def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
         for name, owner, column in zip(names[1:], individuals, values.T, strict=True)
         if owner == individual
     }
-    return columns_to_motion(content, "DeepLabCut", columns, options, limit=LIKELY)
+    motion = columns_to_motion(content, "DeepLabCut", columns, options, limit=LIKELY)
+    provenance = motion.provenance.of_person(individual, dict.fromkeys(individuals))
+    return replace(motion, provenance=provenance)
 
 
 def _individual(content: FileContent, individuals: list[str], person: str | None) -> str:

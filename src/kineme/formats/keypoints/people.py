@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +24,6 @@ Rows = NDArray[np.intp]
 
 PASSING = 0.1
 """Share of the frames of the one seen most below which somebody is passed over."""
-
-PASSING_NOTE = "seen only in passing are left out"
-"""How a note on them ends."""
 
 _STRIDE = 0.5  # of the body's size that someone may be away from the frame before,
 _STRAY = 0.1  # and for each frame that passed since
@@ -41,16 +39,25 @@ class Detections:
     who: Sequence[str | None]  # how the file calls this person, if it does
 
 
-def rows_of_person(
-    content: FileContent, found: Detections, person: str | None
-) -> tuple[Rows, list[str]]:
-    """The rows of this person, or of the only one; and what was done.
+class PersonFound(NamedTuple):
+    """The rows of a person, who that is, of which people, and what was done."""
+
+    rows: Rows
+    name: str
+    people: tuple[str, ...]
+    notes: list[str]
+
+
+def rows_of_person(content: FileContent, found: Detections, person: str | None) -> PersonFound:
+    """The rows of this person, or of the only one.
 
     SeveralPeopleError where there are several and none was chosen, or nobody of this name.
     """
     people = _people(found)
     if not people:
         raise content.error("nobody is found in any frame")
+    most = max(map(len, people.values()))
+    staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * most}
     if person is not None:
         if person not in people:
             raise SeveralPeopleError(
@@ -59,9 +66,8 @@ def rows_of_person(
                 people,
             )
         notes = [f"person {person} of {len(people)}"] if len(people) > 1 else []
-        return people[person], notes
-    most = max(map(len, people.values()))
-    staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * most}
+        others = tuple(name for name in people if name in staying or name == person)
+        return PersonFound(people[person], person, others, notes)
     if len(staying) > 1:
         raise SeveralPeopleError(
             content.path,
@@ -71,8 +77,9 @@ def rows_of_person(
         )
     ((name, rows),) = staying.items()
     passing = len(people) - 1
-    notes = [f"person {name}; {passing} {PASSING_NOTE}"] if passing else []
-    return rows, notes
+    note = f"person {name}; {passing} seen only in passing are left out"
+    notes = [note] if passing else []
+    return PersonFound(rows, name, (name,), notes)
 
 
 def _people(found: Detections) -> dict[str, Rows]:

@@ -72,7 +72,7 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     points[unsure] = np.nan
     points[~np.isfinite(points).all(axis=2)] = np.nan
     found = Detections(frames, points, [person.who for person in people])
-    rows, notes = rows_of_person(content, found, options.person)
+    rows, name, others, notes = rows_of_person(content, found, options.person)
     positions = np.full((n_frames, len(video.names), 3), np.nan)
     positions[frames[rows]] = points[rows]
     if unsure[rows].any():
@@ -82,7 +82,7 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     notes += [*video.notes, *_flatness(points, video.unit)]
     unit, up = options.unit or video.unit, options.up or video.up
     found_in = Points(video.names, positions, fps, unit, up)
-    return to_motion(found_in, content.provenance(video.format, notes))
+    return to_motion(found_in, content.provenance(video.format, notes).of_person(name, others))
 
 
 def parsed_json(content: FileContent) -> Any:

@@ -67,10 +67,16 @@ class Character:
         Nodes, parents first; the root is the first one.
     notes : list of str
         What was left out.
+    name : str
+        Who it is.
+    people : sequence of str
+        Those who could have been.
     """
 
     joints: list[int]
     notes: list[str]
+    name: str
+    people: Sequence[str]
 
 
 def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str | None) -> Character:
@@ -109,7 +115,7 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
     notes = [f"person {name} of {len(people)}"] if len(people) > 1 else []
     if props := _props(nodes, list(people.values())):
         notes.append(f"left out as props: {_listing(props)}")
-    return Character(people[name], notes)
+    return Character(people[name], notes, name, [*people])
 
 
 def choose_take(

@@ -81,9 +81,9 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         fps,
         unit=options.unit or _unit(scene),
         turn=turn,
-        provenance=content.provenance("FBX", [*notes, *rated, *turned]).of_take(
-            names[number], (names[each] for each in lively)
-        ),
+        provenance=content.provenance("FBX", [*notes, *rated, *turned])
+        .of_take(names[number], (names[each] for each in lively))
+        .of_person(character.name, character.people),
     )
 
 

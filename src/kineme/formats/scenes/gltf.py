@@ -106,9 +106,9 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         fps,
         unit=options.unit or 1.0,
         turn=up_rotation(options.up or "y"),
-        provenance=content.provenance("glTF", [*notes, *character.notes, *rated]).of_take(
-            names[number], (names[each] for each in lively)
-        ),
+        provenance=content.provenance("glTF", [*notes, *character.notes, *rated])
+        .of_take(names[number], (names[each] for each in lively))
+        .of_person(character.name, character.people),
     )
 
 

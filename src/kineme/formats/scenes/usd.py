@@ -83,9 +83,9 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
         fps,
         unit=options.unit or max(UsdGeom.GetStageMetersPerUnit(stage), 0.0) or CENTIMETRE,
         turn=up_rotation(up),
-        provenance=content.provenance("USD", [*notes, *character.notes, *rated]).of_take(
-            names[number], names
-        ),
+        provenance=content.provenance("USD", [*notes, *character.notes, *rated])
+        .of_take(names[number], names)
+        .of_person(character.name, character.people),
     )
 
 

@@ -1,6 +1,8 @@
 """Small files in ``.kineme``, beside the recordings of a folder: what people said of them.
 
-- ``walk.bvh.reading.json``: how that recording is read, before what the studio was started with;
+- ``walk.bvh.reading.json``: how that recording is read, before what the studio was started with,
+  and who the people in it are, where there are several. Its ``person`` is then whose table is
+  called after the file alone, as all tables were before each of several people had one;
 - ``walk.bvh.video.json``: the second of its reference video, a file of the same name, at frame 0;
 - ``labels.json``: the labels that the recordings of the folder share, those on the keys 1 to 9.
 
@@ -10,7 +12,8 @@ A damaged file counts as none, is left alone, and people are told.
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import os
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, TypedDict, TypeVar
@@ -21,6 +24,7 @@ from kineme._files import atomic_write, refuse_link, video_beside
 from kineme._json import loaded
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
+from kineme.studio.storage.listed import ListedRecording
 from kineme.web.messages import Video
 from kineme.web.requests import LARGEST
 
@@ -28,6 +32,7 @@ FOLDER = ".kineme"
 OPTIONS = ("person", "take", "fps", "unit", "up")
 """Of the reader, those that the page asks for."""
 LABELS = "labels.json"
+READING = "reading"
 Content = TypeVar("Content")
 
 
@@ -37,6 +42,7 @@ class _Reading(TypedDict, total=False):
     fps: float | None
     unit: str | float | None
     up: str | None
+    people: list[str]
 
 
 class _Offset(Struct):
@@ -48,16 +54,41 @@ def options_of(recording: Path) -> dict[str, Any]:
     return _reading(recording)[0]
 
 
-def read_options(recording: Path, general: ReadOptions) -> ReadOptions:
+def people_of(recording: Path) -> list[str]:
+    """The people in a file each of whom is a recording of its own; none where nobody was chosen."""
+    return read_sidecar(_sidecar(recording, READING), _Reading, _Reading())[0].get("people", [])
+
+
+def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
+    """The recordings in some files: those of which the people are known have one for each."""
+    present: dict[Path, set[str]] = {}
+    found: list[ListedRecording] = []
+    for path in paths:
+        folder = path.parent / FOLDER
+        if folder not in present:
+            present[folder] = _names_in(folder)
+        people = people_of(path) if _sidecar(path, READING).name in present[folder] else []
+        first = options_of(path).get("person") if people else None
+        found += [ListedRecording(path, who, who == first) for who in people]
+        found += [] if people else [ListedRecording(path)]
+    return found
+
+
+def read_options(listed: ListedRecording, general: ReadOptions) -> ReadOptions:
     """How a recording is read: as people said of it, else as of all."""
-    return replace(general, **options_of(recording))
+    options = replace(general, **options_of(listed.path))
+    return replace(options, person=listed.person) if listed.person else options
 
 
-def keep_options(recording: Path, options: dict[str, Any]) -> None:
-    """Keep what people say of how a recording is read; ParameterError for a wrong value."""
+def keep_options(recording: Path, options: dict[str, Any], people: Sequence[str]) -> None:
+    """Keep what people say of how a file is read, and who is in it.
+
+    ParameterError for a wrong value.
+    """
     given = {name: value for name, value in options.items() if name in OPTIONS and value}
     ReadOptions(**given)
-    write_file(_sidecar(recording, "reading"), json.dumps(given).encode())
+    content = {**given, "people": [*people]} if people else given
+    write_file(_sidecar(recording, READING), json.dumps(content).encode())
 
 
 def video_message(recording: Path) -> Video | None:
@@ -128,9 +159,9 @@ def _make_folder(folder: Path) -> None:
 
 
 def _reading(recording: Path) -> tuple[dict[str, Any], list[str]]:
-    path = _sidecar(recording, "reading")
+    path = _sidecar(recording, READING)
     content, notes = read_sidecar(path, _Reading, _Reading())
-    options = {name: value for name, value in content.items() if value}
+    options = {name: value for name, value in content.items() if value and name in OPTIONS}
     try:
         ReadOptions(**options)  # type: ignore[arg-type]  # its values are of these types
     except KinemeError as error:
@@ -144,6 +175,13 @@ def _video(recording: Path) -> tuple[_Offset, list[str]]:
 
 def _labels(root: Path) -> tuple[list[str], list[str]]:
     return read_sidecar(root / FOLDER / LABELS, list[str], [])
+
+
+def _names_in(folder: Path) -> set[str]:
+    try:
+        return {*os.listdir(folder)}  # noqa: PTH208 (names alone)
+    except OSError:
+        return set()
 
 
 def _sidecar(recording: Path, what: str) -> Path:

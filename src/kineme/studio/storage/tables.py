@@ -2,7 +2,8 @@
 
 It is ``walk.segments.json`` beside ``walk.bvh``. Where that file is the table of
 another recording (``walk.c3d``), of an earlier one of that name, or no table at
-all, it is left alone, and ``walk.bvh.segments.json`` or a numbered name serves.
+all, it is left alone, and ``walk.bvh.segments.json`` or a numbered name serves. That of one of
+several people is called after them, too: ``walk_anna.segments.json``.
 """
 
 from __future__ import annotations
@@ -12,12 +13,11 @@ from hashlib import sha256
 from itertools import count
 from pathlib import Path
 
-from kineme._files import atomic_write
+from kineme._files import CORRECTED, atomic_write
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.labels import json_table, read_segments
 from kineme.segments.segmentation import Segmentation
-
-SUFFIX = ".segments.json"
+from kineme.studio.storage.listed import ListedRecording
 
 
 class ChangedOnDiskError(Exception):
@@ -69,20 +69,20 @@ def content_of(table: Segmentation) -> bytes:
 
 
 def saved_table(
-    recording: Path,
+    listed: ListedRecording,
     fits: Callable[[Segmentation], bool],
     others: set[Path],
     *,
-    of_another_take: Callable[[Segmentation], bool] = lambda _: False,
+    of_another: Callable[[Segmentation], bool] = lambda _: False,
 ) -> tuple[TableFile, Segmentation | None, list[str]]:
     """Where the recording's table is saved, the table if it has been, and files left alone.
 
-    ``fits`` says whether a table is of this recording, ``of_another_take`` whether it is of another
-    take of its file, which is no news; ``others`` hold the tables of other recordings. WriteError
-    where no name is left.
+    ``fits`` says whether a table is of this recording, ``of_another`` whether it is of another
+    take or person of its file, which is no news; ``others`` hold the tables of other recordings.
+    WriteError where no name is left.
     """
     notes: list[str] = []
-    for path in _candidates(recording):
+    for path in _candidates(listed):
         file = TableFile(path)
         if path in others or path.is_symlink():
             continue
@@ -96,25 +96,27 @@ def saved_table(
             continue
         if fits(table):
             return file, table, notes
-        if not of_another_take(table):
+        if not of_another(table):
             notes.append(f"{path.name} was left alone: it is the table of another recording")
-    raise WriteError(recording, "has no name left for its table")
+    raise WriteError(listed.path, "has no name left for its table")
 
 
-def usual_tables(recording: Path) -> list[Path]:
+def usual_tables(listed: ListedRecording) -> list[Path]:
     """The two names that nearly every recording's table has."""
-    return [recording.with_name(name + SUFFIX) for name in (recording.stem, recording.name)]
+    after = listed.with_table
+    return [after.with_name(name + CORRECTED) for name in (after.stem, after.name)]
 
 
-def usual_table(recording: Path) -> Path | None:
+def usual_table(listed: ListedRecording) -> Path | None:
     """That of them which is there, if one is."""
-    return next((path for path in usual_tables(recording) if path.is_file()), None)
+    return next((path for path in usual_tables(listed) if path.is_file()), None)
 
 
-def _candidates(recording: Path) -> Iterator[Path]:
-    yield from usual_tables(recording)
+def _candidates(listed: ListedRecording) -> Iterator[Path]:
+    yield from usual_tables(listed)
+    after = listed.with_table
     for number in count(2):
-        yield recording.with_name(f"{recording.name}.{number}{SUFFIX}")
+        yield after.with_name(f"{after.name}.{number}{CORRECTED}")
 
 
 def _stamp(path: Path) -> tuple[int, int, int] | None:

@@ -228,9 +228,10 @@ export interface Video {
  * Everything a page needs of one recording but the binary parts.
  *
  * `reading` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
- * `takes` the animations in its file, of which `take` is this one,
- * `levels` the tables at all details, coarsest first, in a report; the studio's server is
- * asked for them.
+ * `takes` the animations in its file, of which `take` is this one, `people` those in it,
+ * where there are several, of whom `person` is this one: what has the same `file` is of the
+ * same time and space. `levels` are the tables at all details, coarsest first, in a report; the
+ * studio's server is asked for them.
  * While `finding` its segments are still to be found, and the table is a single transition.
  * `ids` say who each row of the table is, whatever edits made of it; a report has none.
  */
@@ -247,6 +248,9 @@ export interface Recording {
   reading: Record<string, unknown>;
   take?: string | null;
   takes?: string[];
+  file?: string;
+  person?: string | null;
+  people?: string[];
   revision: number;
   can_undo: boolean;
   can_redo: boolean;
@@ -489,13 +493,14 @@ export interface PresetChoice {
 }
 
 /**
- * A recording of the folder, opened or not.
+ * A recording of the folder, opened or not; people in the same file have the same `file`.
  *
  * `segments`, `checked` and `named` count the rows of its table, if it has been saved
  * (`corrected`), that are there, checked, have a name, and are no transitions.
  */
 export interface Listing {
   id: string;
+  file: string;
   name: string;
   bytes: number;
   corrected: boolean;
@@ -742,9 +747,14 @@ export interface VideoRequest {
   offset_s: number;
 }
 
-/** How a recording is read; empty: as the file says. */
+/**
+ * How a recording is read; empty: as the file says.
+ *
+ * Of several people in it `person` is to be shown, or `everybody`.
+ */
 export interface ReadingRequest {
   person?: string;
+  everybody?: boolean;
   take?: string;
   fps?: number;
   unit?: string;

@@ -12,6 +12,11 @@ export interface OpenRecording {
   motion: Signal<Motion | null>;
 }
 
+/** What people call the person of a recording, of several in its file; some have only numbers. */
+export function personCalled(name: string): string {
+  return /^\d+$/.test(name) ? `person ${name}` : name;
+}
+
 /** A recording that the page itself may show otherwise. */
 export interface ShownRecording extends OpenRecording {
   recording: Signal<Recording>;

@@ -23,6 +23,15 @@ export function segmentAt(lane: readonly Segment[], frame: number): Segment | un
   return lane[indexAt(lane, frame)];
 }
 
+const primitives = new WeakMap<Segments, readonly Segment[]>();
+
+/** The primitive of a table at a time; each pose asks for it. */
+export function primitiveAt(table: Segments, seconds: number): Segment | undefined {
+  const lane = primitives.get(table) ?? laneOf(table, "primitive");
+  primitives.set(table, lane);
+  return segmentAt(lane, Math.floor(seconds * table.fps + 1e-6));
+}
+
 /** Position in the lane of the segment that holds a frame; -1 in an empty lane. */
 export function indexAt(lane: readonly Segment[], frame: number): number {
   let low = 0;

@@ -93,6 +93,12 @@ export class State {
   readonly recording: ReadonlySignal<Recording | undefined> = computed(
     () => this.active.value?.recording.value,
   );
+  /** The people who are open of the same file, the one in front among them; none where it is one. */
+  readonly people: ReadonlySignal<readonly OpenRecording[]> = computed(() => {
+    const file = this.recording.value?.file;
+    const same = this.opened.value.filter((each) => file && each.recording.value.file === file);
+    return same.length > 1 ? same : [];
+  });
   readonly fps = computed(() => this.recording.value?.fps ?? 1);
   readonly duration = computed(() => (this.recording.value?.n_frames ?? 0) / this.fps.value);
   readonly range: ReadonlySignal<Span> = computed(
@@ -106,6 +112,7 @@ export class State {
     labelColors([
       ...(this.recording.value?.segmentation.segments ?? []),
       ...this.others.value.flatMap(({ segmentation }) => segmentation.segments),
+      ...this.people.value.flatMap(({ recording }) => recording.value.segmentation.segments),
     ]),
   );
   readonly clusters: ReadonlySignal<Cluster[]> = computed(() =>

@@ -156,19 +156,22 @@ export class Store extends State {
     this.show(this.opened.value.length - 1);
   }
 
-  /** Makes a recording of the page the current one. */
+  /** Makes a recording of the page the current one; people of one file go on in the same time. */
   show(index: number): void {
+    const file = this.recording.value?.file;
+    const sameTime = Boolean(file) && this.opened.value[index]?.recording.value.file === file;
     batch(() => {
       this.selection.value = null;
-      this.loop.value = null;
       this.cluster.value = null;
       this.others.value = [];
       this.inStep.value = false;
       this.ghost.value = null;
+      this.current.value = index;
+      if (sameTime) return;
+      this.loop.value = null;
       this.zoom.value = null;
       this.bounds.value = UNBOUNDED;
       this.playing.value = false;
-      this.current.value = index;
     });
     this.seek(this.playhead.value);
   }

@@ -18,6 +18,28 @@ test("lanes lie below each other and within the height", () => {
   }
 });
 
+test("people have lanes below each other, the one in front those to edit", () => {
+  const table = tableOf([...activities, ...primitives]);
+  const people = [
+    { name: "Anna", index: 0, segmentation: table },
+    { name: "Bob", index: 1, segmentation: null },
+    { name: "Eve", index: 2, segmentation: tableOf(activities) },
+  ];
+  const lanes = layOut({ activities, primitives, others: [], people }, 160);
+  expect(lanes.map(({ title }) => title)).toEqual([
+    "Anna",
+    "",
+    "Bob",
+    "Primitives",
+    "Labels",
+    "Eve",
+  ]);
+  expect(lanes.map(({ person }) => person)).toEqual([0, 0, null, null, null, 2]);
+  expect(lanes.filter(({ level }) => level).map(({ id }) => id)).toEqual(["activity", "primitive"]);
+  expect(lanes.filter(({ front }) => front).map(({ title }) => title)).toEqual(["Bob"]);
+  expect(lanes.at(-1)!.top + lanes.at(-1)!.height).toBeLessThanOrEqual(160);
+});
+
 test("only what is in view is drawn", () => {
   expect(visible(primitives, 0, 4)).toEqual([0, 3]);
   expect(visible(primitives, 1.5, 2)).toEqual([1, 2]);

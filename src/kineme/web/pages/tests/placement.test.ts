@@ -1,5 +1,12 @@
 import { expect, test } from "vitest";
-import { inStep, timeOf, MOST_MEMBERS, putInPlace, sideBySide } from "../src/viewer/placement";
+import {
+  inStep,
+  isFree,
+  timeOf,
+  MOST_MEMBERS,
+  putInPlace,
+  sideBySide,
+} from "../src/viewer/placement";
 import { motion, segment } from "./recordings";
 
 const walk = motion(41, (i, joint) => [100 * i, 1000, joint * 200], {
@@ -15,6 +22,18 @@ test("one figure moves freely, several keep their places", () => {
   const [left, right] = two.map((figure) => figure.place.slot[0]);
   expect(right! - left!).toBeGreaterThan(1);
   expect(two.every((figure) => figure.place.still)).toBe(true);
+});
+
+test("people of one file stand where they stood, beside another file around a slot", () => {
+  const [left, right] = [0, 3000].map((x) => motion(41, (i) => [x + 10 * i, 1000, 0]));
+  const duet = [left!, right!].map((each) => ({ motion: each, name: "", file: "duet" }));
+  expect(sideBySide(duet, 2).every(isFree)).toBe(true);
+  const placed = sideBySide([...duet, { motion: walk, name: "", file: "walk" }], 2);
+  expect(placed.some(isFree)).toBe(false);
+  expect(placed[0]!.place).toEqual(placed[1]!.place);
+  const [x] = placed.map(({ place }) => place.slot[0]);
+  expect(placed[2]!.place.slot[0] - x!).toBeGreaterThan(1.5 + 1); // half of the two, half of the third
+  expect(placed.map(({ place }) => place.still)).toEqual([false, false, true]);
 });
 
 test("members begin on their places and look the same way", () => {

@@ -123,7 +123,7 @@ function Stage(): JSX.Element {
           {session.opening.value || !session.state.value ? (
             <span class="busy" role="status" aria-label="Opening" />
           ) : (
-            "Choose a recording on the left, or drop files here."
+            session.question.value || "Choose a recording on the left, or drop files here."
           )}
         </p>
       )}

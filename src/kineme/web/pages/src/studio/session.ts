@@ -44,6 +44,12 @@ export class Session {
   readonly opening = signal<string | null>(null);
   /** The recording that could not be read, and the people in it. */
   readonly unread = signal<Unread | null>(null);
+  /** Who of several people is to be seen, in a sentence; empty where nothing is asked. */
+  readonly question = computed(() => {
+    const { people = [], name } = this.unread.value ?? {};
+    const many = `${people.length} people are in ${name}: choose one of them on the left, or all.`;
+    return people.length > 1 ? many : "";
+  });
   readonly bulletin: Bulletin;
   /** Those that are open, and those whose edits are on their way. */
   readonly recordings = signal<EditedRecording[]>([]);
@@ -113,7 +119,7 @@ export class Session {
     const index = store.opened.value.findIndex((each) => each.recording.value.id === id);
     if (index >= 0) {
       store.show(index);
-      if (!beside) this.closeOthers(id);
+      if (!beside) this.closeOthers(id, store.people.value);
       shown();
       return;
     }
@@ -130,33 +136,51 @@ export class Session {
       void this.refresh();
       await loadMotion(opened);
     } catch (error) {
-      this.bulletin.problem(explain(error), "open");
-      this.notRead(id, error);
+      const isAsked = this.notRead(id, error);
+      if (!isAsked || store.opened.value.length)
+        // else the stage asks
+        this.bulletin.problem(isAsked ? this.question.value : explain(error), "open");
     } finally {
       if (this.opening.value === id) this.opening.value = null;
     }
   }
 
-  /** Reads a recording otherwise from now on, and shows it. */
+  /** Reads a file otherwise from now on, and shows it, or the people of it who are asked for. */
   async readAs(id: string, request: ReadingRequest): Promise<void> {
+    let asked: string[];
     try {
-      await this.api.readAs(id, request);
+      asked = await this.api.readAs(id, request);
     } catch (error) {
-      this.bulletin.problem(explain(error), "reading");
-      this.notRead(id, error);
+      const isAsked = this.notRead(id, error);
+      this.bulletin.solved("open");
+      this.bulletin.problem(isAsked ? this.question.value : explain(error), "reading");
       return;
     }
-    this.bulletin.solved("reading");
-    this.close(id);
-    await this.open(id);
+    for (const what of ["reading", "open"]) this.bulletin.solved(what);
+    const { value: recording } = this.store.recording;
+    const shown = recording?.id === id ? this.store.people.value : [];
+    const before = shown.map((each) => each.recording.value.id);
+    const isSame = asked.length === 1 && asked[0] === id;
+    for (const each of [id, ...before]) this.close(each);
+    await this.refresh(); // of several people each is listed now
+    await this.openTogether(isSame && before.length ? before : asked);
   }
 
-  /** Offers to say how a recording is to be read, where that is what is wrong. */
-  private notRead(id: string, error: unknown): void {
+  /** Shows recordings beside each other, the first of them in front. */
+  private async openTogether(ids: readonly string[]): Promise<void> {
+    for (const [i, id] of ids.entries()) await this.open(id, { beside: i > 0 });
+    const { opened } = this.store;
+    const first = opened.value.findIndex((each) => each.recording.value.id === ids[0]);
+    if (ids.length > 1 && first >= 0) this.store.show(first);
+  }
+
+  /** Offers to say how a recording is to be read, where that is what is wrong; whether of people. */
+  private notRead(id: string, error: unknown): boolean {
     const people = notRead(error);
     const name = this.state.value?.recordings.find((each) => each.id === id)?.name;
     const before = this.unread.value?.id === id ? this.unread.value.people : [];
     if (people && name) this.unread.value = { id, name, people: people.length ? people : before };
+    return (people?.length ?? 0) > 1 && this.question.value !== "";
   }
 
   /** Opens the next recording of the list, or the one before. */
@@ -213,8 +237,10 @@ export class Session {
     const { recordings } = this.state.value!;
     const listed = new Set(recordings.map((each) => each.id));
     const before = openInAddress().filter((id) => listed.has(id));
-    const first = before.length || listed.size > 1 ? before : listed;
-    for (const id of first) await this.open(id, { beside: true });
+    const files = new Set(recordings.map((each) => each.file));
+    if (before.length || files.size !== 1)
+      for (const id of before) await this.open(id, { beside: true });
+    else await this.openTogether([...listed]);
     if (secondsInAddress()) this.store.seek(secondsInAddress());
     effect(() => openToAddress(this.store.opened.value));
   }
@@ -251,9 +277,11 @@ export class Session {
     if (closed.length) this.recordings.value = kept;
   }
 
-  private closeOthers(id: string): void {
-    for (const { recording } of this.store.opened.value)
-      if (recording.value.id !== id) this.close(recording.value.id);
+  /** Closes all but one, and people who are shown with that one. */
+  private closeOthers(id: string, kept: readonly OpenRecording[] = []): void {
+    for (const each of this.store.opened.value)
+      if (each.recording.value.id !== id && !kept.includes(each))
+        this.close(each.recording.value.id);
   }
 
   private async changed(change: Changed): Promise<void> {

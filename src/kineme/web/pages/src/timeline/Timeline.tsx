@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
+import { personCalled } from "../opened";
 import { durationOf, nameOf } from "../segments";
 import { clock, toPixel } from "../view";
 import { drawLanes } from "./drawing";
@@ -34,6 +35,11 @@ export function Timeline(): JSX.Element {
     activities: store.activities.value,
     primitives: store.primitives.value,
     others: store.others.value,
+    people: store.people.value.map(({ recording: { value } }) => ({
+      name: personCalled(value.person ?? value.name),
+      index: store.opened.value.findIndex((each) => each.recording.value.id === value.id),
+      segmentation: value.id === store.recording.value?.id ? null : value.segmentation,
+    })),
   });
   return (
     <div class="timeline">

@@ -76,7 +76,7 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
       lane.height,
     );
     pen.fill();
-    const pointed = hovered !== null && segment.cluster === hovered;
+    const pointed = hovered !== null && lane.person === null && segment.cluster === hovered;
     if (wide || pointed) {
       pen.strokeStyle = pointed ? cssColor("accent") : edge;
       pen.lineWidth = pointed ? 2 : 0.75;

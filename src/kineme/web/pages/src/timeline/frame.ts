@@ -2,7 +2,7 @@
 import type { Store } from "../store";
 import { cssColor } from "../theme";
 import { ticksOf, toPixel, type Span } from "../view";
-import { GUTTER, RULER } from "./lanes";
+import { GUTTER, RULER, type Lane } from "./lanes";
 
 type Pen = CanvasRenderingContext2D;
 
@@ -49,10 +49,12 @@ export function drawInAndOut(pen: Pen, store: Store, range: Span, room: number):
   }
 }
 
-export function drawTitle(pen: Pen, lane: { title: string; top: number; height: number }): void {
-  pen.fillStyle = cssColor("quiet");
+export function drawTitle(pen: Pen, lane: Lane): void {
+  pen.font = lane.front ? `bold ${FONT}` : FONT;
+  pen.fillStyle = cssColor(lane.front ? "text" : "quiet");
   const title = shortened(pen, lane.title, GUTTER - 14);
   pen.fillText(title, 10, lane.top + lane.height / 2 + 0.5);
+  pen.font = FONT;
 }
 
 /** As much of a text as fits, with an ellipsis; nothing if that says nothing. */

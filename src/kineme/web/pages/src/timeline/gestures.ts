@@ -141,13 +141,20 @@ export class Gestures {
 
   private click(spot: Spot): void {
     const segment = this.segmentAt(spot);
-    if (segment && laneAt(this.lanes(), spot.y)?.level) this.store.select(segment);
+    const person = laneAt(this.lanes(), spot.y)?.person ?? null;
+    if (person !== null) this.store.show(person);
+    if (person !== null && segment) this.store.select(segment);
+    else if (person !== null && spot.x < GUTTER)
+      return; // their name alone
+    else if (segment && laneAt(this.lanes(), spot.y)?.level) this.store.select(segment);
     else this.store.seek(segment?.start_s ?? this.secondsAt(spot));
   }
 
   private hover(event: PointerEvent, spot: Spot): void {
     const segment = this.segmentAt(spot);
-    this.store.hovered.value = segment && segment.cluster >= 0 ? segment.cluster : null;
+    const isInFront = (laneAt(this.lanes(), spot.y)?.person ?? null) === null;
+    this.store.hovered.value =
+      segment && isInFront && segment.cluster >= 0 ? segment.cluster : null;
     const cursor = spot.y < RULER || this.borderAt(spot) ? "ew-resize" : segment ? "pointer" : "";
     (event.currentTarget as HTMLElement).style.cursor = cursor;
   }

@@ -12,23 +12,78 @@ export interface Lane {
   level: Level | null;
   /** Frames of borders to point out: those that the other result has not. */
   differences: ReadonlySet<number>;
+  /** Of another person of the same file: their place among what is open; null: of the one in front. */
+  person: number | null;
+  /** Whether its title is the name of the person in front. */
+  front: boolean;
+}
+
+/** A person of the file, and the table; null for the one in front. */
+export interface PersonLanes {
+  name: string;
+  /** Place among what is open. */
+  index: number;
+  segmentation: Segments | null;
 }
 
 export const RULER = 22;
 export const GUTTER = 78;
 const GAP = 4;
+const BETWEEN = 7; // people
 
 interface Given {
   activities: readonly Segment[];
   primitives: readonly Segment[];
   others: readonly { name: string; segmentation: Segments; marked?: boolean }[];
+  /** Those of the file who are open, where they are several, from top to bottom. */
+  people?: readonly PersonLanes[];
 }
+
+type Row = Omit<Lane, "top" | "height"> & { share: number; above: number };
 
 const SAME = 0.1; // seconds from a border to one that counts as the same
 const NONE: ReadonlySet<number> = new Set();
 
 /** The lanes from top to bottom, sharing what height there is. */
-export function layOut({ activities, primitives, others }: Given, height: number): Lane[] {
+export function layOut(given: Given, height: number): Lane[] {
+  const { people = [] } = given;
+  const rows = people.length
+    ? people.flatMap((person, i) => lanesOfPerson(person, given, i ? BETWEEN : 0))
+    : lanesInFront(given);
+  const total = rows.reduce((sum, row) => sum + row.share, 0);
+  const gaps = rows.reduce((sum, row) => sum + GAP + row.above, 0);
+  const room = Math.max(height - RULER - gaps, 0);
+  let top = RULER;
+  return rows.map(({ share, above, ...row }) => {
+    top += above;
+    const lane = { ...row, top, height: Math.min((room * share) / total, 44 * share) };
+    top += lane.height + GAP;
+    return lane;
+  });
+}
+
+/** What is seen of a person: all of the one in front, the segments of the others. */
+function lanesOfPerson(person: PersonLanes, given: Given, above: number): Row[] {
+  const { name, index, segmentation } = person;
+  if (!segmentation)
+    return lanesInFront(given).map((row, i) =>
+      i ? row : { ...row, title: name, front: true, above },
+    );
+  const shared = { level: null, differences: NONE, person: index, front: false };
+  const levels = (["activity", "primitive"] as const).map((level) => ({
+    ...shared,
+    id: `person-${index}-${level}`,
+    title: "",
+    segments: laneOf(segmentation, level),
+    share: 0.8,
+    above: 0,
+  }));
+  return levels
+    .filter(({ segments }, i) => !i || segments.length)
+    .map((row, i) => (i ? row : { ...row, title: name, above }));
+}
+
+function lanesInFront({ activities, primitives, others }: Given): Row[] {
   const below = others.map(({ name, segmentation, marked }) => ({
     name,
     marked,
@@ -38,8 +93,10 @@ export function layOut({ activities, primitives, others }: Given, height: number
   const marked = below.find((each) => each.marked);
   const only = (mine: readonly Segment[], counterpart?: readonly Segment[]): ReadonlySet<number> =>
     marked && counterpart ? without(mine, counterpart) : NONE;
-  const rows: (Omit<Lane, "top" | "height"> & { share: number })[] = [
+  const shared = { person: null, front: false, above: 0 };
+  const rows: Row[] = [
     {
+      ...shared,
       id: "activity",
       title: "Activities",
       segments: activities,
@@ -48,6 +105,7 @@ export function layOut({ activities, primitives, others }: Given, height: number
       differences: only(activities, marked?.activity),
     },
     {
+      ...shared,
       id: "primitive",
       title: "Primitives",
       segments: primitives,
@@ -56,6 +114,7 @@ export function layOut({ activities, primitives, others }: Given, height: number
       differences: only(primitives, marked?.primitive),
     },
     {
+      ...shared,
       id: "label",
       title: "Labels",
       segments: labelSpans(activities, primitives),
@@ -66,6 +125,7 @@ export function layOut({ activities, primitives, others }: Given, height: number
   ];
   below.forEach((other, i) => {
     rows.push({
+      ...shared,
       id: `other-activity-${i}`,
       title: other.name,
       segments: other.activity,
@@ -75,6 +135,7 @@ export function layOut({ activities, primitives, others }: Given, height: number
     });
     if (below.length > 1 && !other.primitive.length) return; // room for those who have some
     rows.push({
+      ...shared,
       id: `other-primitive-${i}`,
       title: "",
       segments: other.primitive,
@@ -83,14 +144,7 @@ export function layOut({ activities, primitives, others }: Given, height: number
       differences: other.marked ? without(other.primitive, primitives) : NONE,
     });
   });
-  const total = rows.reduce((sum, row) => sum + row.share, 0);
-  const room = Math.max(height - RULER - GAP * rows.length, 0);
-  let top = RULER;
-  return rows.map(({ share, ...row }) => {
-    const lane = { ...row, top, height: Math.min((room * share) / total, 44 * share) };
-    top += lane.height + GAP;
-    return lane;
-  });
+  return rows;
 }
 
 /** The borders that one lane has, and another has none as near as the eye takes for the same. */

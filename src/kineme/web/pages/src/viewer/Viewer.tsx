@@ -2,7 +2,8 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
-import { nameOf } from "../segments";
+import { personCalled, type OpenRecording } from "../opened";
+import { nameOf, primitiveAt } from "../segments";
 import { NO_COLOR } from "../colors";
 import { clock } from "../view";
 import { MOST_MEMBERS } from "./placement";
@@ -39,18 +40,22 @@ export function Viewer(): JSX.Element {
   );
 }
 
-/** What is played: the primitive under the playhead, and which cluster is shown. */
+/** What is played: the primitive under the playhead, of each person, and which cluster is shown. */
 function Caption(): JSX.Element {
   const store = useStore();
   const present = store.present.value;
   const shown = store.shownCluster.value;
   const stepping = store.inStep.value && shown;
+  const people = stepping ? [] : store.people.value;
   const n = shown?.members.length ?? 0;
   const all = n === 1 ? "1 member" : `${n} members`;
   const count = n > MOST_MEMBERS ? `the first ${MOST_MEMBERS} of ${n} members` : all;
   return (
     <div class="caption">
-      {present && (
+      {people.map((each) => (
+        <PersonPresent key={each.recording.value.id} opened={each} />
+      ))}
+      {present && !people.length && (
         <p>
           <span class="swatch" style={{ background: store.colorOf(present) ?? NO_COLOR }} />{" "}
           {nameOf(present)}
@@ -62,11 +67,29 @@ function Caption(): JSX.Element {
         </p>
       )}
       {stepping && <p class="quiet">{count} in step</p>}
-      {!stepping && store.opened.value.length > 1 && (
+      {!stepping && store.opened.value.length > Math.max(people.length, 1) && (
         <p class="quiet">
           {store.opened.value.map((each) => each.recording.value.name).join(" · ")}
         </p>
       )}
     </div>
+  );
+}
+
+/** The primitive of one of several people at the playhead; the name of the one in front is bold. */
+function PersonPresent({ opened }: { opened: OpenRecording }): JSX.Element {
+  const store = useStore();
+  const { person, name, segmentation } = opened.recording.value;
+  const present = primitiveAt(segmentation, store.playhead.value);
+  const called = personCalled(person ?? name);
+  return (
+    <p>
+      <span
+        class="swatch"
+        style={{ background: (present && store.colorOf(present)) ?? NO_COLOR }}
+      />{" "}
+      {opened === store.active.value ? <strong>{called}</strong> : called}{" "}
+      <span class="quiet">{present && nameOf(present)}</span>
+    </p>
   );
 }

@@ -27,16 +27,59 @@ export const MOST_MEMBERS = 24;
 
 const FREE: Place = { slot: [0, 0], from: [0, 0], turn: 0, still: false };
 
-/** One figure moves freely; several stand side by side, each on its slot. */
-export function sideBySide(
-  figures: readonly { motion: Motion; name: string }[],
-  size: number,
-): PlacedFigure[] {
-  return figures.map(({ motion, name }, i) => {
-    const x = (i - (figures.length - 1) / 2) * 0.95 * size;
-    const place: Place = figures.length === 1 ? FREE : { ...FREE, slot: [x, 0], still: true };
-    return { motion, name, place, segment: null };
+interface Shown {
+  motion: Motion;
+  name: string;
+  /** Those of the same file share their space; none: of a space of its own. */
+  file?: string | undefined;
+}
+
+/**
+ * One figure moves freely, and so do the people of one file, as they did. Several recordings stand
+ * side by side: each on its slot, people of one file around theirs.
+ */
+export function sideBySide(figures: readonly Shown[], size: number): PlacedFigure[] {
+  const spaces = new Map<string | number, Shown[]>();
+  figures.forEach((each, i) => {
+    const space = each.file || i;
+    spaces.set(space, [...(spaces.get(space) ?? []), each]);
   });
+  const placed = new Map<Shown, Place>();
+  const widths = [...spaces.values()].map((people) => 0.95 * size + extentOf(people)[2]);
+  let left = -widths.reduce((sum, width) => sum + width, 0) / 2;
+  [...spaces.values()].forEach((people, i) => {
+    const x = left + widths[i]! / 2;
+    left += widths[i]!;
+    const [middleX, middleZ] = extentOf(people);
+    const slot: Place = { ...FREE, slot: [x, 0], from: [middleX, middleZ] };
+    for (const each of people)
+      placed.set(each, spaces.size === 1 ? FREE : { ...slot, still: people.length === 1 });
+  });
+  return figures.map((each) => ({
+    motion: each.motion,
+    name: each.name,
+    place: placed.get(each)!,
+    segment: null,
+  }));
+}
+
+/** Whether a figure goes where it went. */
+export function isFree({ place }: PlacedFigure): boolean {
+  return place === FREE;
+}
+
+/** Where several people are when they begin: the middle (x, z), and how wide apart along x. */
+function extentOf(people: readonly Shown[]): [number, number, number] {
+  if (people.length < 2) return [0, 0, 0];
+  const places = people.map(({ motion }) => {
+    const pose = new Float32Array(motion.head.joints.length * 3);
+    poseAt(motion, 0, pose);
+    const root = 3 * rootOf(motion.head);
+    return [pose[root] || 0, pose[root + 2] || 0] as const;
+  });
+  const [xs, zs] = [places.map(([x]) => x), places.map(([, z]) => z)];
+  const [low, high] = [Math.min(...xs), Math.max(...xs)];
+  return [(low + high) / 2, (Math.min(...zs) + Math.max(...zs)) / 2, high - low];
 }
 
 /** The members of a cluster in rows, all facing the same way where they begin. */

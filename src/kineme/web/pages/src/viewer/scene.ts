@@ -3,13 +3,15 @@ import * as THREE from "three";
 import { NO_COLOR, onPage } from "../colors";
 import type { Segment } from "../messages";
 import { headingAt, poseAt, rootOf, type Motion } from "../motion";
-import { segmentAt } from "../segments";
+import { personCalled } from "../opened";
+import { primitiveAt } from "../segments";
 import type { Store } from "../store";
 import { cssColor, theme } from "../theme";
 import { anatomyOfCached } from "./anatomy";
-import { inStep, timeOf, putInPlace, sideBySide, type PlacedFigure } from "./placement";
+import { inStep, isFree, timeOf, putInPlace, sideBySide, type PlacedFigure } from "./placement";
 import { Figure } from "./figure";
 import { Ghost } from "./ghost";
+import type { Tag } from "./nameTags";
 import { Stage } from "./stage";
 import { Trails } from "./trails";
 
@@ -45,13 +47,14 @@ export class FigureScene {
     for (const figure of this.figures) this.stage.scene.add(figure.group);
     const lead = this.placed[0];
     if (!lead) return;
-    const paths = handsAndFeet(lead.motion).length * this.placed.length;
+    const paths = this.placed.reduce((sum, each) => sum + handsAndFeet(each.motion).length, 0);
     if (!lead.segment && paths > 0) {
       this.trails = new Trails(this.stage.haze, paths, 0.022 * this.size);
       this.stage.scene.add(this.trails.mesh);
     }
-    const { id } = this.store.recording.value!;
-    const scene = `${this.placed.length} ${lead.segment !== null} ${id}`;
+    const { id, file } = this.store.recording.value!;
+    const of = this.store.people.value.length ? file : id;
+    const scene = `${this.placed.length} ${lead.segment !== null} ${of}`;
     if (scene !== this.scene) this.frame();
     this.scene = scene;
   }
@@ -64,13 +67,13 @@ export class FigureScene {
   pose(seconds: number): void {
     const { store } = this;
     const leader = this.leader();
-    const color = onPage(this.colorOf(store.present.value), theme.value);
     const shadow = cssColor("shadow");
     const [body, joint] = [cssColor("body"), cssColor("joint")];
     this.placed.forEach((each, i) => {
       const pose = this.poses[i]!;
       this.placedPose(each, timeOf(each, store.playhead.value, leader), pose);
       this.figures[i]!.pose(pose);
+      const color = onPage(this.colorOf(this.presentOf(each, store.playhead.value)), theme.value);
       const leads = each.segment !== null && each.segment === leader;
       const joints = each.segment ? joint : color;
       this.figures[i]!.paint({ body: leads ? color : body, joint: leads ? color : joints, shadow });
@@ -92,17 +95,48 @@ export class FigureScene {
   frame(): void {
     const lead = this.placed[0];
     if (!lead) return;
-    this.placedPose(lead, timeOf(lead, this.store.playhead.value, this.leader()), this.poses[0]!);
+    this.placed.forEach((each, i) => {
+      this.placedPose(each, timeOf(each, this.store.playhead.value, this.leader()), this.poses[i]!);
+    });
     const { ground } = anatomyOfCached(lead.motion);
     const alone = this.placed.length === 1;
+    if (!alone && this.placed.every(isFree)) return this.frameTogether(ground);
     const slots = this.placed.map((each) => each.place.slot);
     const width = Math.max(...slots.map(([x]) => x)) - Math.min(...slots.map(([x]) => x));
     const depth = Math.max(...slots.map(([, z]) => z)) - Math.min(...slots.map(([, z]) => z));
-    const [x, z] = alone ? this.rootOfLead() : [0, 0];
+    const [x, z] = alone ? this.middle() : [0, 0];
     const side = alone ? headingAt(lead.motion, this.store.playhead.value) + 0.6 : 0.12;
     const target = new THREE.Vector3(x, ground + 0.5 * this.size, z);
     const height = (1.3 + 0.5 * (depth / this.size)) * this.size;
     this.stage.look(target, side, width + 1.25 * this.size, height, depth > 0 ? 0.5 : 0.22);
+  }
+
+  /** People who share their space: all are seen, from the side where none hides another. */
+  private frameTogether(ground: number): void {
+    const roots = this.roots();
+    const [x, z] = this.middle();
+    const [axisX, axisZ] = longest(roots);
+    const apart = Math.hypot(axisX, axisZ);
+    const usual = headingAt(this.placed[0]!.motion, this.store.playhead.value) + 0.6;
+    const across = Math.atan2(-axisZ, axisX) + 0.15;
+    const side = Math.cos(across - usual) < 0 ? across + Math.PI : across;
+    const target = new THREE.Vector3(x, ground + 0.5 * this.size, z);
+    const isApart = apart > 0.3 * this.size;
+    this.stage.look(target, isApart ? side : usual, apart + 1.25 * this.size, 1.4 * this.size);
+  }
+
+  /** Over whose heads the names of several people stand. */
+  tags(): Tag[] {
+    const { store } = this;
+    if (!store.people.value.length || store.inStep.value) return [];
+    return this.placed.flatMap((each, i) => {
+      const at = new THREE.Vector3().fromArray(this.poses[i]!, 3 * rootOf(each.motion.head));
+      at.y = highest(this.poses[i]!) + 0.06 * this.size;
+      at.project(this.stage.camera);
+      if (Number.isNaN(at.x) || Math.abs(at.z) > 1) return [];
+      const front = each.motion === store.active.value?.motion.value;
+      return [{ name: each.name, x: (1 + at.x) / 2, y: (1 - at.y) / 2, front }];
+    });
   }
 
   /** The figure nearest to a point of the canvas (from -1 to 1, y up). */
@@ -125,8 +159,9 @@ export class FigureScene {
     const motion = store.active.value?.motion.value;
     const members = store.shownCluster.value?.members ?? [];
     const shown = store.opened.value.flatMap((opened) => {
-      const { name } = opened.recording.value;
-      return opened.motion.value ? [{ motion: opened.motion.value, name }] : [];
+      const { name, file, person } = opened.recording.value;
+      const { value: motion } = opened.motion;
+      return motion ? [{ motion, name: personCalled(person ?? name), file }] : [];
     });
     this.size = Math.max(...shown.map((each) => anatomyOfCached(each.motion).size), 0) || 1;
     const ground = Math.min(...shown.map((each) => anatomyOfCached(each.motion).ground));
@@ -152,18 +187,37 @@ export class FigureScene {
     putInPlace(pose, placed.place, rootOf(placed.motion.head));
   }
 
-  private rootOfLead(): [number, number] {
-    const root = 3 * rootOf(this.placed[0]!.motion.head);
-    const pose = this.poses[0]!;
-    return [pose[root] || 0, pose[root + 2] || 0];
+  /** Where those stand (x, z) who are in the picture. */
+  private roots(): [number, number][] {
+    return this.placed
+      .map(({ motion }, i): [number, number] => {
+        const root = 3 * rootOf(motion.head);
+        return [this.poses[i]![root]!, this.poses[i]![root + 2]!];
+      })
+      .filter(([x, z]) => !Number.isNaN(x + z));
+  }
+
+  /** In the middle of them. */
+  private middle(): [number, number] {
+    const roots = this.roots();
+    const between = (values: number[]): number =>
+      values.length ? (Math.min(...values) + Math.max(...values)) / 2 : 0;
+    return [between(roots.map(([x]) => x)), between(roots.map(([, z]) => z))];
   }
 
   private followLead(seconds: number): void {
-    if (this.placed.length !== 1) return;
-    const [x, z] = this.rootOfLead();
+    if (!this.placed.length || !this.placed.every(isFree)) return;
+    const [x, z] = this.middle();
     const { target } = this.stage.controls;
     const share = this.store.playing.value ? 1 - Math.exp(-CATCH_UP * seconds) : 1;
     this.stage.moveTo(target.x + share * (x - target.x), target.z + share * (z - target.z));
+  }
+
+  /** The primitive of a figure's own recording at a time. */
+  private presentOf({ motion }: PlacedFigure, time: number): Segment | undefined {
+    const { opened, active } = this.store;
+    const shown = opened.value.find((each) => each.motion.value === motion) ?? active.value;
+    return shown && primitiveAt(shown.recording.value.segmentation, time);
   }
 
   private colorOf(segment: Segment | undefined): string {
@@ -172,16 +226,18 @@ export class FigureScene {
 
   private drawTrails(): void {
     if (!this.trails) return;
-    const { playhead, primitives, fps } = this.store;
+    const { playhead } = this.store;
     this.trails.mesh.visible = this.store.trails.value && playhead.value > 0;
     if (!this.trails.mesh.visible) return;
     const times = Trails.times(playhead.value, TRAIL_LENGTH);
-    const colors = times.map((time) => {
-      const segment = segmentAt(primitives.value, Math.floor(time * fps.value));
-      return new THREE.Color(onPage(this.colorOf(segment), theme.value));
+    const paths = this.placed.map((each) => this.pathsOf(each, times));
+    const colors = this.placed.flatMap((each, i) => {
+      const ofTimes = times.map(
+        (time) => new THREE.Color(onPage(this.colorOf(this.presentOf(each, time)), theme.value)),
+      );
+      return paths[i]!.map(() => ofTimes);
     });
-    const paths = this.placed.flatMap((each) => this.pathsOf(each, times));
-    this.trails.draw(paths, colors, this.stage.camera.position);
+    this.trails.draw(paths.flat(), colors, this.stage.camera.position);
   }
 
   private pathsOf(placed: PlacedFigure, times: readonly number[]): Float32Array[] {
@@ -205,6 +261,21 @@ export class FigureScene {
     this.trails?.dispose();
     this.trails = null;
   }
+}
+
+/** The height of a pose's highest joint. */
+function highest(pose: Float32Array): number {
+  let top = -Infinity;
+  for (let i = 1; i < pose.length; i += 3) if (pose[i]! > top) top = pose[i]!;
+  return top;
+}
+
+/** From one to the other of the two who stand farthest apart. */
+function longest(roots: readonly [number, number][]): [number, number] {
+  const pairs = roots.flatMap(([x, z], i) =>
+    roots.slice(i + 1).map((other): [number, number] => [other[0] - x, other[1] - z]),
+  );
+  return pairs.sort((a, b) => Math.hypot(...b) - Math.hypot(...a))[0] ?? [0, 0];
 }
 
 function handsAndFeet(motion: Motion): number[] {

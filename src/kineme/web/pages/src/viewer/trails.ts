@@ -31,10 +31,10 @@ export class Trails {
     return Array.from({ length: POINTS }, (_, i) => now - length * (1 - i / (POINTS - 1)));
   }
 
-  /** `paths[trail]` holds x, y, z at each time; `colors` has one colour per time. */
+  /** `paths[trail]` holds x, y, z at each time, `colors[trail]` the colour. */
   draw(
     paths: readonly Float32Array[],
-    colors: readonly THREE.Color[],
+    colors: readonly (readonly THREE.Color[])[],
     camera: THREE.Vector3,
   ): void {
     for (let trail = 0; trail < this.n_trails; trail++) {
@@ -46,7 +46,7 @@ export class Trails {
         const missing = Number.isNaN(here.x);
         if (missing) here.set(0, 0, 0);
         const alpha = missing ? 0 : 0.85 * (i / (POINTS - 1)) ** 1.5;
-        const { r, g, b } = colors[i]!;
+        const { r, g, b } = colors[trail]![i]!;
         for (const [k, sign] of [-1, 1].entries()) {
           const { x, y, z } = here;
           this.positions.setXYZ(

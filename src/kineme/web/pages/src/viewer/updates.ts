@@ -4,6 +4,7 @@ import { CLICK } from "../canvas/pointers";
 import type { Store } from "../store";
 import { onPaper, theme } from "../theme";
 import { ticker } from "../ticker";
+import { NameTags } from "./nameTags";
 import type { FigureScene } from "./scene";
 import type { Stage } from "./stage";
 
@@ -16,6 +17,7 @@ export function keepUpToDate(
   scene: FigureScene,
   canvas: HTMLCanvasElement,
 ): () => void {
+  const tags = new NameTags(canvas.parentElement!);
   const stale = { figures: true, paint: true, picture: true, edges: false };
   let resting: ReturnType<typeof setTimeout> | undefined;
   const expire = (...what: (keyof typeof stale)[]): void => {
@@ -61,6 +63,7 @@ export function keepUpToDate(
       if (moving) scene.pose(seconds);
       stale.figures = stale.paint = stale.picture = stale.edges = false; // pose() turned the camera
       scene.stage.draw(moving && !onPaper.peek(), seconds);
+      tags.show(scene.tags());
       if (moving) sharpenSoon();
     }),
     pickOnClick(store, scene, canvas),
@@ -68,6 +71,7 @@ export function keepUpToDate(
   return () => {
     for (const stop of stops) stop();
     resize.disconnect();
+    tags.dispose();
     clearTimeout(resting);
   };
 }
@@ -90,6 +94,7 @@ function watchFigures(store: Store): void {
 
 function watchPose(store: Store): void {
   void [store.playhead.value, store.primitives.value, store.selected.value];
+  for (const { recording } of store.opened.value) void recording.value; // whose colours are seen
   void [store.trails.value, store.follow.value, store.ghost.value];
 }
 

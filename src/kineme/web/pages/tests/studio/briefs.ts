@@ -25,6 +25,7 @@ export function listing(id: string, table: BriefTable | null): Listing {
   const checked = table?.checked.length ?? 0;
   return {
     id,
+    file: id,
     name: `${id}.bvh`,
     bytes: 1,
     corrected: table !== null,

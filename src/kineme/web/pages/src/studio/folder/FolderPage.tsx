@@ -24,8 +24,10 @@ const MORE = 6; // rows drawn above and below what is seen
 
 export function FolderPage(): JSX.Element | null {
   const { session, front } = useStudio();
-  const several = (session.state.value?.recordings.length ?? 0) > 1;
-  const none = !session.store.opened.value.length && !session.opening.value;
+  const files = new Set(session.state.value?.recordings.map((each) => each.file));
+  const several = files.size > 1;
+  const asks = session.question.value !== ""; // on the stage
+  const none = !session.store.opened.value.length && !session.opening.value && !asks;
   if (!(front.folder.value ?? (several && none))) return null;
   return <Page />;
 }

@@ -1,7 +1,8 @@
 /** How the recording is read, where its file does not say or says it wrongly. */
 import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import type { JSX, TargetedEvent } from "preact";
+import { personCalled } from "../../opened";
 import { useStudio } from "../context";
 
 const UNITS = ["m", "cm", "mm", "inch", "cmu"];
@@ -11,39 +12,33 @@ export function ReadingPanel(): JSX.Element | null {
   const { session } = useStudio();
   const { value: recording } = session.store.recording;
   const { value: unread } = session.unread;
-  const people = useSignal<readonly string[]>([]);
+  const form = useRef<HTMLFormElement>(null);
   const busy = useSignal(false);
   const id = unread?.id ?? recording?.id;
   const reading = (!unread && recording?.reading) || {};
   const takes = (!unread && recording?.takes) || [];
+  const people = unread ? unread.people : (recording?.people ?? []);
+  const shown = unread ? [] : session.store.people.value;
   const option = (name: string): string => {
     const value = reading[name];
     return typeof value === "string" || typeof value === "number" ? String(value) : "";
   };
-  const person = option("person");
-  useEffect(() => {
-    people.value = unread?.people ?? [];
-    if (!unread && id && person)
-      void session.api.people(id).then(
-        (found) => (people.value = found),
-        () => undefined,
-      );
-  }, [id, unread, person, people, session]);
+  const person = unread ? "" : (recording?.person ?? option("person"));
   if (!id) return null;
-  const read = async (event: TargetedEvent<HTMLFormElement, Event>): Promise<void> => {
-    event.preventDefault();
-    const form = new FormData(event.currentTarget);
+  const read = async (chosen: { person?: string; everybody?: boolean } = {}): Promise<void> => {
+    const given = new FormData(form.current!);
     const text = (name: string): string => {
-      const value = form.get(name);
+      const value = given.get(name);
       return typeof value === "string" ? value.trim() : "";
     };
     busy.value = true;
     await session.readAs(id, {
-      person: text("person"),
+      person: people.length ? person : text("person"),
       take: text("take"),
       fps: Number(text("fps")) || 0,
       unit: text("unit"),
       up: text("up"),
+      ...chosen,
     });
     busy.value = false;
   };
@@ -51,10 +46,31 @@ export function ReadingPanel(): JSX.Element | null {
     <details
       class="reading-panel"
       key={`${id} ${unread !== null}`}
-      open={unread !== null || Object.keys(reading).length > 0 || takes.length > 1}
+      open={
+        unread !== null || Object.keys(reading).length > 0 || takes.length > 1 || people.length > 0
+      }
     >
       <summary>How {unread ? unread.name : "this file"} is read</summary>
-      <form onSubmit={(event) => void read(event)}>
+      <form
+        ref={form}
+        onSubmit={(event) => {
+          event.preventDefault();
+          void read();
+        }}
+      >
+        {people.length > 0 ? (
+          <People
+            names={people}
+            shown={shown.length ? shown.map((each) => each.recording.value.person ?? "") : [person]}
+            question={unread !== null}
+            read={read}
+          />
+        ) : (
+          <label class="field" title="Which of several people, by name or number">
+            <span>Person</span>
+            <input type="text" name="person" placeholder="the only one" defaultValue={person} />
+          </label>
+        )}
         {takes.length > 1 && (
           <Choice
             name="take"
@@ -64,20 +80,6 @@ export function ReadingPanel(): JSX.Element | null {
             value={recording?.take ?? ""}
             onChange={(event) => event.currentTarget.form?.requestSubmit()}
           />
-        )}
-        {people.value.length > 0 ? (
-          <Choice
-            name="person"
-            title="Person"
-            none={unread ? "choose one" : "the only one"}
-            values={people.value}
-            value={person}
-          />
-        ) : (
-          <label class="field" title="Which of several people, by name or number">
-            <span>Person</span>
-            <input type="text" name="person" placeholder="the only one" defaultValue={person} />
-          </label>
         )}
         <label class="field">
           <span>Frames per second</span>
@@ -94,17 +96,61 @@ export function ReadingPanel(): JSX.Element | null {
           <Choice name="unit" title="Unit" values={UNITS} value={option("unit")} />
           <Choice name="up" title="Up" values={AXES} value={option("up")} />
         </div>
-        <p class="actions">
-          <button
-            type="submit"
-            disabled={busy.value}
-            title="The table is made anew; the one before is kept in History"
-          >
-            Read again {busy.value && <span class="busy" />}
-          </button>
-        </p>
+        {!(unread && people.length > 0) && (
+          <p class="actions">
+            <button
+              type="submit"
+              disabled={busy.value}
+              title={`${people.length ? "The tables are" : "The table is"} made anew; ${
+                people.length ? "those" : "the one"
+              } before ${people.length ? "are" : "is"} kept in History`}
+            >
+              Read again {busy.value && <span class="busy" />}
+            </button>
+          </p>
+        )}
       </form>
     </details>
+  );
+}
+
+/** The people in the file, to be shown one by one or together. */
+function People(props: {
+  names: readonly string[];
+  shown: readonly string[];
+  /** Whether nobody was chosen yet. */
+  question: boolean;
+  read: (chosen: { person?: string; everybody?: boolean }) => Promise<void>;
+}): JSX.Element {
+  const { names, shown, question, read } = props;
+  const { session } = useStudio();
+  const all = shown.length === names.length;
+  return (
+    <fieldset class="people-choice">
+      <legend>{question ? "Who is to be seen?" : "People in this file"}</legend>
+      {names.map((name) => (
+        <button
+          key={name}
+          type="button"
+          aria-pressed={shown.includes(name)}
+          title={`Show ${personCalled(name)} alone: each has a table of their own`}
+          onClick={() => void read({ person: name })}
+        >
+          {personCalled(name)}
+        </button>
+      ))}
+      {names.length > 1 && !session.state.value?.of_library && (
+        <button
+          type="button"
+          class={question ? "primary" : ""}
+          aria-pressed={all}
+          title="Show all of them together, in the same time and space"
+          onClick={() => void read({ everybody: true })}
+        >
+          All {names.length} people
+        </button>
+      )}
+    </fieldset>
   );
 }
 

@@ -205,14 +205,9 @@ export class Api {
     return this.post("/api/knowledge", {}, request);
   }
 
-  /** How a recording is read from now on. */
-  readAs(id: string, request: ReadingRequest): Promise<unknown> {
+  /** How a file is read from now on; the recordings that are asked for. */
+  readAs(id: string, request: ReadingRequest): Promise<string[]> {
     return this.post("/api/recordings/{id}/reading", { id }, request);
-  }
-
-  /** The people in a recording, where one of them was chosen. */
-  people(id: string): Promise<string[]> {
-    return this.get("/api/recordings/{id}/people", { id });
   }
 
   /** Where the video of a recording comes from. */

@@ -17,7 +17,6 @@ export type GetPath =
   | "/api/recordings/{id}/loops/{number}"
   | "/api/recordings/{id}/matrix/{level}/{row}/{column}"
   | "/api/recordings/{id}/motion"
-  | "/api/recordings/{id}/people"
   | "/api/recordings/{id}/progress"
   | "/api/recordings/{id}/versions"
   | "/api/recordings/{id}/versions/{number}"

@@ -1,0 +1,201 @@
+"""Several people in one file: each is a recording of its own, with a table of its own."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from studio_clients import Studio
+from typer.testing import CliRunner
+
+import kineme
+from kineme.cli.app import app
+from kineme.cli.studio import _tell_apart
+from kineme.studio.reading import ReadingOptions
+from kineme.studio.storage.listed import ListedRecording, file_id
+from people_files import write_people
+
+NAME = {"level": "activity", "frame": 0}
+
+
+@pytest.fixture
+def duet(studio: Studio) -> Studio:
+    """A studio, its recording a file with two people."""
+    path = write_people(studio.folder / "duet.trc", {"Anna": 0, "Bob": 300})
+    found = Studio(studio.client, studio.folder)
+    found.path, found.id = path, file_id(path)
+    return found
+
+
+def of(duet: Studio, person: str) -> Studio:
+    """The same, its recording that of a person."""
+    found = Studio(duet.client, duet.folder)
+    found.path, found.id = duet.path, ids_of(duet)[f"duet.trc · {person}"]
+    return found
+
+
+def ids_of(duet: Studio) -> dict[str, str]:
+    listed = duet.get("/api/state").json()["recordings"]
+    return {each["name"]: each["id"] for each in listed if each["name"].startswith("duet")}
+
+
+def choose(duet: Studio, **wanted: Any) -> list[str]:
+    answer = duet.client.post(f"/api/recordings/{duet.id}/reading", json=wanted)
+    assert answer.status_code == 200, answer.text
+    return answer.json()
+
+
+def labels(duet: Studio) -> set[str]:
+    return {row["label"] for row in duet.recording()["segmentation"]["segments"]} - {""}
+
+
+def test_it_asks_once_and_each_has_a_table_of_its_own(duet: Studio) -> None:
+    asked = duet.get(f"/api/recordings/{duet.id}")
+    assert (asked.status_code, asked.json()["people"]) == (400, ["Anna", "Bob"])
+    assert "2 people are in it" in asked.json()["error"]
+    assert ids_of(duet) == {"duet.trc": duet.id}
+    shown = choose(duet, everybody=True)
+    assert shown == [*ids_of(duet).values()]
+    assert [*ids_of(duet)] == ["duet.trc · Anna", "duet.trc · Bob"]
+    anna, bob = of(duet, "Anna"), of(duet, "Bob")
+    heads = anna.recording(), bob.recording()
+    assert [each["person"] for each in heads] == ["Anna", "Bob"]
+    assert heads[0]["people"] == heads[1]["people"] == ["Anna", "Bob"]
+    assert heads[0]["file"] == heads[1]["file"] == duet.id
+    assert not any(":" in name for name in heads[1]["motion"]["joints"])
+    for studio, label in ((anna, "of Anna"), (bob, "of Bob")):
+        studio.done(studio.recording()["revision"], "name_segment", **NAME, label=label)
+    assert labels(anna) == {"of Anna"}
+    assert labels(bob) == {"of Bob"}
+    bob.done(bob.recording()["revision"], "undo")
+    assert (labels(anna), labels(bob)) == ({"of Anna"}, set())
+    tables = sorted(path.name for path in duet.folder.glob("duet*.segments.json"))
+    assert tables == ["duet_Anna.segments.json", "duet_Bob.segments.json"]
+    table = kineme.read_segments(duet.folder / "duet_Anna.segments.json")
+    assert table.provenance["input"]["person"] == "Anna"
+    state = duet.get("/api/state").json()
+    assert {each["name"] for each in state["recordings"] if each["corrected"]} == {*ids_of(duet)}
+    assert not any(each["name"].startswith("duet") for each in state["annotations"])
+    exported = duet.get(f"/api/recordings/{anna.id}/export/csv").headers["content-disposition"]
+    assert "duet_Anna.segments.csv" in exported
+
+
+def test_reading_the_file_otherwise_makes_the_tables_of_all_anew(duet: Studio) -> None:
+    choose(duet, person="Bob")
+    anna, bob = of(duet, "Anna"), of(duet, "Bob")
+    for studio in (anna, bob):
+        studio.done(studio.recording()["revision"], "name_segment", **NAME, label="before")
+    assert choose(bob, person="Anna") == [anna.id]
+    assert (labels(anna), labels(bob)) == ({"before"}, {"before"})
+    assert choose(bob, person="Bob", fps=15.0) == [bob.id]
+    for studio in (anna, bob):
+        message = studio.recording()
+        assert message["fps"] == message["segmentation"]["fps"] == 15.0
+        assert labels(studio) == set()
+        versions = duet.get(f"/api/recordings/{studio.id}/versions").json()["versions"]
+        assert [each["names"] for each in versions] == [1]
+    refused = duet.client.post(f"/api/recordings/{bob.id}/reading", json={"person": "Eve"})
+    assert (refused.status_code, refused.json()["people"]) == (400, ["Anna", "Bob"])
+    assert bob.recording()["fps"] == 15.0
+
+
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+@pytest.mark.parametrize("said", ["Bob", ""])
+def test_the_table_of_an_older_studio_stays_that_persons(duet: Studio, said: str) -> None:
+    """It knew one person of a file, and who that was."""
+    whose = said or "Anna"
+    older = kineme.segment(kineme.read(duet.path, person=whose))
+    bare = {name: each for name, each in older.provenance["input"].items() if name != "person"}
+    content = json.loads(_saved(older, duet.folder / "duet.segments.json"))
+    content["provenance"]["input"] = bare
+    content["segments"][0]["label"] = "older"
+    (duet.folder / "duet.segments.json").write_text(json.dumps(content))
+    if said:
+        (duet.folder / ".kineme").mkdir()
+        side = duet.folder / ".kineme" / "duet.trc.reading.json"
+        side.write_text(json.dumps({"person": said}))
+    assert labels(duet) == {"older"}
+    assert (duet.recording()["person"], duet.recording()["saved"]) == (whose, "duet.segments.json")
+    choose(duet, everybody=True)
+    same, other = of(duet, whose), of(duet, {"Bob": "Anna", "Anna": "Bob"}[whose])
+    assert same.id == duet.id
+    assert (labels(same), labels(other)) == ({"older"}, set())
+    other.done(other.recording()["revision"], "name_segment", **NAME, label="newer")
+    assert same.recording()["saved"] == "duet.segments.json"
+    assert other.recording()["saved"] == f"duet_{other.recording()['person']}.segments.json"
+    assert not any("left alone" in each for each in other.recording()["warnings"])
+
+
+def test_the_command_line_takes_the_table_of_a_person(duet: Studio) -> None:
+    choose(duet, everybody=True)
+    for person in ("Anna", "Bob"):
+        one = of(duet, person)
+        call = {"cluster": 0, "label": f"by {person}"}
+        one.done(one.recording()["revision"], "name_cluster", **call)
+    for person in ("Anna", "Bob"):
+        asked = ["cycles", duet.path, "--person", person, "--segments", duet.folder]
+        done = CliRunner().invoke(app, [*map(str, asked), "--ends", "-q", "-o", f"{duet.path}.csv"])
+        assert done.exit_code == 0, done.output
+        assert f"by {person}" in Path(f"{duet.path}.csv").read_text()
+
+
+def test_commands_take_all_people(duet: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    choose(duet, everybody=True)
+    for person in ("Anna", "Bob"):
+        one = of(duet, person)
+        call = {"cluster": 0, "label": f"by {person}"}
+        one.done(one.recording()["revision"], "name_cluster", **call)
+    ids = [*ids_of(duet).values()]
+    sent = {"name": "known", "recordings": ids}
+    assert duet.client.post("/api/knowledge", json=sent).status_code == 200
+    known = kineme.KnowledgeBase.load(duet.folder / "known.npz")
+    assert {*known.labels} == {"by Anna", "by Bob"}
+    monkeypatch.chdir(duet.folder)
+
+    def run(*arguments: str) -> str:
+        asked = [arguments[0], "duet.trc", "--person", "all", *arguments[1:]]
+        done = CliRunner().invoke(app, asked)
+        assert done.exit_code == 0, done.output
+        return done.output
+
+    run("cycles", "--segments", ".", "--ends", "-q", "-o", "cycles.csv")
+    rows = Path("cycles.csv").read_text()
+    assert "duet_Anna" in rows
+    assert "duet_Bob" in rows
+    assert "by Anna" in rows
+    run("split", "--segments", ".", "--level", "primitive", "-o", "clips")
+    assert any("Anna" in each.name for each in Path("clips_Anna").iterdir())
+    assert any(Path("clips_Bob").iterdir())
+    run("report", "--segments", ".", "-o", "page.html")
+    assert "by Anna" in Path("page_Anna.html").read_text()
+    assert "by Anna" not in Path("page_Bob.html").read_text()
+    run("events", "-o", "feet.csv")
+    assert {path.name for path in Path().glob("feet*.csv")} == {"feet_Anna.csv", "feet_Bob.csv"}
+
+
+def test_everybody_can_be_asked_for_at_the_start(duet: Studio) -> None:
+    _tell_apart([duet.path, duet.folder / "take.bvh"], ReadingOptions())
+    assert [*ids_of(duet)] == ["duet.trc · Anna", "duet.trc · Bob"]
+    asked = ["studio", "--no-browser", str(duet.folder), "--person", "all"]
+    done = CliRunner().invoke(app, asked)
+    assert done.exit_code == 1
+    assert "--person all is for files" in done.stderr
+
+
+def _saved(table: kineme.Segmentation, path: Path) -> str:
+    kineme.write_segments(table, path)
+    return path.read_text()
+
+
+def test_names_that_files_cannot_hold() -> None:
+    odd = ListedRecording(Path("walk.c3d"), "A/../b c")
+    assert odd.called.name == "walk_A_.._b_c.c3d"
+    assert odd.name == "walk.c3d · A/../b c"
+    assert ListedRecording(Path("walk.json"), "1").name == "walk.json · person 1"
+    assert odd.id != ListedRecording(Path("walk.c3d"), "A").id
+    for person in ("é" * 500, "\ud800", "..."):
+        long = ListedRecording(Path("walk.c3d"), person)
+        assert len(long.called.name.encode()) < 80
+        assert long.id
