@@ -14,12 +14,15 @@ export interface Repeated {
 
 /** The activities in time order; of those that nothing is known to repeat in, none. */
 export function repetitionsOf(table: Segments): Repeated[] {
-  const lane = laneOf(table, "activity");
-  const primitives = laneOf(table, "primitive");
-  return lane.flatMap((activity, number) => {
-    const durations = primitives
-      .filter((row) => row.activity === number && row.kind === "primitive")
-      .map(durationOf);
+  const inside = new Map<number, number[]>();
+  for (const row of laneOf(table, "primitive")) {
+    if (row.kind !== "primitive") continue;
+    const others = inside.get(row.activity);
+    if (others) others.push(durationOf(row));
+    else inside.set(row.activity, [durationOf(row)]);
+  }
+  return laneOf(table, "activity").flatMap((activity, number) => {
+    const durations = inside.get(number) ?? [];
     if (activity.kind === "transition" || !durations.length) return [];
     const mean_s = durations.reduce((sum, each) => sum + each, 0) / durations.length;
     const squares = durations.reduce((sum, each) => sum + (each - mean_s) ** 2, 0);

@@ -33,6 +33,7 @@ export function Timeline(): JSX.Element {
   const given = (): Parameters<typeof layOut>[0] => ({
     activities: store.activities.value,
     primitives: store.primitives.value,
+    labels: store.labels.value,
     others: store.others.value,
   });
   return (
@@ -47,7 +48,7 @@ export function Timeline(): JSX.Element {
               store.bounds.value,
               store.labelColors.value,
               store.edits.value,
-              store.recording.value,
+              store.table.value,
             ];
           }}
           draw={(pen, width, height) => {

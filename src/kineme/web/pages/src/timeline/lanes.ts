@@ -1,6 +1,6 @@
 /** Which lanes the timeline has, and where; pure functions. */
 import type { Level, Segment, Segments } from "../messages";
-import { durationOf, indexAt, labelSpans, laneOf } from "../segments";
+import { durationOf, indexAt, laneOf } from "../segments";
 
 export interface Lane {
   id: string;
@@ -21,6 +21,7 @@ const GAP = 4;
 interface Given {
   activities: readonly Segment[];
   primitives: readonly Segment[];
+  labels: readonly Segment[];
   others: readonly { name: string; segmentation: Segments; marked?: boolean }[];
 }
 
@@ -28,7 +29,7 @@ const SAME = 0.1; // seconds from a border to one that counts as the same
 const NONE: ReadonlySet<number> = new Set();
 
 /** The lanes from top to bottom, sharing what height there is. */
-export function layOut({ activities, primitives, others }: Given, height: number): Lane[] {
+export function layOut({ activities, primitives, labels, others }: Given, height: number): Lane[] {
   const below = others.map(({ name, segmentation, marked }) => ({
     name,
     marked,
@@ -58,7 +59,7 @@ export function layOut({ activities, primitives, others }: Given, height: number
     {
       id: "label",
       title: "Labels",
-      segments: labelSpans(activities, primitives),
+      segments: labels,
       level: null,
       share: 0.7,
       differences: NONE,
