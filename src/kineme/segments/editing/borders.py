@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from kineme.errors import ParameterError
 from kineme.segments.editing.rows import (
+    Rows,
     adopted,
     after_border,
     cut,
     cuts,
     handed_over,
     joined,
+    lanes,
     length,
     moved,
     with_rows,
@@ -52,7 +54,7 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
     >>> moved.cuts()[0].item(), moved.cuts("primitive")[4].item()
     (330, 330)
     """
-    rows = list(segmentation.level(level))
+    rows, activities, primitives = lanes(segmentation, level)
     after = after_border(rows, level, frame)
     low, high = rows[after - 1].start_frame, rows[after].stop_frame
     if not low < to < high:
@@ -61,7 +63,6 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
         )
     if to == frame:
         return segmentation
-    activities, primitives = list(segmentation.activities), list(segmentation.primitives)
     if level == "primitive":
         if frame in cuts(activities):
             activities = moved(activities, frame, to)
@@ -99,11 +100,10 @@ def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
     >>> split(found, "activity", 200).activities[:2].label.tolist()
     ['walk', 'walk']
     """
-    rows = list(segmentation.level(level))
+    rows, activities, primitives = lanes(segmentation, level)
     if not any(row.start_frame < frame < row.stop_frame for row in rows):
         where = f"frame {frame} is not inside a segment of level {level!r}"
         raise ParameterError(f"{where}: choose a frame between two borders")
-    activities, primitives = list(segmentation.activities), list(segmentation.primitives)
     if level == "activity":
         activities = cut(activities, frame)
     return with_rows(segmentation, activities, cut(primitives, frame))
@@ -137,7 +137,7 @@ def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Se
     >>> len(found.primitives), len(merge(found, "primitive", 0, 126).primitives)
     (38, 37)
     """
-    rows = list(segmentation.level(level))
+    rows, activities, primitives = lanes(segmentation, level)
     chosen = [i for i, row in enumerate(rows) if start <= row.start_frame < stop]
     at_borders = (
         len(chosen) > 1
@@ -148,7 +148,7 @@ def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Se
         raise ParameterError(
             f"frames {start} to {stop} are not two or more whole segments of level {level!r}"
         )
-    return _merged(segmentation, level, chosen[0], chosen[-1], like=chosen[0])
+    return _merged(segmentation, (activities, primitives), level, chosen[0], chosen[-1], chosen[0])
 
 
 def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
@@ -178,16 +178,21 @@ def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segme
     >>> delete_border(found, "activity", 326).activities[0].stop_frame
     380
     """
-    rows = list(segmentation.level(level))
+    rows, activities, primitives = lanes(segmentation, level)
     after = after_border(rows, level, frame)
     longer = after if length(rows[after]) > length(rows[after - 1]) else after - 1
-    return _merged(segmentation, level, after - 1, after, like=longer)
+    return _merged(segmentation, (activities, primitives), level, after - 1, after, longer)
 
 
 def _merged(
-    segmentation: Segmentation, level: Level, first: int, last: int, *, like: int
+    segmentation: Segmentation,
+    both: tuple[Rows, Rows],
+    level: Level,
+    first: int,
+    last: int,
+    like: int,
 ) -> Segmentation:
-    activities, primitives = list(segmentation.activities), list(segmentation.primitives)
+    activities, primitives = both
     if level == "primitive":
         if primitives[first].activity != primitives[last].activity:
             border = activities[primitives[first].activity].stop_frame

@@ -7,12 +7,20 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, Level, Segment, kind_of
 
 Rows = list[Segment]
+
+
+def lanes(segmentation: Segmentation, level: Level) -> tuple[Rows, Rows, Rows]:
+    """The rows of a level, and those of activities and of primitives."""
+    names: tuple[Level, ...] = (level, "activity", "primitive")
+    found = {name: list(segmentation.level(name)) for name in dict.fromkeys(names)}
+    return found[level], found["activity"], found["primitive"]
 
 
 def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
@@ -130,9 +138,15 @@ def with_rows(
 ) -> Segmentation:
     """The same recording with these rows; seconds and parents follow from their frames."""
     rows = [*activities, *primitives]
-    columns = {name: [getattr(row, name) for row in rows] for name in COLUMNS if name != "activity"}
+    return with_columns(
+        segmentation, {name: [getattr(row, name) for row in rows] for name in COLUMNS}
+    )
+
+
+def with_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]) -> Segmentation:
+    """The same recording with these columns; seconds and parents follow from frames."""
     return Segmentation.from_columns(
-        columns,
+        {name: values for name, values in columns.items() if name != "activity"},
         n_frames=segmentation.n_frames,
         fps=segmentation.fps,
         provenance=segmentation.provenance,
