@@ -34,11 +34,13 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import msgspec
+import numpy as np
 from numpy.typing import NDArray
 
 from kineme._files import atomic_write
@@ -67,11 +69,11 @@ def dumps(segmentation: Segmentation) -> str:
     """The JSON text: small parts indented, one line per segment."""
     content = head_of(segmentation)
     levels = content.get("hierarchy", {}).pop("levels", [])
-    head = json.dumps(content, indent=2).removesuffix("\n}")
+    head = msgspec.json.format(json.dumps(content), indent=2).removesuffix("\n}")
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
         head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
-    rows = ",\n".join(f"    {row}" for row in _rows_as_text(segmentation.table))
+    rows = ",\n".join(_lines(segmentation.table))
     return f'{head},\n  "segments": [\n{rows}\n  ]\n}}\n'
 
 
@@ -82,7 +84,12 @@ def as_object(segmentation: Segmentation) -> dict[str, Any]:
 
 def read(path: Path) -> Segmentation:
     """The segmentation at ``path``."""
-    data = parse(path.read_text(encoding="utf-8-sig"), path)
+    return loads(path.read_bytes(), path)
+
+
+def loads(content: bytes, path: Path) -> Segmentation:
+    """The segmentation in what a file of that path holds."""
+    data = parse(content.decode("utf-8-sig"), path)
     rows = data.get("segments")
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise ReadError(path, '"segments" must be a list of objects')
@@ -91,8 +98,7 @@ def read(path: Path) -> Segmentation:
         missing = lacking(row)
         if missing:
             raise ReadError(path, f"segment {number} has no {missing[0]!r}")
-    columns = {name: [_value(row, name) for row in rows] for name in COLUMNS}
-    return with_head(columns, data, path)
+    return with_head({name: _column(rows, name) for name in COLUMNS}, data, path)
 
 
 def head_of(segmentation: Segmentation) -> dict[str, Any]:
@@ -172,23 +178,24 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
         if columns is None:
             tables[level["detail"]] = found.table
             continue
-        columns = {
-            name: [_or_nan(value, name) for value in values]
-            for name, values in present_names(columns).items()
-        }
+        columns = {name: _with_nan(values, name) for name, values in present_names(columns).items()}
         tables[level["detail"]] = Segmentation.from_columns(
             columns, n_frames=found.n_frames, fps=found.fps
         ).table
     return Hierarchy(tuple(tables), tuple(tables.values()), data["detail"])
 
 
-def _value(row: dict[str, Any], name: str) -> Any:
-    """A cell, or what holds where nothing is known: a number is null, an older file has none."""
-    return _or_nan(row.get(name, COLUMNS[name].default), name)
+def _column(rows: Sequence[Mapping[str, Any]], name: str) -> list[Any]:
+    """The cells of a column, or what holds where nothing is known, as in an older file."""
+    default = COLUMNS[name].default
+    return _with_nan([row.get(name, default) for row in rows], name)
 
 
-def _or_nan(value: Any, name: str) -> Any:
-    return math.nan if value is None and COLUMNS[name].type is float else value
+def _with_nan(values: list[Any], name: str) -> list[Any]:
+    """The cells of a column; a number that nobody knows is null in JSON."""
+    if COLUMNS[name].type is not float:
+        return values
+    return [math.nan if value is None else value for value in values]
 
 
 def _rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
@@ -197,19 +204,23 @@ def _rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
     return (dict(zip(COLUMNS, cells, strict=True)) for cells in zip(*columns, strict=True))
 
 
-def _rows_as_text(table: SegmentTable) -> Iterator[str]:
+def _lines(table: SegmentTable) -> Iterator[str]:
     """What `json.dumps` writes for each of `_rows`, column by column: tables have many rows."""
     columns = map(_as_text, table.columns().values())
-    line = "{" + ", ".join(f'"{name}": %s' for name in COLUMNS) + "}"
+    line = "    {" + ", ".join(f'"{name}": %s' for name in COLUMNS) + "}"
     return map(line.__mod__, zip(*columns, strict=True))
 
 
 def _as_text(column: NDArray[Any]) -> list[str]:
-    values = _values(column)
-    if column.dtype.kind != "U":
-        return json.dumps(values)[1:-1].split(", ") if values else []
-    quoted = {text: json.dumps(text) for text in {*values}}
-    return [quoted[text] for text in values]
+    values: list[Any] = column.tolist()
+    if column.dtype.kind == "U":
+        quoted = {text: json.dumps(text) for text in {*values}}
+        return [quoted[text] for text in values]
+    texts = msgspec.json.encode(values)[1:-1].decode().split(",") if values else []
+    size = np.abs(column)  # it is several times as fast, and writes other exponents
+    for row in np.flatnonzero((size > 0) & (size < 1e-4) | (size >= 1e16)).tolist():
+        texts[row] = json.dumps(values[row])
+    return texts
 
 
 def _values(column: NDArray[Any]) -> list[Any]:

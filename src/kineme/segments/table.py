@@ -166,16 +166,23 @@ COMMENT = "comment"
 """One more column of files: what people said about a segment, in tables that have comments."""
 
 
-def present_names(columns: Mapping[str, Values]) -> dict[str, Values]:
+OLDER = {column.earlier: name for name, column in COLUMNS.items() if column.earlier}
+"""Names of columns in older files, and those they have today."""
+NEEDED = [name for name, column in COLUMNS.items() if not column.optional]
+"""The columns that every segment table in a file has."""
+
+
+def present_names(columns: Mapping[str, Values]) -> Mapping[str, Values]:
     """Columns by the names that they have today, whatever they were called in older files."""
-    older = {column.earlier: name for name, column in COLUMNS.items() if column.earlier}
-    renamed = {name: columns[was] for was, name in older.items() if was in columns}
-    return renamed | {name: column for name, column in columns.items() if name not in older}
+    if OLDER.keys().isdisjoint(columns):
+        return columns
+    renamed = {name: columns[was] for was, name in OLDER.items() if was in columns}
+    return renamed | {name: column for name, column in columns.items() if name not in OLDER}
 
 
 def lacking(names: Container[str]) -> list[str]:
-    """The columns that every segment table in a file has, and these names have not."""
-    return [name for name, column in COLUMNS.items() if not column.optional and name not in names]
+    """The columns of `NEEDED` that are not among these names."""
+    return [name for name in NEEDED if name not in names]
 
 
 def kind_of(level: Level, *, transition: bool) -> Kind:

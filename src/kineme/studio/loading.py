@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from kineme._threads import asking
 from kineme.errors import MotionError, ParameterError, ReadError
 from kineme.methods.presets import DEFAULT
 from kineme.recordings import Motion, Skeleton
@@ -148,7 +149,7 @@ class LoadedRecording:
             segments = former[1]
         else:
             found = self.recording
-            with self.runs.one(run or Run(preset)) as present:
+            with self.runs.one(run or Run(preset)) as present, asking(present.go_on):
                 segments = segment(
                     found,
                     preset=preset,

@@ -205,7 +205,8 @@ class Recording(Struct, frozen=True, kw_only=True):
     where there are several, of whom ``person`` is this one: what has the same ``file`` is of the
     same time and space. ``levels`` are the tables at all details, coarsest first, in a report; the
     studio's server is asked for them.
-    While ``finding`` its segments are still to be found, and the table is a single transition.
+    While ``finding`` its segments are still to be found, and the table is a single transition;
+    while ``being_read`` its file is still being read, and few of its poses are here.
     ``ids`` say who each row of the table is, whatever edits made of it; a report has none.
     """
 
@@ -230,6 +231,7 @@ class Recording(Struct, frozen=True, kw_only=True):
     ids: list[str] = []
     saved: str
     finding: bool = False
+    being_read: bool = False
     warnings: list[str]
 
 

@@ -6,9 +6,11 @@ segment that holds its frame; so is what they leave out of means.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any, Literal
+
+from numpy.typing import NDArray
 
 from kineme.segments.annotation import Comment, Span
 from kineme.segments.editing.rows import starting
@@ -151,8 +153,9 @@ def span_of(row: Segment) -> Span:
 
 def marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
     """The segments that people vouch for in this sense."""
-    spans = {*getattr(segmentation.annotation, mark)}
-    return {span_of(row) for row in segmentation if span_of(row) in spans} if spans else set()
+    spans: set[Span] = {*getattr(segmentation.annotation, mark)}
+    table = segmentation.table
+    return spans.intersection(_columns(table.level, table.start_frame, table.stop_frame))
 
 
 def with_marked(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
@@ -163,8 +166,11 @@ def with_marked(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -
 
 def noted(before: Segmentation, after: Segmentation) -> Segmentation:
     """The segmentation after an edit, with what the edit made marked as made by hand."""
-    earlier = {(span_of(row), row.kind, row.cluster) for row in before}
-    made = {span_of(row) for row in after if (span_of(row), row.kind, row.cluster) not in earlier}
+    earlier, now = (
+        {*_columns(rows.level, rows.start_frame, rows.stop_frame, rows.kind, rows.cluster)}
+        for rows in (before.table, after.table)
+    )
+    made = {(level, start, stop) for level, start, stop, *_ in now - earlier}
     return with_marked(after, "by_hand", made | marked(after, "by_hand"))
 
 
@@ -186,6 +192,11 @@ def with_comments(segmentation: Segmentation, entries: list[Comment]) -> Segment
     """The same segments with these comments and no others."""
     annotation = replace(segmentation.annotation, comments=tuple(entries))
     return replace(segmentation, annotation=annotation)
+
+
+def _columns(*columns: NDArray[Any]) -> Iterator[tuple[Any, ...]]:
+    """The cells of each row in these columns; tables have many rows."""
+    return zip(*(column.tolist() for column in columns), strict=True)
 
 
 def _of(row: Segment, text: str) -> Comment:

@@ -11,9 +11,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from kineme.errors import ParameterError
-from kineme.segments.editing.rows import starting, with_rows
+from kineme.segments.editing.rows import starting, with_columns
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -135,26 +136,19 @@ def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> 
 
 def names_by_cluster(segmentation: Segmentation) -> dict[int, str]:
     """The names of clusters by number; empty for those that are said to have none."""
-    entries = segmentation.annotation.cluster_names
-    labels: dict[int, Counter[str]] = {}
-    for cluster, label in zip(
-        segmentation.table.cluster.tolist(), segmentation.table.label.tolist(), strict=True
-    ):
-        if cluster >= 0:
-            labels.setdefault(cluster, Counter())[label] += 1
-    names = {}
-    for cluster in sorted(labels):
-        (label, count), *_ = labels[cluster].most_common(1)
-        if cluster in entries:
-            names[cluster] = entries[cluster]
-        elif 2 * count > labels[cluster].total() and label:
-            names[cluster] = label
-    return names
+    clusters, labels = segmentation.table.cluster.tolist(), segmentation.table.label.tolist()
+    sizes = Counter(clusters)
+    called = Counter(zip(clusters, labels, strict=True)).items()
+    names = {
+        cluster: label for (cluster, label), count in called if label and 2 * count > sizes[cluster]
+    } | segmentation.annotation.cluster_names
+    return {cluster: names[cluster] for cluster in sorted(sizes) if 0 <= cluster in names}
 
 
 def members_of(segmentation: Segmentation, cluster: int) -> list[Segment]:
     """The segments of a cluster, of both levels."""
-    return [row for row in segmentation if row.cluster == cluster >= 0]
+    table = segmentation.table
+    return [*table.select(table.cluster == cluster)] if cluster >= 0 else []
 
 
 def changed(
@@ -162,8 +156,12 @@ def changed(
 ) -> Segmentation:
     """The members with other values in these columns."""
     chosen = {(level, row.start_frame) for level, row in members}
-    rows = [
-        replace(row, **columns) if (row.level, row.start_frame) in chosen else row  # type: ignore[arg-type]
-        for row in segmentation
-    ]
-    return with_rows(segmentation, rows, [])
+    table = segmentation.table
+    places = zip(table.level.tolist(), table.start_frame.tolist(), strict=True)
+    rows = [i for i, place in enumerate(places) if place in chosen]
+    values: dict[str, Any] = table.columns()
+    for name, value in columns.items():
+        values[name] = values[name].tolist()
+        for row in rows:
+            values[name][row] = value
+    return with_columns(segmentation, values)

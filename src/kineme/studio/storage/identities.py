@@ -13,7 +13,8 @@ Tables mostly have segments that never moved, so only the others are written dow
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from bisect import bisect, bisect_left
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import get_args
 
@@ -46,7 +47,16 @@ class Identities:
         >>> Identities().of(kineme.read_segments(bundled_truth(), fps=60))[:2]
         ['a:0', 'a:326']
         """
-        return [self.others.get(at, _identity(self.origin, at)) for at in _places(table)]
+        found: list[str] = []
+        for level in get_args(Level):
+            starts, first = table.level(level).start_frame.tolist(), len(found)
+            made = _identity(self.origin, level[0])
+            found += [f"{made}{start}" for start in starts]
+            for place, identity in self.others.items():
+                row = bisect_left(starts, int(place[1:]))
+                if place[0] == level[0] and row < len(starts) and starts[row] == int(place[1:]):
+                    found[first + row] = identity
+        return found
 
     def after(
         self, before: Segmentation, now: Segmentation, edit: str, *, replaced: bool = False
@@ -57,42 +67,47 @@ class Identities:
         where it did, and of the others who started nearest by.
         """
         edit = edit[:LONGEST_ORIGIN]
-        identities = dict(zip(_places(before), self.of(before), strict=True))
         if replaced:
             spans = {span_of(row) for row in before}
-            same = {at: at for row, at in zip(now, _places(now), strict=True)
+            same = {at: self._at(at) for row, at in zip(now, _places(now), strict=True)
                     if span_of(row) in spans}  # fmt: skip
-        else:
-            same = {}
-            for level in get_args(Level):
-                starts = (table.level(level).start_frame.tolist() for table in (before, now))
-                moves = descent(*starts).items()
-                same |= {f"{level[0]}{start}": f"{level[0]}{was}" for start, was in moves}
-        origin = edit if replaced else self.origin
-        others = {}
-        for at in _places(now):
-            former = same.get(at)
-            identity = _identity(edit, at) if former is None else identities[former]
-            if identity != _identity(origin, at):
-                others[at] = identity
-        return Identities(origin, others)
+            return Identities(edit, same)
+        others = dict(self.others)
+        for level in get_args(Level):
+            was, starts = (table.level(level).start_frame.tolist() for table in (before, now))
+            moves = descent(was, starts)
+            for start in {*was}.difference(starts):
+                others.pop(f"{level[0]}{start}", None)
+            for start in {*starts}.difference(was):
+                at, former = f"{level[0]}{start}", moves.get(start)
+                moved = None if former is None else self._at(f"{level[0]}{former}")
+                identity = moved or _identity(edit, at)
+                if identity != _identity(self.origin, at):
+                    others[at] = identity
+        return Identities(self.origin, others)
+
+    def _at(self, place: str) -> str:
+        """Who is at a place."""
+        return self.others.get(place) or _identity(self.origin, place)
 
 
-def descent(before: Sequence[int], now: Iterable[int]) -> dict[int, int]:
+def descent(before: Sequence[int], now: Sequence[int]) -> dict[int, int]:
     """Where the segments of a level that start at ``now`` started before; new ones are left out.
+
+    Both ascend.
 
     Examples
     --------
     >>> descent([0, 30, 60], [0, 40, 60, 80])
     {0: 0, 40: 30, 60: 60}
     """
-    now = list(now)
-    staying = set(before) & set(now)
-    moved = [start for start in before if start not in staying]
+    staying = sorted({*before}.intersection(now))
     found = {start: start for start in staying}
-    for start in (each for each in now if each not in staying):
-        low = max((each for each in staying if each < start), default=-1)
-        high = min((each for each in staying if each > start), default=math.inf)
+    moved = [start for start in before if start not in found]
+    for start in [each for each in now if each not in found]:
+        place = bisect(staying, start)
+        low = staying[place - 1] if place else -1
+        high = staying[place] if place < len(staying) else math.inf
         near = [each for each in moved if low < each < high]
         if near:
             found[start] = min(near, key=lambda each: abs(each - start))

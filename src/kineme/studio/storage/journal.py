@@ -25,8 +25,9 @@ from pathlib import Path
 
 import msgspec
 
+from kineme._files import reading
 from kineme.errors import ParameterError, ReadError
-from kineme.labels import read_segments
+from kineme.labels import json_table
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.identities import Identities
@@ -145,7 +146,7 @@ class Journal:
         """A table of the history; ReadError where it is not there any more."""
         if number in self._unsaved:
             return self._unsaved[number].table
-        return read_segments(self._path(number), format="json")
+        return self._kept(number)[1]
 
     def changed(
         self,
@@ -218,8 +219,15 @@ class Journal:
         write_record(self.folder, record)
 
     def _moved_to(self, history: History[int]) -> Change:
-        table = self.table(history.present)
-        return Change(replace(self._record, history=history), table, content_of(table))
+        content, table = self._kept(history.present)
+        return Change(replace(self._record, history=history), table, content)
+
+    def _kept(self, number: int) -> tuple[bytes, Segmentation]:
+        """What the file of a table holds; ReadError where it is not there any more, or damaged."""
+        path = self._path(number)
+        with reading(path):
+            content = path.read_bytes()
+            return content, json_table.loads(content, path)
 
     def _ids_of_another(self, table: Segmentation, digest: str) -> Identities:
         """Who the segments of a table are that another program put in the present one's place."""

@@ -19,15 +19,15 @@ const MIXES = [
   { share: 0.4, grey: 0 },
 ] as const;
 
+const COLORS = MIXES.flatMap(({ share, grey }) =>
+  PALETTE.map((color) =>
+    hex(channelsOf(color).map((channel) => halfToEven((1 - share) * channel + share * grey))),
+  ),
+);
+
 /** `#RRGGBB` of a cluster; grey for -1, which is none. */
 export function clusterColor(cluster: number): string {
-  if (cluster < 0) return NO_COLOR;
-  const color = PALETTE[cluster % PALETTE.length]!;
-  const { share, grey } = MIXES[Math.floor(cluster / PALETTE.length) % MIXES.length]!;
-  const mixed = channelsOf(color).map((channel) =>
-    halfToEven((1 - share) * channel + share * grey),
-  );
-  return hex(mixed);
+  return cluster < 0 ? NO_COLOR : COLORS[cluster % COLORS.length]!;
 }
 
 /**
@@ -59,12 +59,12 @@ export function labelColors(
 function freeColor(text: string, used: ReadonlySet<string>): string {
   let hash = 2166136261; // FNV-1a
   for (let i = 0; i < text.length; i++) hash = Math.imul(hash ^ text.charCodeAt(i), 16777619);
-  const all = PALETTE.length * MIXES.length;
-  for (let i = 0; i < all; i++) {
-    const color = clusterColor(((hash >>> 0) + i) % all);
+  hash >>>= 0;
+  for (let i = 0; i < COLORS.length; i++) {
+    const color = clusterColor(hash + i);
     if (!used.has(color)) return color;
   }
-  return clusterColor((hash >>> 0) % all);
+  return clusterColor(hash);
 }
 
 /** Black or white, whichever is easier to read on a colour. */

@@ -26,17 +26,26 @@ interface Part {
 }
 
 /** The confidence of each segment of a table. */
-export function confidenceOf(table: Segments): ReadonlyMap<Segment, Confidence> {
+export function confidenceOf(table: Segments): Confidences {
   let found = confidences.get(table);
-  if (!found) {
-    const around = new Around(table);
-    found = new Map(table.segments.map((segment) => [segment, new OfOne(segment, around)]));
-    confidences.set(table, found);
-  }
+  if (!found) confidences.set(table, (found = new Confidences(table)));
   return found;
 }
 
-const confidences = new WeakMap<Segments, ReadonlyMap<Segment, Confidence>>();
+/** The confidences of the segments of a table, each made when it is asked for. */
+class Confidences {
+  private readonly around: Around;
+
+  constructor(table: Segments) {
+    this.around = new Around(table);
+  }
+
+  get(segment: Segment): Confidence {
+    return new OfOne(segment, this.around);
+  }
+}
+
+const confidences = new WeakMap<Segments, Confidences>();
 
 /** What a segment is judged by besides its own row. */
 class Around {

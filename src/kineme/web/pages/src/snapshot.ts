@@ -55,7 +55,7 @@ export function snapshotOf(store: Store): Snapshot {
     range: store.range.value,
     revision: recording?.revision ?? 0,
     saved: recording?.saved ?? "",
-    n_segments: recording?.segmentation.segments.length ?? 0,
+    n_segments: store.table.value?.segments.length ?? 0,
     finding: recording?.finding ?? false,
     hasMotion: Boolean(store.active.value?.motion.value),
     other: store.others.value[0]?.name ?? null,

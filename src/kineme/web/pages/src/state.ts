@@ -3,7 +3,7 @@ import { computed, signal, type ReadonlySignal } from "@preact/signals";
 import { clusterColor, labelColors } from "./colors";
 import type { Level, Recording, Segment, Segments } from "./messages";
 import type { OpenRecording } from "./opened";
-import { clustersOf, laneOf, nearestBorder, segmentAt, type Cluster } from "./segments";
+import { clustersOf, labelSpans, laneOf, nearestBorder, segmentAt, type Cluster } from "./segments";
 import type { Span } from "./view";
 
 /** A border on its way to another frame. */
@@ -99,6 +99,10 @@ export class State {
     const same = this.opened.value.filter((each) => file && each.recording.value.file === file);
     return same.length > 1 ? same : [];
   });
+  /** Its segment table, the same one until an edit makes another of it. */
+  readonly table: ReadonlySignal<Segments | undefined> = computed(
+    () => this.recording.value?.segmentation,
+  );
   readonly fps = computed(() => this.recording.value?.fps ?? 1);
   readonly duration = computed(() => (this.recording.value?.n_frames ?? 0) / this.fps.value);
   readonly range: ReadonlySignal<Span> = computed(
@@ -107,16 +111,18 @@ export class State {
   readonly frame = computed(() => this.frameAt(this.playhead.value));
   readonly activities = computed(() => this.rows("activity"));
   readonly primitives = computed(() => this.rows("primitive"));
+  /** What is called how, when. */
+  readonly labels = computed(() => labelSpans(this.activities.value, this.primitives.value));
   /** The colour of each label of the result, and of those beside it. */
   readonly labelColors = computed(() =>
     labelColors([
-      ...(this.recording.value?.segmentation.segments ?? []),
+      ...(this.table.value?.segments ?? []),
       ...this.others.value.flatMap(({ segmentation }) => segmentation.segments),
       ...this.people.value.flatMap(({ recording }) => recording.value.segmentation.segments),
     ]),
   );
   readonly clusters: ReadonlySignal<Cluster[]> = computed(() =>
-    clustersOf(this.primitives.value, this.recording.value?.segmentation.cluster_names ?? {}),
+    clustersOf(this.primitives.value, this.table.value?.cluster_names ?? {}),
   );
   /** The cluster whose members and curves are shown. */
   readonly shownCluster = computed(() =>
@@ -156,7 +162,7 @@ export class State {
   }
 
   private rows(level: Level): Segment[] {
-    const recording = this.recording.value;
-    return recording ? laneOf(recording.segmentation, level) : [];
+    const table = this.table.value;
+    return table ? laneOf(table, level) : [];
   }
 }

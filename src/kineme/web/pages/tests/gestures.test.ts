@@ -38,7 +38,10 @@ beforeEach(() => {
     exclude: () => undefined,
   };
   const { activities, primitives } = store;
-  lanes = layOut({ activities: activities.value, primitives: primitives.value, others: [] }, 160);
+  lanes = layOut(
+    { activities: activities.value, primitives: primitives.value, labels: [], others: [] },
+    160,
+  );
   gestures = new Gestures(
     store,
     () => lanes,

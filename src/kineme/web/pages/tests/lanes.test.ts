@@ -4,11 +4,12 @@ import { segment, tableOf } from "./recordings";
 
 const primitives = [segment(0, 10), segment(10, 30), segment(30, 40)];
 const activities = [segment(0, 40, { level: "activity" })];
+const shown = { activities, primitives, labels: [] };
 
 test("lanes lie below each other and within the height", () => {
   const other = { name: "by hand", segmentation: tableOf(primitives) };
   for (const others of [[], [other], [other, other]]) {
-    const lanes = layOut({ activities, primitives, others }, 160);
+    const lanes = layOut({ ...shown, others }, 160);
     expect(lanes).toHaveLength(3 + 2 * others.length);
     lanes.slice(1).forEach((lane, i) => {
       expect(lane.top).toBeGreaterThanOrEqual(lanes[i]!.top + lanes[i]!.height);
@@ -25,7 +26,7 @@ test("people have lanes below each other, the one in front those to edit", () =>
     { name: "Bob", index: 1, segmentation: null },
     { name: "Eve", index: 2, segmentation: tableOf(activities) },
   ];
-  const lanes = layOut({ activities, primitives, others: [], people }, 160);
+  const lanes = layOut({ activities, primitives, labels: [], others: [], people }, 160);
   expect(lanes.map(({ title }) => title)).toEqual([
     "Anna",
     "",
@@ -72,10 +73,9 @@ test("a dragged border leaves of both of its segments what can be seen", () => {
 test("borders that only one of two results has are marked, in both", () => {
   const theirs = tableOf([segment(0, 12), segment(12, 30), segment(30, 40)]);
   const marks = (marked: boolean) =>
-    layOut(
-      { activities, primitives, others: [{ name: "", segmentation: theirs, marked }] },
-      160,
-    ).map((lane) => [...lane.differences]);
+    layOut({ ...shown, others: [{ name: "", segmentation: theirs, marked }] }, 160).map((lane) => [
+      ...lane.differences,
+    ]);
   expect(marks(true)).toEqual([[0], [10], [], [], [12]]);
   expect(marks(false).flat()).toEqual([]);
 });
@@ -83,7 +83,7 @@ test("borders that only one of two results has are marked, in both", () => {
 test("several people have a lane each, and one more where they have primitives", () => {
   const one = { name: "Anna", segmentation: tableOf(activities) };
   const two = { name: "Ben", segmentation: tableOf([...activities, ...primitives]) };
-  const lanes = layOut({ activities, primitives, others: [one, two] }, 160);
+  const lanes = layOut({ ...shown, others: [one, two] }, 160);
   expect(lanes.slice(3).map(({ id, title }) => [id, title])).toEqual([
     ["other-activity-0", "Anna"],
     ["other-activity-1", "Ben"],

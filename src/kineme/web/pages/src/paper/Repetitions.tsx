@@ -8,7 +8,7 @@ import { repetitionsOf } from "./repetitions";
 
 export function Repetitions(): JSX.Element | null {
   const store = useStore();
-  const table = store.recording.value?.segmentation;
+  const table = store.table.value;
   const rows = table ? repetitionsOf(table) : [];
   if (!rows.length) return <p class="empty quiet">Nothing repeats itself here.</p>;
   const out = rows.reduce((sum, { leftOut }) => sum + leftOut.filter(Boolean).length, 0);

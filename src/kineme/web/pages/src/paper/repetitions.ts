@@ -16,10 +16,15 @@ export interface Repeated {
 
 /** The activities in time order; of those that nothing is known to repeat in, none. */
 export function repetitionsOf(table: Segments): Repeated[] {
-  const lane = laneOf(table, "activity");
-  const primitives = laneOf(table, "primitive");
-  return lane.flatMap((activity, number) => {
-    const rows = primitives.filter((row) => row.activity === number && row.kind === "primitive");
+  const inside = new Map<number, Segment[]>();
+  for (const row of laneOf(table, "primitive")) {
+    if (row.kind !== "primitive") continue;
+    const others = inside.get(row.activity);
+    if (others) others.push(row);
+    else inside.set(row.activity, [row]);
+  }
+  return laneOf(table, "activity").flatMap((activity, number) => {
+    const rows = inside.get(number) ?? [];
     if (activity.kind === "transition" || !rows.length) return [];
     const durations = rows.map(durationOf);
     const leftOut = rows.map((row) => isExcluded(table.annotation, row));

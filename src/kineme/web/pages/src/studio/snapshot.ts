@@ -9,8 +9,8 @@ export function exposeStudio(session: Session): void {
       Object.freeze({
         ...snapshotOf(store),
         recordings: store.opened.value.map((opened) => opened.recording.value.name),
-        segments: store.recording.value?.segmentation.segments ?? [],
-        checked: store.recording.value?.segmentation.checked ?? [],
+        segments: store.table.value?.segments ?? [],
+        checked: store.table.value?.checked ?? [],
         selected: store.selected.value ?? null,
         unsent: session.unsent.value,
         refused: session.refused.value.flatMap((edited) => edited.refused.value),

@@ -34,6 +34,7 @@ export function Timeline(): JSX.Element {
   const given = (): Parameters<typeof layOut>[0] => ({
     activities: store.activities.value,
     primitives: store.primitives.value,
+    labels: store.labels.value,
     others: store.others.value,
     people: store.people.value.map(({ recording: { value } }) => ({
       name: personCalled(value.person ?? value.name),
@@ -53,7 +54,7 @@ export function Timeline(): JSX.Element {
               store.bounds.value,
               store.labelColors.value,
               store.edits.value,
-              store.recording.value,
+              store.table.value,
             ];
           }}
           draw={(pen, width, height) => {

@@ -54,7 +54,7 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
   const [from, to] = visible(segments, range.start_s, range.stop_s);
   const hovered = store.hovered.value;
   const edge = cssColor("edge");
-  const rows = store.recording.value?.segmentation;
+  const rows = store.table.value;
   const checked = new Set(
     lane.level ? rows?.checked.map((row) => rows.segments[row]!) : [], // none while it is dragged
   );

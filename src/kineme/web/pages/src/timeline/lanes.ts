@@ -1,6 +1,6 @@
 /** Which lanes the timeline has, and where; pure functions. */
 import type { Level, Segment, Segments } from "../messages";
-import { durationOf, indexAt, labelSpans, laneOf } from "../segments";
+import { durationOf, indexAt, laneOf } from "../segments";
 
 export interface Lane {
   id: string;
@@ -34,6 +34,7 @@ const BETWEEN = 7; // people
 interface Given {
   activities: readonly Segment[];
   primitives: readonly Segment[];
+  labels: readonly Segment[];
   others: readonly { name: string; segmentation: Segments; marked?: boolean }[];
   /** Those of the file who are open, where they are several, from top to bottom. */
   people?: readonly PersonLanes[];
@@ -83,7 +84,7 @@ function lanesOfPerson(person: PersonLanes, given: Given, above: number): Row[] 
     .map((row, i) => (i ? row : { ...row, title: name, above }));
 }
 
-function lanesInFront({ activities, primitives, others }: Given): Row[] {
+function lanesInFront({ activities, primitives, labels, others }: Given): Row[] {
   const below = others.map(({ name, segmentation, marked }) => ({
     name,
     marked,
@@ -117,7 +118,7 @@ function lanesInFront({ activities, primitives, others }: Given): Row[] {
       ...shared,
       id: "label",
       title: "Labels",
-      segments: labelSpans(activities, primitives),
+      segments: labels,
       level: null,
       share: 0.7,
       differences: NONE,

@@ -30,8 +30,10 @@ afterEach(cleanup);
 /** Where the primitives are at a frame. */
 function at(frame: number): PointerEventInit {
   const { activities, primitives } = page.store;
-  const given = { activities: activities.value, primitives: primitives.value, others: [] };
-  const lane = layOut(given, HEIGHT).find(({ id }) => id === "primitive")!;
+  const shown = { activities: activities.value, primitives: primitives.value };
+  const lane = layOut({ ...shown, labels: [], others: [] }, HEIGHT).find(
+    ({ id }) => id === "primitive",
+  )!;
   const clientX = GUTTER + ((WIDTH - GUTTER) * frame) / FRAMES;
   return { clientX, clientY: lane.top + lane.height / 2, button: 0, pointerId: 1 };
 }

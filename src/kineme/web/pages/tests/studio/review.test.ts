@@ -56,7 +56,7 @@ it("has one number for a segment, wherever that is shown", () => {
   ]);
   const [doubt] = doubtsOf(found);
   const [first] = rowsOf(found, EVERYTHING, "confidence", false);
-  const { short, text, why } = confidenceOf(found).get(found.segments[0]!)!;
+  const { short, text, why } = confidenceOf(found).get(found.segments[0]!);
   expect([short, text]).toEqual(["19 %", "confidence 19 %"]);
   expect([doubt!.segment, doubt!.short]).toEqual([found.segments[0], short]);
   expect([first!.segment, first!.confidence.short]).toEqual([found.segments[0], short]);

@@ -58,7 +58,7 @@ export function LoopsDialog({ close }: Props): JSX.Element {
       problem.value = explain(error);
     }
   };
-  const segments = store.recording.value?.segmentation.segments ?? [];
+  const segments = store.table.value?.segments ?? [];
   const shown = playing.value === null ? undefined : segments[playing.value];
   return (
     <Dialog title="Repetitions as loops" close={close}>

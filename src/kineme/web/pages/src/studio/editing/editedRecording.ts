@@ -17,7 +17,7 @@ import { type Api, Refused, Unreachable } from "../server/api";
 import { changedBy } from "./changes";
 import { madeOn, readdressed, type IdentifiedTable } from "./identities";
 import { Outlook } from "./outlook";
-import { replacesTable, undoneBy } from "./story";
+import { isSame, replacesTable, undoneBy } from "./story";
 import { store, takeOver, type Unsent } from "./unsent";
 import { foundIn, inWords, isLoss } from "./words";
 
@@ -235,8 +235,7 @@ export class EditedRecording {
       const made = this.whenMade.get(name);
       this.whenMade.delete(name);
       batch(() => {
-        this.outlook.confirm(first, this.confirmed.peek(), now);
-        this.confirmed.value = now;
+        this.confirmed.value = this.outlook.confirm(first, this.confirmed.peek(), now);
         this.advance();
         made?.();
       });
@@ -304,8 +303,8 @@ export class EditedRecording {
   private async reconsider(before: Recording, reason: string): Promise<boolean> {
     if (!(await this.reload())) return false;
     const now = this.confirmed.peek();
-    const rows = (each: Recording) => JSON.stringify(each.segmentation.segments);
-    const same = rows(now) === rows(before) && now.revision !== before.revision;
+    const isOther = now.revision !== before.revision;
+    const same = isOther && isSame(now.segmentation.segments, before.segmentation.segments);
     if (same) this.rebase();
     else this.hold(reason);
     return same;

@@ -20,25 +20,43 @@ const LONGEST_ORIGIN = 8;
 /** Who the rows of a table are that an edit makes of another. */
 export function idsAfter(before: IdentifiedTable, now: Segments, name: string): string[] {
   const rows = before.segmentation.segments;
-  const mine = new Map(rows.map((row, i) => [placeOf(row), before.ids[i]!]));
-  const same = new Map<string, string>();
-  for (const level of ["activity", "primitive"] as const)
-    for (const [start, was] of descent(startsOf(rows, level), startsOf(now.segments, level)))
-      same.set(`${level[0]}${start}`, `${level[0]}${was}`);
+  const former = {
+    activity: formerly(rows, before.ids, now, "activity"),
+    primitive: formerly(rows, before.ids, now, "primitive"),
+  };
   const made = ({ level, start_frame }: Segment): string =>
     `${level[0]}${name.slice(0, LONGEST_ORIGIN)}:${start_frame}`;
-  return now.segments.map((row) => mine.get(same.get(placeOf(row)) ?? "") ?? made(row));
+  return now.segments.map((row) => former[row.level].get(row.start_frame) ?? made(row));
+}
+
+/** Who the segments of a level were before, by where they start now. */
+function formerly(
+  rows: readonly Segment[],
+  ids: readonly string[],
+  now: Segments,
+  level: Level,
+): Map<number, string> {
+  const mine = new Map<number, string>();
+  rows.forEach((row, i) => row.level === level && mine.set(row.start_frame, ids[i]!));
+  const found = new Map<number, string>();
+  for (const [start, was] of descent([...mine.keys()], startsOf(now.segments, level)))
+    found.set(start, mine.get(was)!);
+  return found;
 }
 
 /** Where the segments that start now started before; new ones are left out. */
 export function descent(before: readonly number[], now: readonly number[]): Map<number, number> {
   const starts = new Set(before);
-  const staying = new Set(now.filter((start) => starts.has(start)));
-  const found = new Map([...staying].map((start) => [start, start]));
-  let moved = before.filter((start) => !staying.has(start));
-  for (const start of now.filter((each) => !staying.has(each))) {
-    const low = Math.max(-1, ...[...staying].filter((each) => each < start));
-    const high = Math.min(Infinity, ...[...staying].filter((each) => each > start));
+  const staying = now.filter((start) => starts.has(start));
+  const found = new Map(staying.map((start) => [start, start]));
+  let moved = before.filter((start) => !found.has(start));
+  let next = 0; // of those that stay, the first after the one that is looked at
+  for (const start of now) {
+    if (starts.has(start)) {
+      next += 1;
+      continue;
+    }
+    const [low, high] = [staying[next - 1] ?? -1, staying[next] ?? Infinity];
     const near = moved.filter((each) => low < each && each < high);
     if (!near.length) continue;
     const far = (each: number): number => Math.abs(each - start);
@@ -151,10 +169,6 @@ function countOf(edit: ByHand): number {
 
 function isAt(row: Segment, { level, frame, end }: Place): boolean {
   return row.level === level && frame === (end === "start" ? row.start_frame : row.stop_frame);
-}
-
-function placeOf({ level, start_frame }: Segment): string {
-  return `${level[0]}${start_frame}`;
 }
 
 function startsOf(rows: readonly Segment[], level: Level): number[] {

@@ -32,17 +32,22 @@ export class Outlook {
     return before === after && this.made.get(unsent.at(-1)!.name)?.to !== null;
   }
 
-  /** The server has made an edit of a table; `now` is what it made. */
-  confirm({ name, edit }: Unsent, before: Recording, now: Recording): void {
+  /**
+   * The server has made an edit of a table; `now` is what it made. Where that is what was foreseen,
+   * the table that is shown stays the one it is: nothing that follows from it is done again.
+   */
+  confirm({ name, edit }: Unsent, before: Recording, now: Recording): Recording {
     const from = this.storyAt(before);
     const table: IdentifiedTable = { segmentation: now.segmentation, ids: now.ids ?? [] };
     const next = now.revision === before.revision + 1;
-    const story = next ? withPresent(from, edit, table) : storyOf(table);
-    const guess = this.made.get(name);
+    const step = this.made.get(name);
     this.made.delete(name);
-    if (guess?.to && guess.from === from && isSame(guess.to.present, table))
-      for (const each of this.made.values()) if (each.from === guess.to) each.from = story;
-    this.latest = { of: now.segmentation, story };
+    const guess = next && step?.from === from ? step.to : null;
+    const made = next ? withPresent(from, edit, table) : storyOf(table);
+    const story = guess && isSame(guess.present, table) ? guess : made;
+    const { segmentation, ids } = story.present;
+    this.latest = { of: segmentation, story };
+    return { ...now, segmentation, ids: [...ids] };
   }
 
   /** Where the edits lead, one after the other, from what is confirmed on. */

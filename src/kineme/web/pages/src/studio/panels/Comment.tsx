@@ -9,7 +9,7 @@ interface Props {
 
 export function Comment({ segment }: Props): JSX.Element {
   const { session, editor } = useStudio();
-  const comments = session.store.recording.value?.segmentation.comments ?? [];
+  const comments = session.store.table.value?.comments ?? [];
   const text = comments
     .filter(({ level, frame }) => level === segment.level && isIn(frame, segment))
     .map((each) => each.text)

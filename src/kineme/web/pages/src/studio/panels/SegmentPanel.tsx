@@ -17,10 +17,10 @@ export function SegmentPanel(): JSX.Element {
   const segment = editor.segment.value;
   if (!segment) return <p class="hint quiet">Open a recording to see its segments.</p>;
   const { store } = session;
-  const called = store.recording.value?.segmentation.cluster_names[segment.cluster] ?? "";
+  const called = store.table.value?.cluster_names[segment.cluster] ?? "";
   const label = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
-  const table = store.recording.value?.segmentation;
+  const table = store.table.value;
   const confidence = table && confidenceOf(table).get(segment);
   return (
     <div class="segment-panel">
@@ -94,11 +94,11 @@ export function SegmentPanel(): JSX.Element {
 
 function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
   const { session, editor } = useStudio();
-  const rows = session.store.recording.value?.segmentation.segments ?? [];
+  const rows = session.store.table.value?.segments ?? [];
   const next = rows.reduce((most, row) => Math.max(most, row.cluster), -1) + 1;
   const clusters = new Set([-1, next, ...rows.map((row) => row.cluster)]);
   const title = (id: number): string => {
-    const label = session.store.recording.value?.segmentation.cluster_names[id];
+    const label = session.store.table.value?.cluster_names[id];
     if (id < 0) return "none";
     if (id === next) return `${id} (new)`;
     return label ? `${id}: ${label}` : String(id);
@@ -122,7 +122,7 @@ function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
 
 /** How many segments the name of a cluster is for, and how many keep their own. */
 function bulkOf(session: Session, cluster: number): string {
-  const table = session.store.recording.value?.segmentation;
+  const table = session.store.table.value;
   const called = table?.cluster_names[cluster] ?? "";
   const members = table?.segments.filter((row) => row.cluster === cluster) ?? [];
   const named = members.filter((row) => row.label && row.label !== called).length;
@@ -166,6 +166,6 @@ function NameField({ title, placeholder, value, names, naming, onName }: NamePro
 }
 
 function namesOf(session: Session): string[] {
-  const rows = session.store.recording.value?.segmentation.segments ?? [];
+  const rows = session.store.table.value?.segments ?? [];
   return [...new Set(rows.map((row) => row.label))].filter(Boolean).sort();
 }

@@ -14,7 +14,7 @@ const MOST = 100; // rows; the rest comes when these are checked
 export function ReviewPanel(): JSX.Element {
   const { session, review } = useStudio();
   const { store } = session;
-  const table = store.recording.value?.segmentation;
+  const table = store.table.value;
   if (!table) return <p class="hint quiet">Open a recording to look through its segments.</p>;
   const doubts = review.doubts.value;
   const present = review.present.value;

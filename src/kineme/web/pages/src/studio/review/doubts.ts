@@ -13,7 +13,7 @@ export function doubtsOf(table: Segments): Doubt[] {
   const confidences = confidenceOf(table);
   return table.segments
     .filter((_, row) => !checked.has(row))
-    .map((segment) => new OfOne(segment, confidences.get(segment)!))
+    .map((segment) => new OfOne(segment, confidences.get(segment)))
     .sort((a, b) => (a.value ?? 2) - (b.value ?? 2) || before(a.segment, b.segment));
 }
 

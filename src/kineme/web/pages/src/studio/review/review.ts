@@ -15,7 +15,7 @@ export class Review {
   readonly queue: FolderQueue;
   readonly offer: NameOffer;
   readonly doubts = computed<Doubt[]>(() => {
-    const table = this.session.store.recording.value?.segmentation;
+    const table = this.session.store.table.value;
     return table ? doubtsOf(table) : [];
   });
   /** What is looked at, and why; null once the playhead has left it. */
@@ -80,7 +80,8 @@ export class Review {
   }
 
   isChecked(segment: Segment): boolean {
-    return !this.doubts.value.some((doubt) => same(doubt.segment, segment));
+    const table = this.session.store.table.value;
+    return table?.checked.some((row) => same(table.segments[row]!, segment)) ?? false;
   }
 }
 

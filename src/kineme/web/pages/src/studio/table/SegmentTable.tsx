@@ -34,7 +34,7 @@ export function SegmentTable(): JSX.Element {
   const rows = useMemo(
     () =>
       computed(() => {
-        const table = store.recording.value?.segmentation;
+        const table = store.table.value;
         return table ? rowsOf(table, filter.value, ...order.value) : [];
       }),
     [store, filter, order],

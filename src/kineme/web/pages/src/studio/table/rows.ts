@@ -45,7 +45,7 @@ export function rowsOf(table: Segments, filter: Filter, order: Order, down: bool
       segment,
       number,
       checked: checked.has(number),
-      confidence: confidences.get(segment)!,
+      confidence: confidences.get(segment),
     }))
     .filter((row) => passes(row, filter));
   const sign = down ? -1 : 1;

@@ -1,9 +1,9 @@
 /** What an edit will make of a table, before the server has said so. */
-import type { ByHand, Edit, Segments } from "../../../messages";
+import type { ByHand, Edit, Segment, Segments } from "../../../messages";
 import { deleteBorder, merge, moveBorder, split } from "./borders";
 import { mergeClusters, orderClusters, setCluster, setKind, splitCluster } from "./clusters";
 import { nameCluster, nameSegment, namesIn } from "./names";
-import { check, comment, commentsIn, exclude, keyOf, markedIn, noted } from "./notes";
+import { check, comment, commentsIn, exclude, markedIn, noted } from "./notes";
 import { allRows, draftOf, Impossible, type Draft } from "./rows";
 
 /**
@@ -67,16 +67,18 @@ function made(draft: Draft, edit: ByHand): Draft {
 /** The message of a table, with what follows from its rows and its annotation. */
 export function tableOf(before: Segments, draft: Draft): Segments {
   const segments = [...allRows(draft)];
-  const [checked, byHand] = [markedIn(draft, "checked"), markedIn(draft, "by_hand")];
-  const among = (keys: ReadonlySet<string>): number[] =>
-    segments.flatMap((row, i) => (keys.has(keyOf(row)) ? [i] : []));
+  const numbered = (marked: ReadonlySet<Segment>): number[] => {
+    const numbers: number[] = [];
+    segments.forEach((row, i) => marked.has(row) && numbers.push(i));
+    return numbers;
+  };
   return {
     ...before,
     annotation: draft.annotation,
     segments,
     cluster_names: Object.fromEntries([...namesIn(draft)].filter(([, name]) => name)),
-    checked: among(checked),
-    by_hand: among(byHand),
+    checked: numbered(markedIn(draft, "checked")),
+    by_hand: numbered(markedIn(draft, "by_hand")),
     comments: commentsIn(draft).map(([level, frame, text]) => ({ level, frame, text })),
   };
 }

@@ -1,6 +1,6 @@
 /** What people vouch for and say of segments, as `annotating.py` has it. */
 import type { Annotation, Level, Segment } from "../../../messages";
-import { allRows, starting, type Draft } from "./rows";
+import { allRows, starting, startingAt, type Draft } from "./rows";
 
 type Mark = "by_hand" | "checked";
 type Span = Annotation[Mark][number];
@@ -12,10 +12,11 @@ export function check(
   frames: readonly number[],
   checked: boolean,
 ): Draft {
-  const chosen = frames.map((frame) => keyOf(starting(draft, level, frame)));
-  const before = [...markedIn(draft, "checked")];
-  const keys = checked ? [...before, ...chosen] : before.filter((each) => !chosen.includes(each));
-  return withAnnotation(draft, "checked", new Set(keys));
+  const marked = markedIn(draft, "checked");
+  for (const row of frames.map((frame) => starting(draft, level, frame)))
+    if (checked) marked.add(row);
+    else marked.delete(row);
+  return withMarked(draft, "checked", marked);
 }
 
 export function comment(draft: Draft, level: Level, frame: number, text: string): Draft {
@@ -35,23 +36,22 @@ export function exclude(draft: Draft, frames: readonly number[], excluded: boole
 
 /** The table with what an edit made of it marked as made by hand, and the edit counted. */
 export function noted(before: Draft, after: Draft): Draft {
-  const rowKey = (row: Segment): string => `${keyOf(row)} ${row.kind} ${row.cluster}`;
-  const earlier = new Set(allRows(before).map(rowKey));
-  const made = allRows(after).filter((row) => !earlier.has(rowKey(row)));
-  const keys = new Set([...made.map(keyOf), ...markedIn(after, "by_hand")]);
-  const now = withAnnotation(after, "by_hand", keys);
+  const marked = markedIn(after, "by_hand");
+  const earlier = new Set(without(before, after).map(keyOf));
+  for (const row of without(after, before)) if (!earlier.has(keyOf(row))) marked.add(row);
+  const now = withMarked(after, "by_hand", marked);
   const corrections = before.annotation.corrections + 1;
   return { ...now, annotation: { ...now.annotation, corrections } };
 }
 
 /** The segments that carry a mark: those that have exactly the frames that were marked. */
-export function markedIn(draft: Draft, mark: Mark): Set<string> {
-  const keys = new Set(draft.annotation[mark].map((each) => each.join(" ")));
-  return new Set(
-    allRows(draft)
-      .map(keyOf)
-      .filter((each) => keys.has(each)),
-  );
+export function markedIn(draft: Draft, mark: Mark): Set<Segment> {
+  const found = new Set<Segment>();
+  for (const [level, start, stop] of draft.annotation[mark]) {
+    const row = startingAt(draft[level], start);
+    if (row?.stop_frame === stop) found.add(row);
+  }
+  return found;
 }
 
 export function commentsIn(draft: Draft): Comment[] {
@@ -60,15 +60,20 @@ export function commentsIn(draft: Draft): Comment[] {
   );
 }
 
-export function keyOf({ level, start_frame, stop_frame }: Segment): string {
-  return `${level} ${start_frame} ${stop_frame}`;
+/** The rows of one that are none of the other: edits leave what they do not touch. */
+function without(draft: Draft, other: Draft): Segment[] {
+  const others = new Set(allRows(other));
+  return allRows(draft).filter((row) => !others.has(row));
 }
 
-function withAnnotation(draft: Draft, mark: Mark, keys: ReadonlySet<string>): Draft {
-  const spans = [...keys].map((each): Span => {
-    const [level, start, stop] = each.split(" ");
-    return [level as Level, Number(start), Number(stop)];
-  });
+function keyOf({ level, start_frame, stop_frame, kind, cluster }: Segment): string {
+  return `${level} ${start_frame} ${stop_frame} ${kind} ${cluster}`;
+}
+
+function withMarked(draft: Draft, mark: Mark, marked: ReadonlySet<Segment>): Draft {
+  const spans = allRows(draft)
+    .filter((row) => marked.has(row))
+    .map(({ level, start_frame, stop_frame }): Span => [level, start_frame, stop_frame]);
   return { ...draft, annotation: { ...draft.annotation, [mark]: spans } };
 }
 

@@ -49,9 +49,15 @@ export function eachRow(draft: Draft, change: (row: Segment) => Segment): Draft 
 }
 
 export function starting(draft: Draft, level: Level, frame: number): Segment {
-  const found = draft[level].find((row) => row.start_frame === frame);
+  const found = startingAt(draft[level], frame);
   if (!found) throw new Impossible();
   return found;
+}
+
+/** The row that starts at a frame, if one does. */
+export function startingAt(rows: Rows, frame: number): Segment | undefined {
+  const row = rows[indexAt(rows, frame)];
+  return row?.start_frame === frame ? row : undefined;
 }
 
 /** The border at `frame` stands at `to`. */
