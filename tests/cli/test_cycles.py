@@ -74,6 +74,12 @@ def test_several_recordings_are_measured_together(kineme, take: Path, tmp_path: 
     assert "<h1>take → other</h1>" in (tmp_path / "both.html").read_text(encoding="utf-8")
     alone = kineme("cycles", "take.bvh", "--compare", "both.csv")
     assert alone.returncode == 2
+    unnamed = kineme(
+        "cycles", "take.bvh", "other.bvh", "--compare", "both.csv", "--plot", "unnamed.png"
+    )
+    assert unnamed.returncode == 1
+    assert "name clusters alike, or say with --common" in unnamed.stderr
+    assert (tmp_path / "unnamed.png").exists()
 
 
 def test_an_anchor_begins_each_cycle(kineme, take: Path) -> None:

@@ -50,6 +50,15 @@ def test_it_has_the_numbers_of_the_table(squats: tuple[Cycles, Cycles], tmp_path
     assert "Left beside right" in page
 
 
+def test_it_says_what_was_left_out_and_where(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
+    sessions = squats[0], squats[1].exclude([2])
+    write_sessions(*sessions, tmp_path / "sheet.html", names=("May", "June"))
+    page = text_of(tmp_path / "sheet.html")
+    assert "; 1 of June left out (by hand)." in page
+    assert "of May left out" not in page
+    assert "(means of 4 and 3)" in page
+
+
 def test_it_is_whole_and_texts_stay_texts(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
     write_sessions(*squats, tmp_path / "sheet.html", names=(EVIL, "_June"))
     page = text_of(tmp_path / "sheet.html")

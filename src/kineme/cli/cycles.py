@@ -227,10 +227,8 @@ def _excluded(cycles: Cycles, rules: list[str]) -> Cycles:
 
 
 def _sessions(cycles: Cycles) -> list[Cycles]:
-    """The cycles of each of two recordings."""
+    """The cycles of each recording that has some."""
     names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
-    if len(names) < 2:
-        raise ParameterError("there are no repetitions in both recordings to compare")
     return [cycles.select(cycles.columns["recording"] == name) for name in names]
 
 
@@ -240,6 +238,8 @@ def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
     from kineme.report.page import SUFFIXES as PAGES
     from kineme.report.sessions import write_sessions
 
+    if len(sessions) < 2:
+        raise ParameterError("there are no repetitions in both recordings to compare")
     first, second = sessions
     if path.suffix.lower() in PAGES:
         write_sessions(first, second, path, ends=ends)
@@ -273,7 +273,7 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
     if sides and pairs:
         panels = [(plot_sides, (cycles, *pair, group)) for pair in pairs for group in groups]
         columns = len(groups)
-    elif sessions:
+    elif len(sessions) == 2 and {*sessions[0].groups} & {*sessions[1].groups}:
         curves = compare_curves(*sessions, ends=ends)
         groups = list(dict.fromkeys(curves["group"].tolist()))
         panels = [(plot_sessions, (curves, name, group)) for name in channels for group in groups]

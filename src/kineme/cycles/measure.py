@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -128,13 +129,26 @@ def cycles(
     columns = _columns(found, tables, names, groups)
     curves = np.empty((len(found), len(measured[0]), points))
     _measure([(each.recording, each.start, each.stop) for each in found], measured, columns, curves)
-    return Cycles(
+    cycles = Cycles(
         columns,
         tuple(channel.name for channel in measured[0]),
         tuple(channel.unit for channel in measured[0]),
         _in_step(curves, columns, align),
         _provenance(given, tables, measured[0], found, columns, align),
     )
+    return with_left_out(cycles, tables)
+
+
+def with_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
+    """The same without those that people left out, as the annotations of their tables say."""
+    left_out = [
+        table.annotation.excludes(row.start_frame, row.stop_frame)
+        for table in tables
+        for row in table.primitives
+        if row.kind == "primitive"
+    ]
+    reasons = np.where(np.array(left_out, bool), BY_HAND, cycles.columns["excluded"])
+    return replace(cycles, columns={**cycles.columns, "excluded": reasons})
 
 
 def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
@@ -288,15 +302,10 @@ def _columns(
             [tables[e.recording].activities.confidence[e.segment.activity] for e in found],
             np.float64,
         ),
-        "excluded": np.array([_reason(each, tables[each.recording]) for each in found], np.str_),
+        "excluded": np.array(
+            [each.missing or ("" if each.complete else INCOMPLETE) for each in found], np.str_
+        ),
     }
-
-
-def _reason(each: Repetition, table: Segmentation) -> str:
-    """Why a repetition counts in no mean, or nothing."""
-    if table.annotation.excludes(each.segment.start_frame, each.segment.stop_frame):
-        return BY_HAND
-    return each.missing or ("" if each.complete else INCOMPLETE)
 
 
 def _measure(

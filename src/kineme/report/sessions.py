@@ -8,6 +8,7 @@ repetitions and the channels whose ranges changed most surely. It says what it l
 from __future__ import annotations
 
 from base64 import b64encode
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
@@ -164,8 +165,12 @@ def _page(sheet: Sheet) -> str:
 
 def _counts(sheet: Sheet) -> str:
     kind = "all repetitions" if sheet.ends else "inner repetitions, without first and last ones"
-    out = sum(int((each.columns["excluded"] != "").sum()) for each in sheet.sessions)
-    left_out = f"; {counted(out, 'repetition')} left out" if out else ""
+    left_out = "".join(
+        f"; {count} of {escape(name)} left out ({escape(reason)})"
+        for name, cycles in zip(sheet.names, sheet.sessions, strict=True)
+        for reason, count in Counter(cycles.columns["excluded"].tolist()).items()
+        if reason
+    )
     return f"Means ± standard deviations of {kind}{left_out}"
 
 

@@ -18,6 +18,7 @@ from msgspec import structs
 from numpy.typing import NDArray
 
 from kineme.recordings import Motion, Signals
+from kineme.segments.annotation import NO_ANNOTATION
 from kineme.segments.segmentation import Segmentation
 from kineme.web.messages import (
     ClusterCurves,
@@ -75,7 +76,7 @@ class CycleCurves:
         self._values: OrderedDict[str, Channel] = OrderedDict()
         self._table: Segmentation | None = None
         self._cycles: Cycles | None = None
-        self._both: tuple[tuple[Segmentation, Segmentation], tuple[Cycles, Cycles]] | None = None
+        self._both: tuple[tuple[Segmentation, Segmentation], Cycles] | None = None
         self._lock = RLock()
 
     def channels(self) -> list[CycleChannel]:
@@ -209,33 +210,30 @@ class CycleCurves:
         }
 
     def _of_table(self, table: Segmentation) -> Cycles:
-        """Its cycles, without channels."""
-        from kineme.cycles.measure import cycles
+        """Its cycles, without channels; measured once for all that people say of its segments."""
+        from kineme.cycles.measure import cycles, with_left_out
 
-        if self._cycles is None or self._table is not table:
+        if self._cycles is None or not _same_segments([self._table], [table]):
             recording = self._read()
             found = cycles(recording, _timed(table, recording), channels=[])
             self._table, self._cycles = table, _with_frames(found, table)
-        return self._cycles
+        return with_left_out(self._cycles, [table])
 
     def _together(
         self, table: Segmentation, other: CycleCurves, other_table: Segmentation
     ) -> tuple[Cycles, Cycles]:
         """The cycles of both, without channels; movements of one name begin at one phase."""
-        from kineme.cycles.measure import cycles
+        from kineme.cycles.measure import cycles, with_left_out
 
         tables = table, other_table
         with self._lock:
-            if self._both is None or any(
-                before is not now for before, now in zip(self._both[0], tables, strict=True)
-            ):
+            if self._both is None or not _same_segments(self._both[0], tables):
                 recordings = self._read(), other._read()
                 timed = [_timed(*each) for each in zip(tables, recordings, strict=True)]
-                found = cycles(recordings, timed, channels=[])
-                first = found.columns["recording"] == found.columns["recording"][0]
-                pair = _with_frames(found.select(first), table), found.select(~first)
-                self._both = tables, pair
-            return self._both[1]
+                self._both = tables, cycles(recordings, timed, channels=[])
+            found = with_left_out(self._both[1], tables)
+        first = found.columns["recording"] == found.columns["recording"][0]
+        return _with_frames(found.select(first), table), found.select(~first)
 
     def _measured(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
         """The cycles with these channels."""
@@ -271,8 +269,16 @@ def _in_memory(channel: Channel) -> Channel:
 
 
 def _timed(table: Segmentation, recording: Motion | Signals) -> Segmentation:
-    """The table at the rate of its recording."""
-    return table if table.fps == recording.fps else replace(table, fps=recording.fps)
+    """The table at the rate of its recording, without what people say of its segments."""
+    return replace(table, fps=recording.fps, annotation=NO_ANNOTATION)
+
+
+def _same_segments(before: Sequence[Segmentation | None], now: Sequence[Segmentation]) -> bool:
+    """Whether the tables have the same segments, whatever people say of them."""
+    return all(
+        old is new or (old is not None and (old.table, old.fps) == (new.table, new.fps))
+        for old, new in zip(before, now, strict=True)
+    )
 
 
 def _with_frames(cycles: Cycles, table: Segmentation) -> Cycles:

@@ -105,7 +105,9 @@ function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
           type="button"
           title={what}
           aria-label={`${what}: ${at}`}
-          onClick={() => edits.exclude([cycle.start_frame], excluded)}
+          onClick={({ detail }) => {
+            if (detail < 2) edits.exclude([cycle.start_frame], excluded); // the next comes in its place
+          }}
         >
           {excluded ? "×" : "↺"}
         </button>
