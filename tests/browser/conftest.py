@@ -14,16 +14,19 @@ from screen import DESKTOP, Screen
 from studio_server import StudioServer
 
 CHROMIUM = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
-# Drawing in software, so that every machine draws the same.
+# Drawing in software, so that every machine draws the same; and the pages themselves without the
+# detour over a graphics card that is not there, which takes twice the time.
 ARGUMENTS = [
     "--no-sandbox",
     "--use-gl=angle",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
+    "--disable-gpu-compositing",
+    "--disable-gpu-rasterization",
 ]
 
 
-@pytest.fixture(scope="module")  # while it is open, nothing else can use an event loop
+@pytest.fixture(scope="package")  # while it is open, nothing else can use an event loop
 def chromium() -> Iterator:
     if CHROMIUM is None:
         pytest.skip("no chromium: install it, or set KINEME_CHROMIUM to where it is")
