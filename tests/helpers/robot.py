@@ -67,6 +67,7 @@ class Robot:
         """Both tabs show the present recording."""
         for tab in self.tabs:
             tab.page.goto(self.server.address_of(self.take))
+        for tab in self.tabs:
             tab.opened()
         self.screen.wait("k.unsent.length === 0")
 
@@ -281,7 +282,8 @@ class Robot:
     def finish(self) -> None:
         """Everything that was replaced is a version; undo and redo give the same tables."""
         for tab in self.tabs:
-            tab.slow_down(0)
+            tab.page.close() if tab is not self.screen else tab.slow_down(0)
+        self.tabs = [self.screen]
         for take in self.takes:
             self.take = take
             self.open()
