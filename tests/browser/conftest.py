@@ -26,7 +26,7 @@ ARGUMENTS = [
 ]
 
 
-@pytest.fixture(scope="package")  # while it is open, nothing else can use an event loop
+@pytest.fixture(scope="module")  # while it is open, nothing else can use an event loop
 def chromium() -> Iterator:
     if CHROMIUM is None:
         pytest.skip("no chromium: install it, or set KINEME_CHROMIUM to where it is")

@@ -8,11 +8,11 @@ import kineme
 from kineme.recordings import Motion
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def motion() -> Motion:
     return kineme.read(kineme.bundled_recording())
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def truth() -> kineme.Segmentation:
     return kineme.read_segments(kineme.bundled_recording().with_suffix(".json"))

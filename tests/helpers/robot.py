@@ -223,10 +223,9 @@ class Robot:
 
     def ask(self, address: str) -> Any:
         """What the server answers of the present recording."""
-        root, token = self.server.address.split("?token=")
-        name = file_id(self.take)
-        headers = {"x-kineme-token": token, "connection": "close"}  # servers are killed here
-        return self.client.get(f"{root}api/recordings/{name}{address}", headers=headers).json()
+        asked = f"{self.server.root}api/recordings/{file_id(self.take)}{address}"
+        headers = {"x-kineme-token": self.server.token, "connection": "close"}  # it is killed here
+        return self.client.get(asked, headers=headers).json()
 
     def settled(self, revision: int = 0) -> None:
         """Until the server has confirmed or refused everything, and has that revision or more."""

@@ -14,7 +14,7 @@ import kineme
 PAGES = Path(kineme.__file__).parent / "web" / "pages"
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def page_script() -> Callable[[str], dict[str, Any]]:
     """What a script defines, by its name."""
 
