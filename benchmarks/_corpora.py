@@ -7,7 +7,6 @@ CMU, PyMO, aitviewer and OpenSim as AMC, BVH, C3D and TRC.
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -17,7 +16,7 @@ from numpy.typing import NDArray
 
 import kineme
 from _options import few, needed
-from _recordings import ACTORS, subject_86
+from _recordings import ACTORS, by_recording, cuts_of_hdm05, subject_86
 from kineme.features.canonical import matching
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample
@@ -49,25 +48,18 @@ def corpora() -> dict[str, list[Take]]:
 
 
 def hdm05() -> Iterator[Take]:
-    folder = needed("hdm05")
     for actor in ACTORS:
-        skeleton = folder / "asf" / f"HDM_{actor}.asf"
-        for path in sorted((folder / "amc").glob(f"HDM_{actor}_*_120.amc"))[:: few(1, 6)]:
-            motion = kineme.read(path, skeleton=skeleton)
-            label = path.stem.split("_")[2]
-            yield Take(path.name, actor, motion, ((0.0, motion.duration, label),))
+        for name, label, motion in cuts_of_hdm05(actor, every=few(1, 6)):
+            yield Take(name, actor, motion, ((0.0, motion.duration, label),))
 
 
 def utkinect() -> Iterator[Take]:
     folder = needed("sets/utkinect")
-    spans: dict[str, list[tuple[float, float, str]]] = {}
-    with (folder / "labels.csv").open(encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            span = float(row["start_s"]), float(row["stop_s"]), row["label"]
-            spans.setdefault(row["recording"], []).append(span)
-    for name in sorted(spans)[:: few(1, 5)]:
+    rows = by_recording(folder / "labels.csv")
+    for name in sorted(rows)[:: few(1, 5)]:
         motion = kineme.read(folder / "recordings" / f"{name}.parquet")
-        yield Take(name, name.split("_")[0], motion, tuple(spans[name]))
+        spans = ((float(row["start_s"]), float(row["stop_s"]), row["label"]) for row in rows[name])
+        yield Take(name, name.split("_")[0], motion, tuple(spans))
 
 
 def cmu86() -> Iterator[Take]:

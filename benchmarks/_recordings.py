@@ -64,15 +64,18 @@ def hdm05(
 
 @cache
 def exercises(actor: str) -> list[Exercise]:
-    """The cuts ``HDM_<actor>_<class>_<number>_120.amc`` of one actor."""
+    """What one actor of HDM05 did."""
+    return [
+        Exercise(kind, motion, REPETITIONS.get(kind, 1)) for _, kind, motion in cuts_of_hdm05(actor)
+    ]
+
+
+def cuts_of_hdm05(actor: str, *, every: int = 1) -> Iterator[tuple[str, str, Motion]]:
+    """Name, class and motion of each ``HDM_<actor>_<class>_<number>_120.amc``."""
     folder = needed("hdm05")
     skeleton = folder / "asf" / f"HDM_{actor}.asf"
-    found = []
-    for path in sorted((folder / "amc").glob(f"HDM_{actor}_*_120.amc")):
-        kind = path.stem.split("_")[2]
-        motion = kineme.read(path, skeleton=skeleton)
-        found.append(Exercise(kind, motion, REPETITIONS.get(kind, 1)))
-    return found
+    for path in sorted((folder / "amc").glob(f"HDM_{actor}_*_120.amc"))[::every]:
+        yield path.name, path.stem.split("_")[2], kineme.read(path, skeleton=skeleton)
 
 
 def synthetic(condition: str, seeds: int) -> Iterator[Case]:

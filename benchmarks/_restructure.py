@@ -55,14 +55,7 @@ def restructured(path: Path, data: bytes, seed: int) -> bytes:
         with np.errstate(all="ignore"):
             for _ in range(chance.randint(1, 3)):
                 data = change(data, chance)
-    except (
-        ValueError,
-        TypeError,
-        OverflowError,
-        ArithmeticError,
-        NotImplementedError,
-        LookupError,
-    ):
+    except UNWRITABLE:
         return data  # the value cannot be written there
     return data
 

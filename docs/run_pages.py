@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 from contextlib import chdir
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -31,9 +32,10 @@ import kineme
 HERE = Path(__file__).resolve().parent
 MADE = HERE / "images" / "made"
 WIDEST = 1200  # pixels
+SCRIPTS = Path(sys.executable).parent
 
 
-def run_page(page: Path, folder: Path) -> None:
+def run_page(page: Path, folder: Path, programs: Path = SCRIPTS) -> None:
     """Run the blocks marked ``python`` and ``bash``, from top to bottom.
 
     Parameters
@@ -42,11 +44,16 @@ def run_page(page: Path, folder: Path) -> None:
         A page of Markdown.
     folder : Path
         Where it runs; the bundled recording is put there as ``take.bvh``.
+    programs : Path
+        A folder that comes first on the path: that of this interpreter, or one with another
+        ``kineme``.
     """
     mpl.use("agg")
     shutil.copy(kineme.bundled_recording(), folder / "take.bvh")
+    path = os.pathsep.join([str(programs), str(SCRIPTS), os.environ["PATH"]])
+    in_shell = CodeBlockParser("bash", partial(_run_in_shell, path))
     with chdir(folder):
-        for example in BLOCKS.parse(page).examples():
+        for example in Sybil(parsers=[PythonCodeBlockParser(), in_shell]).parse(page).examples():
             example.evaluate()
     plt.close("all")
 
@@ -67,9 +74,7 @@ def main() -> None:
         print(f"{page.name}: {', '.join(pictures_of(page))}")
 
 
-def _run_in_shell(example: Example) -> None:
-    """Each command with this interpreter and its scripts first on the path."""
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+def _run_in_shell(path: str, example: Example) -> None:
     done = subprocess.run(  # noqa: S603 (what our own pages say)
         ["bash", "-euo", "pipefail", "-c", str(example.parsed)],  # noqa: S607
         env={**os.environ, "PATH": path, "COLUMNS": "100"},
@@ -80,9 +85,6 @@ def _run_in_shell(example: Example) -> None:
     )
     if done.returncode:
         raise RuntimeError(f"{example.parsed}\n{done.stdout}\n{done.stderr}")
-
-
-BLOCKS = Sybil(parsers=[PythonCodeBlockParser(), CodeBlockParser("bash", _run_in_shell)])
 
 
 def _save(path: Path) -> None:

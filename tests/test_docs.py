@@ -14,6 +14,7 @@ import re
 import runpy
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
@@ -26,6 +27,7 @@ import _figures
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.labels import read_segments, write_segments
+from ready_kineme import ready_kineme
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -35,15 +37,31 @@ FIGURES = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"
 FILL = runpy.run_path(str(ROOT / "docs" / "fill_figures.py"))
 QUOTED = FILL["quoted"](FILL["QUOTED"].read_text(encoding="utf-8"))
 COLUMNS = runpy.run_path(str(ROOT / "docs" / "fill_columns.py"))
+ALONE = f"""
+import runpy, sys
+from pathlib import Path
+
+runpy.run_path({str(ROOT / "docs" / "run_pages.py")!r})["run_page"](*map(Path, sys.argv[1:]))
+"""
+
+
+@pytest.fixture(scope="module")
+def programs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Where ``kineme`` is; elsewhere processes cannot be forked, or sockets have short names."""
+    if sys.platform != "linux":
+        yield RUN["SCRIPTS"]
+        return
+    with ready_kineme(tmp_path_factory.mktemp("programs")) as folder:
+        yield folder
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_code_blocks_run(page: Path, tmp_path: Path) -> None:
+def test_code_blocks_run(page: Path, tmp_path: Path, programs: Path) -> None:
     if page.stem in ("extending", "evaluation"):  # what they register stays in the process
-        subprocess.run([sys.executable, ROOT / "docs" / "run_pages.py", page], check=True)
-        return
-    RUN["run_page"](page, tmp_path)
+        subprocess.run([sys.executable, "-c", ALONE, page, tmp_path, programs], check=True)
+    else:
+        RUN["run_page"](page, tmp_path, programs)
     for name in RUN["pictures_of"](page):
         assert (tmp_path / name).is_file(), "the page shows a picture that it does not draw"
         assert (ROOT / "docs" / "images" / "made" / name).is_file(), "run python docs/run_pages.py"

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ import pytest
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.report.page import write_report
-from screen import Screen
+from screen import DESKTOP, Screen, box_of, picture_of, until
 
 MEAN_RED = """() => {
     dispatchEvent(new Event("beforeprint"));
@@ -34,46 +36,79 @@ NASTY = "</script><img src=x onerror=alert(1)><b>squat</b>"
 
 
 @pytest.fixture(scope="module")
-def segments() -> kineme.Segmentation:
-    """Those of the bundled recording, each called something nasty."""
-    found = kineme.segment(kineme.read(bundled_recording()))
-    columns = dict(found.table.columns())
-    columns["label"] = np.full(len(found), NASTY)
-    return kineme.Segmentation.from_columns(
-        columns, n_frames=found.n_frames, fps=found.fps, provenance=found.provenance
-    )
+def segmentation() -> kineme.Segmentation:
+    return kineme.segment(kineme.read(bundled_recording()))
 
 
-def test_it_plays_without_a_network(chromium, segments, tmp_path: Path) -> None:
-    path = tmp_path / "report <b>&.html"
-    write_report(kineme.read(bundled_recording()), segments, path, name=NASTY)
-    context = chromium.new_context(viewport={"width": 1280, "height": 720}, offline=True)
-    page = context.new_page()
-    said: list[str] = []
-    asked: list[str] = []
-    page.on("console", lambda message: said.append(message.text))
-    page.on("pageerror", lambda error: said.append(str(error)))
-    page.on("dialog", lambda dialog: said.append(dialog.message))
-    page.on("request", lambda request: asked.append(request.url))
-    page.goto(path.as_uri())
-    screen = Screen(page).opened()
-    before = screen.pixels()
-    page.keyboard.press("Space")
-    screen.wait("k.playhead > 0.3")
-    page.keyboard.press("Space")
-    screen.wait("!k.playing")
-    screen.changed(before, *before)
-    shown = screen.state
-    page.emulate_media(color_scheme="dark")
-    printed = page.evaluate(MEAN_RED)
-    assert page.locator("img").count() == 0
-    context.close()
-    assert said == []
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory, segmentation: kineme.Segmentation) -> Path:
+    path = tmp_path_factory.mktemp("report") / "exercises.html"
+    write_report(kineme.read(bundled_recording()), segmentation, path)
+    return path
+
+
+@pytest.fixture
+def open_report(chromium: Any, file: Path) -> Iterator[Callable[..., Screen]]:
+    """Opens a report in a tab, without a network; the test fails if the page complains."""
+    contexts, complaints, asked = [], [], []
+
+    def heard(message: Any) -> None:
+        driver = "GL Driver Message" in message.text  # how fast it is in software
+        if message.type in {"error", "warning"} and not driver:
+            complaints.append(message.text)
+
+    def open_in(path: Path = file, size: dict[str, int] = DESKTOP, scheme: str = "light") -> Screen:
+        contexts.append(chromium.new_context(viewport=size, color_scheme=scheme, offline=True))
+        tab = contexts[-1].new_page()
+        tab.on("console", heard)
+        tab.on("pageerror", lambda error: complaints.append(str(error)))
+        tab.on("dialog", lambda dialog: complaints.append(dialog.message))
+        tab.on("request", lambda request: asked.append(request.url))
+        tab.goto(path.as_uri())
+        return Screen(tab)
+
+    yield open_in
+    for context in contexts:
+        context.close()
+    assert complaints == []
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
-    assert sum(url.startswith("file:") for url in asked) == 1
-    assert shown["name"] == NASTY
-    assert shown["n_segments"] == len(segments)
-    assert printed > 200  # light, though the screen is dark
+    assert sum(url.startswith("file:") for url in asked) == len(contexts)
+
+
+def test_it_shows_what_was_found_and_plays(
+    open_report: Callable[..., Screen], segmentation: kineme.Segmentation
+) -> None:
+    screen = open_report().opened()
+    page, before = screen.page, screen.pixels()
+    assert screen.state["name"] == "exercises.bvh"
+    assert screen.state["n_segments"] == len(segmentation.table)
+    counts = [int(text) for text in page.locator(".clusters .count").all_inner_texts()]
+    assert counts == list(segmentation.repetitions().values())
+    page.get_by_role("button", name="Play", exact=True).click()
+    screen.wait("k.playing && k.playhead > 0.3")
+    page.get_by_role("button", name="Pause").click()
+    stopped = screen.state
+    screen.changed(before, *before)
+    assert screen.state["playhead"] == stopped["playhead"]
+    assert stopped["frame"] == int(stopped["playhead"] * 60 + 1e-6)
+
+
+def test_names_are_text_and_nothing_else(
+    open_report: Callable[..., Screen], segmentation: kineme.Segmentation, tmp_path: Path
+) -> None:
+    columns = {**segmentation.table.columns(), "label": np.full(len(segmentation), NASTY)}
+    named = kineme.Segmentation.from_columns(
+        columns,
+        n_frames=segmentation.n_frames,
+        fps=segmentation.fps,
+        provenance=segmentation.provenance,
+    )
+    path = tmp_path / "report <b>&.html"
+    write_report(kineme.read(bundled_recording()), named, path, name=NASTY)
+    screen = open_report(path).opened()
+    assert screen.page.locator("img").count() == 0
+    assert screen.state["name"] == NASTY
+    assert screen.state["n_segments"] == len(segmentation)
 
 
 def test_the_studio_prints_what_the_report_does(page, take) -> None:
@@ -92,33 +127,122 @@ def test_the_studio_prints_what_the_report_does(page, take) -> None:
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_printed_figure_is_the_one_on_the_screen(chromium, segments, tmp_path, scheme) -> None:
-    path = tmp_path / "report.html"
-    write_report(kineme.read(bundled_recording()), segments, path)
-    page = chromium.new_page(color_scheme=scheme)
-    page.goto(path.as_uri())
-    Screen(page).opened()
+def test_what_is_printed_is_light_and_shows_the_figure(
+    open_report: Callable[..., Screen], scheme: str
+) -> None:
+    page = open_report(scheme=scheme).opened().page
     page.wait_for_timeout(1500)  # the picture rests: what it was drawn into is gone
     mean, shades = page.evaluate(PRINTED_FIGURE)
-    page.close()
     assert mean > 150  # light, as paper is
     assert shades > 30
+    assert page.evaluate(MEAN_RED) > 200
 
 
-def test_signals_have_no_figure_but_lanes_and_matrix(chromium, tmp_path: Path) -> None:
+def test_signals_have_no_figure_but_lanes_and_matrix(
+    open_report: Callable[..., Screen], tmp_path: Path
+) -> None:
     times = np.arange(3000) / 50
     values = np.column_stack([np.sin(6 * times), np.cos(6 * times)])
     signals = kineme.Signals(values, 50.0)
     write_report(signals, kineme.segment(signals), tmp_path / "signals.html", name="wrist")
-    page = chromium.new_page()
-    said: list[str] = []
-    page.on("console", lambda message: said.append(message.text))
-    page.on("pageerror", lambda error: said.append(str(error)))
-    page.goto((tmp_path / "signals.html").as_uri())
-    screen = Screen(page)
+    screen = open_report(tmp_path / "signals.html")
     screen.wait("k?.n_segments > 0")
+    screen.drawn()
     shown = screen.state
-    page.wait_for_timeout(500)
-    page.close()
-    assert said == []
     assert (shown["hasMotion"], shown["name"], shown["duration"]) == (False, "wrist", 60)
+
+
+def test_a_click_on_a_primitive_moves_everything(
+    open_report: Callable[..., Screen], segmentation: kineme.Segmentation
+) -> None:
+    screen = open_report().opened()
+    before = screen.pixels()
+    row = next(row for row in segmentation.primitives if row.cluster >= 0 and row.start_s > 20)
+    box, gutter = box_of(screen.page.locator(".lanes canvas")), 78
+    share = (row.start_s + row.stop_s) / 2 / screen.state["duration"]
+    x = box["x"] + gutter + share * (box["width"] - gutter)
+    screen.page.mouse.click(x, box["y"] + 0.55 * box["height"])
+    screen.wait("k.selection !== null")
+    state = screen.state
+    assert state["selection"] == {"level": "primitive", "start_frame": row.start_frame}
+    assert (state["frame"], state["cluster"]) == (row.start_frame, row.cluster)
+    screen.changed(before, *before)
+    assert f"cluster {row.cluster}" in screen.page.locator(".clusters tr.shown").inner_text()
+
+
+def test_a_click_in_the_matrix_goes_there(
+    open_report: Callable[..., Screen], segmentation: kineme.Segmentation
+) -> None:
+    screen = open_report().opened()
+    before = screen.pixels()
+    box = box_of(screen.page.locator(".matrix-square canvas"))
+    screen.page.mouse.click(
+        box["x"] + 9 + 0.75 * (box["width"] - 9), box["y"] + 0.3 * box["height"]
+    )
+    screen.wait("k.selection !== null")
+    state = screen.state
+    assert state["playhead"] == pytest.approx(0.75 * state["duration"], abs=0.5)
+    rows = segmentation.primitives
+    here = next(row for row in rows if row.start_frame <= state["frame"] < row.stop_frame)
+    assert state["selection"]["start_frame"] == here.start_frame
+    screen.changed(before, "lanes")
+
+
+def test_the_keyboard_is_enough(
+    open_report: Callable[..., Screen], segmentation: kineme.Segmentation
+) -> None:
+    screen = open_report().opened()
+    press = screen.page.keyboard.press
+    press("ArrowRight")
+    assert screen.state["frame"] == 1
+    press("Shift+ArrowRight")
+    second = segmentation.primitives[1]
+    assert screen.state["selection"]["start_frame"] == second.start_frame
+    press("l")
+    assert screen.state["loop"]["start_s"] == pytest.approx(second.start_s)
+    press("Space")
+    screen.wait("k.playing")
+    screen.page.wait_for_timeout(int(1500 * (second.stop_s - second.start_s)))
+    assert second.start_s <= screen.state["playhead"] <= second.stop_s
+    press("Space")
+    press("+")
+    assert screen.state["range"]["stop_s"] < screen.state["duration"]
+    press("0")
+    press("End")
+    assert screen.state["playhead"] == pytest.approx(screen.state["duration"])
+    press("Home")
+    assert screen.state["playhead"] == 0
+
+
+def test_members_of_a_cluster_play_in_step(open_report: Callable[..., Screen]) -> None:
+    screen = open_report().opened()
+    screen.page.locator(".clusters tbody tr").nth(1).click()
+    figure = screen.page.locator(".viewer canvas")
+    alone = picture_of(figure)
+    screen.page.get_by_role("button", name="In step").click()
+    together = picture_of(figure)
+    assert screen.state["inStep"]
+    assert together != alone
+    screen.page.keyboard.press("ArrowRight")
+    assert picture_of(figure) != together
+
+
+@pytest.mark.parametrize(("width", "height", "scheme"), [(1280, 720, "dark"), (1024, 768, "light")])
+def test_everything_is_in_view(
+    open_report: Callable[..., Screen], width: int, height: int, scheme: str
+) -> None:
+    page = open_report(size={"width": width, "height": height}, scheme=scheme).opened().page
+    overflow = "[document.documentElement.scrollWidth, document.documentElement.scrollHeight]"
+    until(page, lambda: page.evaluate(overflow) == [width, height], "all of it in the window")
+    places = (".viewer canvas", ".lanes", ".matrix-square", ".clusters", ".curves canvas",
+              ".transport")  # fmt: skip
+    for place in places:
+        box = box_of(page.locator(place).first)
+        assert box["width"] > 60
+        assert box["height"] > 25
+        assert box["x"] + box["width"] <= width + 1
+        assert box["y"] + box["height"] <= height + 1
+    theme = "document.documentElement.dataset.theme"
+    assert page.evaluate(theme) == scheme
+    page.get_by_role("button", name="Show the page").click()
+    until(page, lambda: page.evaluate(theme) != scheme, "the other theme")

@@ -68,7 +68,6 @@ def test_on_a_slow_line_edits_are_shown_at_once_and_none_is_lost(page, take, lat
     assert saved_primitives(take.with_suffix(".segments.json"))[1][:2] == (border + 3, "hop")
 
 
-@pytest.mark.slow
 def test_what_is_refused_is_said_until_somebody_decides(page, take):
     screen = Screen(page)
 
@@ -78,6 +77,7 @@ def test_what_is_refused_is_said_until_somebody_decides(page, take):
         answer = {"status": 400, "json": {"error": "the label is too odd"}}
         route.fulfill(**answer) if refused else route.continue_()
 
+    page.clock.install()
     page.route("**/edits", no_room)
     page.keyboard.press("n")
     page.keyboard.type("odd")
@@ -87,7 +87,8 @@ def test_what_is_refused_is_said_until_somebody_decides(page, take):
     page.keyboard.press("Shift+ArrowRight")
     page.keyboard.press("Shift+K")
     screen.saved()
-    page.wait_for_timeout(7000)  # longer than news are shown
+    page.clock.fast_forward(7000)  # longer than news are shown
+    screen.drawn()
     assert notice.is_visible()
     page.reload()
     screen.opened()

@@ -13,7 +13,15 @@ from pathlib import Path
 
 import pytest
 
+from kineme.evaluation import folder
 from kineme.evaluation.score import scores
+
+
+@pytest.fixture
+def in_one_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """To start the others takes longer than what these tests want of them."""
+    answers_to = folder.answers_to
+    monkeypatch.setattr(folder, "answers_to", lambda jobs, _: answers_to(jobs, 1))
 
 
 def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> None:
@@ -38,6 +46,7 @@ def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> No
     ]  # fmt: skip
 
 
+@pytest.mark.usefixtures("in_one_process")
 def test_json_goes_to_standard_output_alone(kineme, corpus) -> None:
     ran = kineme(
         *("evaluate", corpus, "--labels", corpus / "labels.csv", "--json"),
@@ -51,7 +60,7 @@ def test_json_goes_to_standard_output_alone(kineme, corpus) -> None:
     assert set(content["methods"]["uniform"]["scores"]) >= set(scores())
 
 
-@pytest.mark.slow
+@pytest.mark.usefixtures("in_one_process")
 def test_constants_of_the_methods_can_be_set(kineme, corpus) -> None:
     def told(*options: str) -> object:
         ran = kineme("evaluate", corpus, "--labels", corpus / "labels.csv", "--json", *options)
@@ -66,6 +75,7 @@ def test_constants_of_the_methods_can_be_set(kineme, corpus) -> None:
     assert "has no parameter 'segment_price'; did you mean segment_cost?" in ran.stderr
 
 
+@pytest.mark.usefixtures("in_one_process")
 def test_a_pattern_that_no_column_fits_is_said(kineme, corpus) -> None:
     ran = kineme(
         *("evaluate", corpus, "--labels", corpus / "labels.csv", "--method", "uniform"),

@@ -21,16 +21,6 @@ from kineme.recordings import Motion
 from kineme.recordings.operations import cut, move, turn
 
 
-@pytest.fixture(scope="module")
-def motion() -> Motion:
-    return kineme.read(kineme.bundled_recording())
-
-
-@pytest.fixture(scope="module")
-def truth() -> kineme.Segmentation:
-    return kineme.read_segments(kineme.bundled_recording().with_suffix(".json"))
-
-
 def largest_step(motion: Motion) -> float:
     """How far a joint moves at most from one frame to the next."""
     return float(np.linalg.norm(np.diff(motion.positions, axis=0), axis=-1).max())

@@ -25,16 +25,6 @@ from kineme.recordings.operations import cut
 SCHEMA = json.loads(files("kineme.clips").joinpath("manifest.schema.json").read_text("utf-8"))
 
 
-@pytest.fixture(scope="module")
-def motion() -> Motion:
-    return kineme.read(kineme.bundled_recording())
-
-
-@pytest.fixture(scope="module")
-def truth() -> kineme.Segmentation:
-    return kineme.read_segments(kineme.bundled_recording().with_suffix(".json"))
-
-
 def repetitions(motion: Motion, truth: kineme.Segmentation) -> list[Motion]:
     rows = [row for row in truth.primitives if row.kind == "primitive"]
     return [cut(motion, row.start_frame, row.stop_frame) for row in rows]

@@ -236,7 +236,7 @@ def test_the_figures_of_a_set_with_human_labels_come_out(data_dir, name) -> None
     if not home.is_dir():
         pytest.skip(f"no {home}")
     sources = labels_of(recordings_below(home), home / "labels.csv")
-    result = evaluate_folder(sources, ["kineme"], reading=Reading(without=("emg*",)))
+    result = evaluate_folder(sources, ["kineme"], reading=Reading(without=("emg*",)), processes=1)
     found = result.over_all("kineme")
     for score, value in SETS[name].items():
         assert found[score] == pytest.approx(value, abs=0.002), score

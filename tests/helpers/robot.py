@@ -67,6 +67,7 @@ class Robot:
         """Both tabs show the present recording."""
         for tab in self.tabs:
             tab.page.goto(self.server.address_of(self.take))
+        for tab in self.tabs:
             tab.opened()
         self.screen.wait("k.unsent.length === 0")
 
@@ -222,10 +223,9 @@ class Robot:
 
     def ask(self, address: str) -> Any:
         """What the server answers of the present recording."""
-        root, token = self.server.address.split("?token=")
-        name = file_id(self.take)
-        headers = {"x-kineme-token": token, "connection": "close"}  # servers are killed here
-        return self.client.get(f"{root}api/recordings/{name}{address}", headers=headers).json()
+        asked = f"{self.server.root}api/recordings/{file_id(self.take)}{address}"
+        headers = {"x-kineme-token": self.server.token, "connection": "close"}  # it is killed here
+        return self.client.get(asked, headers=headers).json()
 
     def settled(self, revision: int = 0) -> None:
         """Until the server has confirmed or refused everything, and has that revision or more."""
@@ -281,7 +281,8 @@ class Robot:
     def finish(self) -> None:
         """Everything that was replaced is a version; undo and redo give the same tables."""
         for tab in self.tabs:
-            tab.slow_down(0)
+            tab.page.close() if tab is not self.screen else tab.slow_down(0)
+        self.tabs = [self.screen]
         for take in self.takes:
             self.take = take
             self.open()

@@ -221,48 +221,27 @@ def test_a_damaged_file_is_read_or_refused(folder: Path, suffix: str, data: st.D
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "message"),
+    ("name", "old", "new", "message"),
     [
-        ('"kineme.segments/2"', '"kineme.segments/3"', "this version of kineme reads .*: upgrade"),
-        ('"kineme.segments/2"', '"other/1"', "is not a segment table"),
-        ('"fps": 120.0', '"fps": "120"', '"fps" must be a positive number'),
-        ('"fps": 120.0', '"fps": 1e999', "a number that is none, or too large"),
-        ('"n_frames": 120', '"n_frames": 119', "must cover frames 0 to 119"),
-        ('"stop_frame": 50,', "", "segment 1 has no 'stop_frame'"),
-        ('"start_frame": 50', '"start_frame": 51', "segments of a level must touch"),
-        ('"cluster": 0', '"cluster": "0"', "'cluster' must hold whole numbers"),
-        ("  ]\n}", "", "line .*: is not valid JSON, or is cut short"),
+        ("a.json", '"kineme.segments/2"', '"kineme.segments/3"', "reads .*: upgrade"),
+        ("a.json", '"kineme.segments/2"', '"other/1"', "is not a segment table"),
+        ("a.json", '"fps": 120.0', '"fps": "120"', '"fps" must be a positive number'),
+        ("a.json", '"fps": 120.0', '"fps": 1e999', "a number that is none, or too large"),
+        ("a.json", '"n_frames": 120', '"n_frames": 119', "must cover frames 0 to 119"),
+        ("a.json", '"stop_frame": 50,', "", "segment 1 has no 'stop_frame'"),
+        ("a.json", '"start_frame": 50', '"start_frame": 51', "segments of a level must touch"),
+        ("a.json", '"cluster": 0', '"cluster": "0"', "'cluster' must hold whole numbers"),
+        ("a.json", "  ]\n}", "", "line .*: is not valid JSON, or is cut short"),
+        ("a.csv", ",0,120", ",0,12o", "line 2: stop_frame must be a whole number, not '12o'"),
+        ("a.csv", "confidence,", "points,", "it has no column 'confidence'"),
+        ("a.csv", "primitive,50,120,", "primitive,50\n#", "line 4: the line ends before column"),
+        ("a.csv", ",120,", ",121,", "at frame 121, but a.provenance.json speaks of 120 frames"),
     ],
 )
-def test_bad_json_says_what_is_wrong(
-    tmp_path: Path, small: Segmentation, old: str, new: str, message: str
+def test_a_spoilt_table_says_what_is_wrong(
+    tmp_path: Path, small: Segmentation, name: str, old: str, new: str, message: str
 ) -> None:
-    path = tmp_path / "cuts.json"
-    write_segments(small, path)
-    text = path.read_text()
-    assert old in text
-    path.write_text(text.replace(old, new))
-    with pytest.raises(ReadError, match=message):
-        read_segments(path)
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        (
-            "activity,0,120",
-            "activity,0,12o",
-            "line 2: stop_frame must be a whole number, not '12o'",
-        ),
-        ("confidence,", "points,", "it has no column 'confidence'"),
-        ("primitive,50,120,", "primitive,50\n#", "line 4: the line ends before column"),
-        (",120,", ",121,", "ends at frame 121, but cuts.provenance.json speaks of 120 frames"),
-    ],
-)
-def test_bad_csv_says_what_is_wrong(
-    tmp_path: Path, small: Segmentation, old: str, new: str, message: str
-) -> None:
-    path = tmp_path / "cuts.csv"
+    path = tmp_path / name
     write_segments(small, path)
     text = path.read_text()
     assert old in text

@@ -80,9 +80,7 @@ def start(folder: Path) -> Iterator[Callable[..., Process]]:
 
     yield run
     for studio in started:
-        if studio.process.poll() is None:
-            studio.process.kill()
-            studio.process.communicate()
+        studio.server.kill()
         studio.client.close()
 
 

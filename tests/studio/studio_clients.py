@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import re
 import signal
-import subprocess
-import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -14,6 +10,7 @@ from typing import Any
 import httpx2 as httpx
 
 from kineme.studio.storage.listed import file_id
+from studio_server import StudioServer
 
 TOKEN, PORT = "the token", 8750
 Answer = httpx.Response
@@ -57,33 +54,18 @@ class Studio:
 
 
 class Process(Studio):
-    """``kineme studio`` on a free port."""
+    """A client of ``kineme studio`` on a free port."""
 
-    def __init__(self, folder: Path, *arguments: str):
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "kineme", "studio", str(folder), "--no-browser"]
-            + (["--port", "0"] if "--port" not in arguments else [])
-            + list(arguments),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            env={**os.environ, "PYTHONUNBUFFERED": "1"},
-            # What runs in a script's background is started deaf to Ctrl+C.
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-        )
-        assert self.process.stdout is not None
-        self.said = self.process.stdout.readline()
-        found = re.search(r"(http://127\.0\.0\.1:(\d+)/)\?token=(\S+)", self.said)
-        if found is None:
-            self.said, errors = self.process.communicate(timeout=30)
-            raise RuntimeError(errors)
-        self.address, self.port, self.token = found[1], int(found[2]), found[3]
+    def __init__(self, folder: Path, *options: str):
+        self.server = StudioServer(folder, *options)
+        self.server.start()
+        self.said, self.address = self.server.said, self.server.root
+        self.port, self.token = self.server.port, self.server.token
         headers = {"x-kineme-token": self.token}
         super().__init__(httpx.Client(base_url=self.address, headers=headers, timeout=60), folder)
 
     def end(self, how: int = signal.SIGINT) -> tuple[int, str, str]:
         """End it; exit code and what else it said."""
-        self.process.send_signal(how)
-        rest, errors = self.process.communicate(timeout=30)
+        ended = self.server.end(how)
         self.client.close()
-        return self.process.returncode, rest, errors
+        return ended

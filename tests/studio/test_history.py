@@ -195,7 +195,7 @@ def test_random_edits_undone_and_redone_give_the_same_tables(start) -> None:
     studio = start()
     message = studio.recording()
     past, present, revision = [], message["segmentation"], message["revision"]
-    for _ in range(40):
+    for _ in range(25):
         if chance.random() < 0.1:
             studio.end(signal.SIGKILL)
             studio = start()

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import importlib.util
-from pathlib import Path
-from types import ModuleType
+from collections.abc import Callable
 from typing import Any, Literal
 
 import msgspec
 import pytest
 
-import kineme
 from kineme.errors import ParameterError
 from kineme.web.encoding import from_json, to_json
 from kineme.web.requests import EditRequest, MoveBorder
@@ -28,28 +25,18 @@ class Foot(msgspec.Struct, tag_field="kind", tag="foot"):
     size: float | msgspec.UnsetType = msgspec.UNSET
 
 
-PAGES = Path(kineme.__file__).parent / "web" / "pages"
-
-
 @pytest.fixture(scope="module")
-def maker() -> ModuleType:
-    """The script that makes them; its folder is no package."""
-    path = PAGES / "make_messages.py"
-    if "site-packages" in str(path) and not path.exists():
-        pytest.skip("the sources of the pages are not in a wheel")
-    spec = importlib.util.spec_from_file_location("make_messages", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def maker(page_script: Callable[[str], dict[str, Any]]) -> dict[str, Any]:
+    return page_script("make_messages.py")
 
 
-def test_typescript_is_up_to_date(maker: ModuleType) -> None:
-    for path, made in maker.made().items():
-        assert path.read_text(encoding="utf-8") == made, f"run {PAGES / 'make_messages.py'}"
+def test_typescript_is_up_to_date(maker: dict[str, Any]) -> None:
+    for path, made in maker["made"]().items():
+        assert path.read_text(encoding="utf-8") == made, "run src/kineme/web/pages/make_messages.py"
 
 
-def test_what_becomes_of_each_kind_of_type(maker: ModuleType) -> None:
-    assert maker.typescript({"Side": Side, "Foot": Foot}).endswith(
+def test_what_becomes_of_each_kind_of_type(maker: dict[str, Any]) -> None:
+    assert maker["typescript"]({"Side": Side, "Foot": Foot}).endswith(
         """\
 export type Side = "left" | "right";
 
@@ -66,14 +53,14 @@ export interface Foot {
     )
 
 
-def test_unknown_types_are_refused(maker: ModuleType) -> None:
+def test_unknown_types_are_refused(maker: dict[str, Any]) -> None:
     class Bytes(msgspec.Struct):
         """Bytes, which JSON has not."""
 
         data: bytes
 
     with pytest.raises(TypeError, match="Bytes"):
-        maker.typescript({"Bytes": Bytes})
+        maker["typescript"]({"Bytes": Bytes})
 
 
 @pytest.mark.parametrize(

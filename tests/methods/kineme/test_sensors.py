@@ -21,8 +21,6 @@ from kineme.methods.kineme.tree import part_ends
 from kineme.methods.kineme.views import common_reduced, mutual_information, views_of
 
 FPS = 50.0
-DONE = ((0, 0, 0), (0, 1.8, 1), (0, 0, 0), (0, 2.8, 3), (2, 0, 0), (0, 1.8, 1))
-"""Posture, pace and strength of each."""
 
 
 def worn(seed: int = 0) -> tuple[np.ndarray, list[int]]:

@@ -125,9 +125,9 @@ def test_threads_and_repetition_change_nothing() -> None:
             text=True,
             check=True,
         ).stdout.split()
-        for threads in ("1", "2", "5")
+        for threads in ("1", "5")
     ]
-    assert digests[0] == digests[1] == digests[2]
+    assert digests[0] == digests[1]
     assert digests[0][0] == digests[0][1] != digests[0][2] == digests[0][3]
 
 

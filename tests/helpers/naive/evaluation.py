@@ -1,0 +1,73 @@
+"""Scores, one pair of labels and one frame at a time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def one_to_one(wanted, given):
+    """The best share of frames over every assignment of found labels to classes."""
+    from itertools import permutations
+
+    classes, names = sorted(set(wanted)), sorted(set(given))
+    fixed = "transition" in names
+    if fixed:
+        names.remove("transition")
+        classes = [c for c in classes if c != "transition"]
+    slots = classes + [None] * len(names)
+    best = 0
+    for chosen in set(permutations(slots, len(names))):
+        to = dict(zip(names, chosen))
+        if fixed:
+            to["transition"] = "transition"
+        best = max(best, sum(to[g] == w for g, w in zip(given, wanted)))
+    return best / len(wanted)
+
+
+def strict_tolerant(truth, found):
+    """The paper's accuracy with closed spans, one interval at a time."""
+    last = truth.frames - 1
+    intervals, start = [], 0
+    for earliest, latest in zip(truth.earliest, truth.latest):
+        intervals += [(start, earliest, True), (earliest, latest, False)]
+        start = latest
+    intervals.append((start, last, True))
+    owned = [[] for _ in intervals]
+    for a, b in zip(found.borders[:-1], found.borders[1:]):
+        b = min(b, last)
+        shares = [max(0, min(b, e) - max(a, s) + 1) / (b - a + 1) for s, e, _ in intervals]
+        owned[shares.index(max(shares))].append((a, b))
+    covered = lengths = covered_certain = lengths_certain = 0
+    for (s, e, certain), own in zip(intervals, owned):
+        inside = 0
+        if own:
+            inside = max(0, min(e, max(b for _, b in own)) - max(s, min(a for a, _ in own)) + 1)
+        covered += inside
+        lengths += e - s + 1
+        if certain:
+            covered_certain += inside
+            lengths_certain += e - s + 1
+    return covered / lengths, covered_certain / lengths_certain
+
+
+def warped_cost(cost):
+    """Dynamic time warping by its recursion."""
+    total = np.full((cost.shape[0] + 1, cost.shape[1] + 1), np.inf)
+    total[0, 0] = 0
+    for i in range(cost.shape[0]):
+        for j in range(cost.shape[1]):
+            total[i + 1, j + 1] = cost[i, j] + min(total[i, j], total[i, j + 1], total[i + 1, j])
+    return total[-1, -1]
+
+
+def cloud_distance(points, i, j, *, half):
+    """Kovar and Gleicher's distance by trying every turn in steps of 0.1 degrees."""
+    a, b = (points[f - half : f + half + 1].reshape(-1, 3) for f in (i, j))
+    best = np.inf
+    for angle in np.arange(0, 2 * np.pi, np.radians(0.1)):
+        c, s = np.cos(angle), np.sin(angle)
+        turned = b @ np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]).T
+        difference = a - turned
+        difference[:, [0, 2]] -= difference[:, [0, 2]].mean(axis=0)
+        best = min(best, (difference**2).sum() / len(a))
+    return best**0.5
