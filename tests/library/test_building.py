@@ -13,13 +13,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from library_folders import contents, write_channels
 
 import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Library, Settings, build, gathering
 from kineme.library.gathering import Group
 from kineme.library.vocabulary import signals
-from library_folders import contents, write_channels
 
 
 def test_one_bad_file_costs_itself_only(built: Path, takes: Path) -> None:
