@@ -160,3 +160,24 @@ def test_where_no_repetition_is_an_inner_one_it_says_what_to_do(kineme, take: Pa
     done = kineme("cycles", "take.bvh", "--segments", "two.csv", "--channels", "knee_l")
     assert done.returncode == 0, done.stderr
     assert "walk: no inner repetition; --ends counts the others" in done.stdout
+
+
+def test_a_recording_of_other_channels_costs_itself_alone(
+    kineme, take: Path, tmp_path: Path
+) -> None:
+    shutil.copy(take, tmp_path / "other.bvh")
+    (tmp_path / "truth.json").unlink()
+    rows = "".join(f"{i / 50},{i % 40}\n" for i in range(900))
+    (tmp_path / "wrist.csv").write_text(f"time,acc_x\n{rows}", encoding="utf-8")
+    together = kineme("cycles", ".", "-o", "out.csv")
+    assert together.returncode == 0, together.stderr
+    assert "wrist.csv: does not have the channels of the others" in together.stderr
+    assert {row["recording"] for row in rows_of(tmp_path / "out.csv")} == {"take", "other"}
+    named = kineme("cycles", "take.bvh", "other.bvh", "wrist.csv")
+    assert named.returncode == 1
+
+
+def test_numbers_in_common_are_those_of_tables(kineme, take: Path) -> None:
+    found = kineme("cycles", "take.bvh", "--common")
+    assert found.returncode == 2
+    assert "--segments" in found.stderr

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from math import floor, isfinite, log10
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import typer
 
@@ -106,7 +107,7 @@ def cycles(
         bool,
         option(
             MEASURED,
-            "Clusters have the same numbers in all recordings.",
+            "Tables (--segments) number their clusters in common.",
             "--common",
         ),
     ] = False,
@@ -131,19 +132,23 @@ def cycles(
     _check_targets(output, plot, compare, sides)
     if compare is not None and len(batch.paths) != 2 and request.person != EVERYBODY:
         raise typer.BadParameter("takes two recordings", param_hint="--compare")
-    recordings: list[Motion | Signals] = []
-    tables: list[Segmentation] = []
+    if common and segments is None:
+        reason = "is for tables whose clusters have numbers in common: give them with --segments"
+        raise typer.BadParameter(reason, param_hint="--common")
+    read: list[_Read] = []
     batch.tables("--segments", segments)  # whether there are any
 
-    def read(path: Path, asked: Request, table: Path | None) -> None:
+    def read_one(path: Path, asked: Request, table: Path | None) -> None:
         with batch.progress(path) as stage:
             stage("reading")
             recording = asked.read(path)
-            tables.append(asked.segments(recording, table, stage))
-            recordings.append(recording)
+            found = _channels_of(recording, names) if len(batch.paths) > 1 else ()
+            read.append(_Read(path, recording, asked.segments(recording, table, stage), found))
 
     for path in batch.paths:
-        batch.each_person(path, request, read, tables=("--segments", segments))
+        batch.each_person(path, request, read_one, tables=("--segments", segments))
+    read = _of_most_channels(read, batch)
+    recordings, tables = [each.recording for each in read], [each.segments for each in read]
     failures = Failures()
     if recordings:
         with failures.caught(""):
@@ -174,6 +179,31 @@ def cycles(
                 show_written(Console(highlight=False), [output, plot, compare, sides])
     batch.exit()
     failures.exit()
+
+
+class _Read(NamedTuple):
+    path: Path
+    recording: Motion | Signals
+    segments: Segmentation
+    channels: tuple[str, ...]
+
+
+def _channels_of(recording: Motion | Signals, names: list[str] | None) -> tuple[str, ...]:
+    from kineme.cycles import channels_of
+
+    return tuple(channel.name for channel in channels_of(recording, names))
+
+
+def _of_most_channels(read: list[_Read], batch: Batch) -> list[_Read]:
+    """Those that have the channels that most have; the others are left out, and this is said."""
+    counts = Counter(each.channels for each in read)
+    most = counts.most_common(1)[0][0] if counts else ()
+    for each in read:
+        if each.channels != most:
+            other = ", ".join(sorted({*most} ^ {*each.channels})[:4])
+            reason = f"does not have the channels of the others ({other}): choose with --channels"
+            batch.leave_out(each.path, reason)
+    return [each for each in read if each.channels == most]
 
 
 def _analog(
@@ -295,6 +325,8 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
             axes.legend(axes.lines[:2], names, frameon=False)
         else:
             draw(*what, ends=ends, ax=axes)
+            if draw is plot_curves and number > 1 and (legend := axes.get_legend()):
+                legend.remove()  # all have that of the first
     with atomic_write(path) as draft:
         figure.savefig(draft)
 

@@ -152,6 +152,12 @@ class Batch:
         else:
             self._missing -= self._given_as[absolute(path)]
 
+    def leave_out(self, path: Path, reason: str) -> None:
+        """Say why a recording that could be read has no part in the result."""
+        named = self._is_named(path)
+        self._messages.append((say_error if named else say_skipped, f"{path}: {reason}"))
+        self._missing |= {path} if named else set()
+
     def progress(self, path: Path) -> AbstractContextManager[Callable[[str], None]]:
         """A function that shows the stage at work on the recording whose turn it is."""
         turn = f" ({self._at} of {len(self.paths)})" if len(self.paths) > 1 else ""
