@@ -29,9 +29,9 @@ import kineme
 from _options import command_line, few
 from kineme.datasets import bundled_recording
 from kineme.studio.app import create_app  # noqa: F401 (loaded before the fork)
-from kineme.studio.folder import file_id
 from kineme.studio.reading import ReadingOptions
 from kineme.studio.server import serve
+from kineme.studio.storage.listed import file_id
 
 MOST_EDITS = few(12, 5)
 """Before a server is killed, in the midst of the next."""

@@ -24,7 +24,7 @@ from _figures import add_option, record
 from _measure import verdict
 from _options import command_line, few
 from kineme.datasets import bundled_recording
-from kineme.studio.folder import file_id
+from kineme.studio.storage.listed import file_id
 from report_in_browser import (
     FIRST_PICTURE,
     SIZE,

@@ -26,7 +26,7 @@ from _figures import add_option, record
 from _measure import verdict
 from _options import command_line, few
 from kineme.datasets import bundled_recording
-from kineme.studio.folder import file_id
+from kineme.studio.storage.listed import file_id
 from report_in_browser import SIZE, wait
 from studio import WARM, Studio, processor_time, start
 

@@ -37,7 +37,7 @@ from confidence import (
     right_links,
     truth_of,
 )
-from kineme.studio.folder import file_id
+from kineme.studio.storage.listed import file_id
 from report_in_browser import SIZE, wait
 from studio import start
 
