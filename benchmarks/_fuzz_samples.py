@@ -19,6 +19,7 @@ import numpy as np
 import _fbx
 import kineme
 from kineme import formats, labels
+from kineme._files import CORRECTED
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import MissingDependencyError
 from kineme.evaluation.annotations import is_annotations, read_trials
@@ -31,8 +32,10 @@ from kineme.segments import editing
 from kineme.segments.editing.annotating import marked
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.journal import Journal
+from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import (
     keep_options,
+    listed_in,
     notes_on_sidecars,
     options_of,
     set_offset,
@@ -40,7 +43,7 @@ from kineme.studio.storage.sidecars import (
     shared_labels,
     video_message,
 )
-from kineme.studio.storage.tables import SUFFIX, saved_table
+from kineme.studio.storage.tables import saved_table
 from kineme.synthesis import motion_graph
 from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
 
@@ -186,10 +189,10 @@ def _library(root: Path, motion: Motion, _: Segmentation) -> None:
 def _studio(root: Path, motion: Motion, truth: Segmentation) -> None:
     folder = _made(root / "studio")
     formats.write(motion[:60], root / TAKE)
-    keep_options(root / TAKE, {"fps": 30.0, "unit": "cm", "up": "y"})
+    keep_options(root / TAKE, {"fps": 30.0, "unit": "cm", "up": "y"}, ["Anna", "Bob"])
     set_offset(root / TAKE, 1.5)
     share_labels(folder, ["walk", "jump"])
-    saved = folder / f"walk{SUFFIX}"
+    saved = folder / f"walk{CORRECTED}"
     journal = Journal(saved, truth)
 
     for fps in (59.0, 60.0):
@@ -222,7 +225,7 @@ def _build_library(root: Path) -> object:
 def _read_beside(root: Path) -> object:
     take = root / TAKE
     said = notes_on_sidecars(take)
-    found = kineme.read(take, **options_of(take))
+    found = kineme.read(take, **options_of(take)), listed_in([take])
     return found, video_message(take), shared_labels(take.parent), said
 
 
@@ -246,7 +249,7 @@ def _export_library(root: Path) -> object:
 
 def _open_studio(root: Path) -> object:
     folder = root / "studio"
-    file, table, notes = saved_table(folder / "walk.bvh", lambda _: True, set())
+    file, table, notes = saved_table(ListedRecording(folder / "walk.bvh"), lambda _: True, set())
     if table is None:
         return notes
     journal = Journal(file.path, table)

@@ -101,9 +101,7 @@ export function ReadingPanel(): JSX.Element | null {
             <button
               type="submit"
               disabled={busy.value}
-              title={`${people.length ? "The tables are" : "The table is"} made anew; ${
-                people.length ? "those" : "the one"
-              } before ${people.length ? "are" : "is"} kept in History`}
+              title="Tables are made anew; those before are kept in History"
             >
               Read again {busy.value && <span class="busy" />}
             </button>
