@@ -41,10 +41,7 @@ def with_repetitions(labels: Segmentation) -> Segmentation:
     single = origin.get("level") == "primitive"
     groups = _groups(rows, pauses=single)
     inner = list(labels.primitives) or _repetitions(rows, groups, given, single=single)
-    counts = [
-        _sum(some) if any(count is not None for count in some) else None
-        for some in ([given[i] for i in group if not _is_transition(rows[i])] for group in groups)
-    ]
+    counts = [_sum([given[i] for i in group if not _is_transition(rows[i])]) for group in groups]
     starts = [rows[group[0]].start_frame for group in groups]
     found = [row.start_frame for row in inner if not _is_transition(row)]
     numbers = np.bincount(np.searchsorted(starts, found, "right") - 1, minlength=len(groups))
@@ -185,6 +182,6 @@ def _repetitions(
 
 
 def _sum(counts: Sequence[Count]) -> Count:
-    """Of all; None where one of them is not known."""
-    known = [count for count in counts if count is not None]
-    return sum(known) if len(known) == len(counts) else None
+    """Of all; None where one of them is not known, or there is none."""
+    numbers = [count for count in counts if count is not None]
+    return sum(numbers) if numbers and len(numbers) == len(counts) else None
