@@ -140,10 +140,9 @@ def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
 @pytest.mark.parametrize(
     ("rows", "message"),
     [
-        ("0,20,a\n10,LAST,b", "'b' starts at frame 300, before the label ahead of it stops (600)"),
+        ("0,20,a\n10,LAST,b", "'b' starts at frame 600, before the label ahead of it stops (1200)"),
         ("0,20,a\n30,25,b\n30,LAST,c", "'b' stops at 25.0, before 30.0"),
-        ("0,20,a\n20,1000,b", "cover 1000.000 s (30000 frames at 30 fps), the recording lasts"),
-        ("0,20,a", "cover 20.000 s (600 frames at 30 fps), the recording lasts"),
+        ("0,20,a\n20,1000,b", "cover 1000.000 s (60000 frames at 60 fps), the recording lasts"),
         ("0,LAST,transition", "at least one action"),
         ("zero,LAST,a", "start_s must be a number, not 'zero'"),
     ],

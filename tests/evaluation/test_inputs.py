@@ -6,7 +6,10 @@ import pytest
 
 from kineme.errors import ReadError
 from kineme.evaluation import TRANSITION
-from kineme.evaluation.inputs import agreement, differences, read_result, read_truth
+from kineme.evaluation.comparison import compare
+from kineme.evaluation.inputs import agreement, differences, read_result, read_truth, score
+from kineme.evaluation.score import results_of, value_of
+from kineme.labels.collections import LabelSource
 from kineme.segments.segmentation import Segmentation
 
 
@@ -57,8 +60,7 @@ def test_one_label_per_frame_of_another_rate(tmp_path) -> None:
     [
         ("0,3,a\n2,6,b", "'b' starts at frame 20, before the label ahead of it stops"),
         ("3,1,a", "'a' stops at 1.0, before 3.0"),
-        ("0,9,a", r"cover 9.000 s .* the recording lasts 6.000 s"),
-        ("0,3,a", r"cover 3.000 s .* the recording lasts 6.000 s"),
+        ("0,9,a", r"cover 9.000 s \(90 frames at 10 fps\), the recording lasts 6.000 s \(60"),
         ("0,x,a", "line 2: stop_s must be a number, not 'x'"),
         ("0,nan,a", "not 'nan'"),
         ("0", "not ''"),
@@ -70,6 +72,103 @@ def test_broken_tables_are_one_clear_error(tmp_path, rows, words) -> None:
     path.write_text(f"start_s,stop_s,label\n{rows}\n")
     with pytest.raises(ReadError, match=words):
         read_truth(path, result())
+
+
+def test_silence_at_the_ends_counts_in_nothing(tmp_path) -> None:
+    path = tmp_path / "truth.csv"
+    path.write_text("start_s,stop_s,label\n1,2,walk\n2,3,run\n")
+    truth = read_truth(path, result())
+    assert truth.labels == (TRANSITION, "walk", "run", TRANSITION)
+    found = labels_as(tmp_path / "found.csv", ["0,2,a", "2,4,b", "4,6,c"])
+    scores = score(truth, found)
+    assert scores["mof"] == scores["border_f1"] == scores["covering"] == 1.0
+    assert scores["cluster_ratio"] == scores["cut_ratio"] == 1.0
+
+
+def test_frames_of_the_recording_are_named_not_those_of_the_comparison(tmp_path) -> None:
+    path = tmp_path / "truth.csv"
+    path.write_text("start_s,stop_s,label\n0,40,walk\n")
+    words = r"40.000 s \(2000 frames at 50 fps\), the recording lasts 35.160 s \(1758 frames at 50"
+    with pytest.raises(ReadError, match=words):
+        read_truth(path, result(1758, 50.0))
+
+
+def labels_as(path, rows: list[str], header: str = "start_s,stop_s,label") -> Segmentation:
+    path.write_text("\n".join([header, *rows]) + "\n")
+    return read_result(path, fps=10)
+
+
+CUT = ["0,2,squat", "2,4,squat", "4,6,squat", "6,9,walk"]
+"""Three repetitions, and an activity of which nobody says."""
+BOTH = ["0,6,squat,activity,", "6,9,walk,activity,", "0,2,squat,primitive,",
+        "2,4,squat,primitive,", "4,6,squat,primitive,"]  # fmt: skip
+COUNTED = ["0,6,squat,activity,3", "6,9,walk,activity,"]
+LEVELS = "start_s,stop_s,label,level,count"
+
+
+@pytest.fixture
+def counted_wrong(tmp_path) -> Segmentation:
+    """Four squats where there are three."""
+    rows = ["0,6,0,activity,", "6,9,1,activity,", "0,2,0,primitive,", "2,3,0,primitive,",
+            "3,4,0,primitive,", "4,6,0,primitive,", "6,9,1,primitive,"]  # fmt: skip
+    return labels_as(tmp_path / "found.csv", rows, LEVELS)
+
+
+@pytest.mark.parametrize(
+    ("header", "rows"), [("start_s,stop_s,label", CUT), (LEVELS, BOTH), (LEVELS, COUNTED)]
+)
+def test_repetitions_are_counted_however_labels_tell_them(
+    tmp_path, counted_wrong, header, rows
+) -> None:
+    labels_as(tmp_path / "truth.csv", rows, header)
+    truth = read_truth(tmp_path / "truth.csv", counted_wrong)
+    assert (truth.labels, truth.counts) == (("squat", "walk"), (3, None))
+    one = score(truth, counted_wrong)
+    folder = folder_scores(tmp_path / "truth.csv", counted_wrong)
+    for scores in (one, folder):
+        assert (scores["count_error"], scores["count_exact"]) == (1.0, 0.0)
+        assert scores["border_f1"] == scores["covering"] == scores["mof"] == 1.0
+    for scores in (one, folder) if rows is not COUNTED else ():
+        assert scores["repetition_f1"] == pytest.approx(4 / 5)
+    assert ("repetition_f1" in one) == ("repetition_f1" in folder) == (rows is not COUNTED)
+
+
+def folder_scores(path, found: Segmentation) -> dict[str, float]:
+    truth = LabelSource(path).of(n_frames=found.n_frames, fps=found.fps)
+    return {name: value_of(one) for name, one in results_of(compare(truth, found)).items()}
+
+
+def test_primitives_alone_are_repetitions_with_pauses_between_them(tmp_path, counted_wrong) -> None:
+    rows = ["0,1.6,squat,primitive,", "2,4,squat,primitive,", "4,6,squat,primitive,",
+            "8.5,9,jump,primitive,"]  # fmt: skip
+    labels_as(tmp_path / "truth.csv", rows, LEVELS)
+    truth = read_truth(tmp_path / "truth.csv", counted_wrong)
+    assert (truth.labels, truth.counts) == (("squat", "jump"), (3, 1))
+    assert truth.earliest.tolist() == [60]
+    one, folder = (
+        score(truth, counted_wrong),
+        folder_scores(tmp_path / "truth.csv", counted_wrong),
+    )
+    for scores in (one, folder):
+        assert (scores["count_error"], scores["count_exact"]) == (0.5, 0.5)
+        assert scores["repetition_f1"] == pytest.approx(4 / 5)
+
+
+def test_counts_of_neighbours_of_one_name_add_up(tmp_path) -> None:
+    rows = ["0,2,walk,activity,4", "2,4,walk,activity,3", "4,5,run,activity,2",
+            "5,6,run,activity,"]  # fmt: skip
+    labels_as(tmp_path / "truth.csv", rows, LEVELS)
+    truth = read_truth(tmp_path / "truth.csv", result())
+    assert (truth.labels, truth.counts) == (("walk", "run"), (7, None))
+
+
+def test_a_border_found_near_the_end_of_an_action_is_no_wrong_repetition(tmp_path) -> None:
+    labels_as(tmp_path / "truth.csv", ["0,2,a", "2,4,a", "4,6,b", "6,8,b"])
+    found = labels_as(tmp_path / "found.csv", ["0,2,a", "2,4.3,a", "4.3,6,b", "6,8,b"])
+    assert score(read_truth(tmp_path / "truth.csv", found), found)["repetition_f1"] == 1.0
+    labels_as(tmp_path / "truth.csv", ["0,0.6,a", "0.6,1.2,a"])  # within a quarter: 0.15 s
+    found = labels_as(tmp_path / "found.csv", ["0,0.8,a", "0.8,1.2,a"])
+    assert score(read_truth(tmp_path / "truth.csv", found), found)["repetition_f1"] == 0.0
 
 
 def test_labels_without_a_rate_need_one_only_where_they_count_frames(tmp_path) -> None:

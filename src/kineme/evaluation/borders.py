@@ -4,6 +4,10 @@ A found border is right within the span in which people put one, and the toleran
 beyond it; each border of the truth can be met once. Neighbours with equal labels have no border
 between them. A found transition of less than 1 s is one border, at its middle; a longer one is
 a segment of its own, with a border at either side.
+
+Between the repetitions of an action there are borders, too, where people cut them. A pause between
+two repetitions is one border. One is right within 0.5 s, or a quarter of a repetition where that
+is less. What is found near the end of an action is the border of that.
 """
 
 from __future__ import annotations
@@ -11,13 +15,18 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.score import Ratio, Score, one_of
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Labelling
+
+Floats = NDArray[np.float64]
 
 SHORT_TRANSITION_S = 1.0
+REPETITION_TOLERANCE_S = 0.5
+REPETITION_TOLERANCE = 0.25
+"""Of the shorter of the two repetitions, where that is less."""
 
 
 class BorderScore(NamedTuple):
@@ -49,12 +58,7 @@ def border_score(compared: Comparison) -> BorderScore:
     if not truth.mean.size + found.size:
         return BorderScore(1.0, 1.0, 1.0)
     slack = truth.tolerance_s * truth.fps
-    hits = following = 0
-    for first, last in zip(truth.earliest - slack, truth.latest + slack, strict=True):
-        following = max(following, int(np.searchsorted(found, first)))
-        if following < found.size and found[following] <= last:
-            hits += 1
-            following += 1
+    hits = len(_matches(truth.earliest - slack, truth.latest + slack, found))
     return BorderScore(
         hits / found.size if found.size else 0.0,
         hits / truth.mean.size if truth.mean.size else 0.0,
@@ -62,7 +66,51 @@ def border_score(compared: Comparison) -> BorderScore:
     )
 
 
-def border_frames(found: Labelling) -> NDArray[np.float64]:
+def repetition_f1(compared: Comparison) -> Ratio | None:
+    """F1 of the borders between repetitions, in the actions whose repetitions people cut.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    Ratio
+        Over a folder, borders are counted over all recordings. None where there is none.
+
+    Examples
+    --------
+    >>> from kineme.evaluation import Truth
+    >>> cut = Labelling.from_cuts([30, 60], ["squat"] * 3, frames=90, fps=30)
+    >>> truth = Truth(("squat",), [], [], [], frames=90, fps=30, repetitions=cut)
+    >>> found = Labelling.from_cuts([31, 45, 60], ["0"] * 4, frames=90, fps=30)
+    >>> repetition_f1(Comparison.of(truth, found))
+    Ratio(part=4, total=5)
+    """
+    truth, primitives = compared.repetitions
+    if truth.repetitions is None:
+        return None
+    ends = truth.at_means().borders
+    starts, stops = _single(truth.repetitions)
+    actions = np.searchsorted(ends, (starts + stops) / 2, "right")
+    before = np.flatnonzero(actions[1:] == actions[:-1])
+    earliest, latest = stops[before], starts[before + 1]
+    lengths = np.minimum((stops - starts)[before], (stops - starts)[before + 1])
+    slack = np.minimum(REPETITION_TOLERANCE_S * truth.fps, REPETITION_TOLERANCE * lengths)
+
+    first, last = _single(primitives)
+    found = (last[:-1] + first[1:]) / 2
+    found = found[np.isin(np.searchsorted(ends, found, "right"), actions)]
+    hits = _matches(earliest - slack, latest + slack, found)
+    near = REPETITION_TOLERANCE_S * truth.fps
+    begin, end = truth.earliest - near, truth.latest + near
+    at_ends = np.any((begin <= found[:, None]) & (found[:, None] <= end), axis=1)
+    wrong = np.delete(~at_ends, hits)
+    total = len(earliest) + len(hits) + int(wrong.sum())
+    return Ratio(2 * len(hits), total) if total else None
+
+
+def border_frames(found: Labelling) -> Floats:
     """Where the result changes from one thing to another, frames.
 
     A transition shorter than 1 s between two others gives its middle alone.
@@ -140,6 +188,24 @@ def cluster_ratio(compared: Comparison) -> Ratio:
     return Ratio(*map(len, sides))
 
 
+def _single(repetitions: Labelling) -> tuple[Ints, Ints]:
+    """Where repetitions start and stop."""
+    kept = np.array([label != TRANSITION for label in repetitions.labels])
+    return repetitions.starts[kept], repetitions.stops[kept]
+
+
+def _matches(first: ArrayLike, last: ArrayLike, found: Floats) -> list[int]:
+    """Which of the found borders are right; each true one takes the first that lies in its span."""
+    hits: list[int] = []
+    following = 0
+    for start, stop in zip(np.asarray(first), np.asarray(last), strict=True):
+        following = max(following, int(np.searchsorted(found, start)))
+        if following < found.size and found[following] <= stop:
+            hits.append(following)
+            following += 1
+    return hits
+
+
 SCORES = (
     Score("border_precision", "border precision", "share of found borders that are right",
           "borders", one_of(border_score, 0)),
@@ -153,4 +219,6 @@ SCORES = (
     Score("cut_ratio", "cuts, found / true", "how many, both sides of transitions being cuts",
           "borders", cut_ratio),
     Score("cluster_ratio", "clusters, found / true", "how many", "borders", cluster_ratio),
+    Score("repetition_f1", "repetition border F1", "F1 of the borders between repetitions",
+          "repetitions", repetition_f1),
 )  # fmt: skip

@@ -29,10 +29,11 @@ from numpy.typing import ArrayLike
 from scipy.optimize import linear_sum_assignment
 
 from kineme.errors import ParameterError
+from kineme.evaluation.label_truth import labelling_of as labelling_of  # noqa: PLC0414 (others have it from here)
+from kineme.evaluation.label_truth import truth_of, with_repetitions
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Labelling, Truth
 from kineme.labels.spans import text_of
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import SegmentTable
 
 LABELS_TOLERANCE_S = 0.5
 """Seconds within which a border is right where the truth is labels."""
@@ -46,6 +47,13 @@ class Run(NamedTuple):
     label: int
     start: int
     stop: int
+
+
+class Repetitions(NamedTuple):
+    """Actions of the truth with the repetitions in them, and what was found, of every frame."""
+
+    actions: Truth
+    primitives: Labelling
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +70,9 @@ class Spans:
         Of the recording: metres, y up.
     features : array_like, (frames, dims), optional
         Of the recording, stacked.
+    repetitions : Repetitions, optional
+        Both sides of every frame, where the others are of those alone that count; by default
+        ``actions`` and ``primitives``.
 
     Examples
     --------
@@ -75,6 +86,7 @@ class Spans:
     primitives: Labelling
     positions: ArrayLike | None = None
     features: ArrayLike | None = None
+    repetitions: Repetitions | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,6 +206,49 @@ class Comparison:
         actions = Truth.from_labelling(truth, tolerance_s=LABELS_TOLERANCE_S)
         return Spans(actions, found, found)
 
+    @property
+    def repetitions(self) -> Repetitions:
+        """What repetitions are counted on: every frame of the recording."""
+        spans = self.spans
+        return spans.repetitions or Repetitions(spans.actions, spans.primitives)
+
+    def without_silence(self) -> Comparison:
+        """The same between the start of the first action and the end of the last.
+
+        Beyond them the truth says nothing, and nothing is right or wrong there.
+        """
+        spans, actions = self.spans, self.spans.actions
+        first, last = (actions.labels[i] == TRANSITION for i in (0, -1))
+        if not first and not last:
+            return self
+        start = int(actions.latest[0]) if first else 0
+        stop = int(actions.earliest[-1]) if last else actions.frames
+        rows = slice(int(first), len(actions.labels) - int(last))
+        between = slice(rows.start, rows.stop - 1)
+        inner = replace(
+            actions,
+            labels=actions.labels[rows],
+            earliest=actions.earliest[between] - start,
+            mean=actions.mean[between] - start,
+            latest=actions.latest[between] - start,
+            frames=stop - start,
+            counts=actions.counts[rows],
+            repetitions=None,
+        )
+        counted = np.zeros(actions.frames, np.bool_)
+        counted[start:stop] = True
+        intervals = Spans(
+            inner,
+            spans.activities.within(counted),
+            spans.primitives.within(counted),
+            None if spans.positions is None else np.asarray(spans.positions)[counted],
+            None if spans.features is None else np.asarray(spans.features)[counted],
+            self.repetitions,
+        )
+        return replace(
+            self, truth=self.truth[counted], found=self.found[counted], intervals=intervals
+        )
+
     @cached_property
     def true_runs(self) -> list[Run]:
         """The runs of one class."""
@@ -225,7 +280,8 @@ def compare(
     Parameters
     ----------
     truth : Segmentation
-        Its activities' labels are the classes; its transitions are frames without a label.
+        Its activities' labels are the classes; its transitions are frames without a label. What
+        it says of repetitions, `kineme.evaluation.label_truth` tells.
     found : Segmentation
         Its activities' clusters. Transitions are one cluster; an activity in no cluster is
         one of its own.
@@ -255,6 +311,7 @@ def compare(
         raise ParameterError(
             f"the labels are of {truth.n_frames} frames, the result of {found.n_frames}"
         )
+    truth = with_repetitions(truth)
     numbers = {} if classes is None else classes
     classes_of_rows = [
         UNLABELLED if row.kind == "transition" else numbers.setdefault(text_of(row), len(numbers))
@@ -270,10 +327,15 @@ def compare(
     if not counted.any():
         raise ParameterError("the labels say nothing of this recording: every frame is unlabelled")
     compared = Comparison(labels[counted], clusters[counted], found.fps)
-    if not len(found.primitives):
-        return compared
-    primitives = labelling_of(found.primitives, fps=found.fps).within(counted)
-    return replace(compared, intervals=replace(compared.spans, primitives=primitives))
+    spans = compared.spans
+    single = labelling_of(found.primitives or found.activities, fps=truth.fps)
+    actions = truth_of(truth, n_frames=truth.n_frames, fps=truth.fps)
+    intervals = replace(
+        spans,
+        primitives=single.within(counted) if len(found.primitives) else spans.primitives,
+        repetitions=Repetitions(actions, single),
+    )
+    return replace(compared, intervals=intervals)
 
 
 def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
@@ -319,42 +381,6 @@ def runs(labels: ArrayLike) -> list[Run]:
     per_frame = np.asarray(labels, np.int64)
     borders = [0, *(np.flatnonzero(np.diff(per_frame)) + 1).tolist(), len(per_frame)]
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
-
-
-def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
-    """The clusters of one level of a segmentation, as labels.
-
-    Transitions are `TRANSITION`; what is in no cluster goes by its label, and without one
-    gets a name of its own.
-
-    Parameters
-    ----------
-    rows : SegmentTable
-        Of one level.
-    fps : float
-        Frames per second.
-
-    Returns
-    -------
-    Labelling
-
-    Examples
-    --------
-    >>> import kineme
-    >>> from kineme.datasets import bundled_truth
-    >>> found = kineme.read_segments(bundled_truth())
-    >>> labelling_of(found.activities, fps=found.fps).labels[:4]
-    ('0', 'transition', '1', 'transition')
-    """
-    labels = [
-        TRANSITION
-        if row.kind == "transition"
-        else f"{row.cluster}"
-        if row.cluster >= 0
-        else row.label or f"~{i}"
-        for i, row in enumerate(rows)
-    ]
-    return Labelling(np.append(rows.start_frame, rows.stop_frame[-1]), tuple(labels), fps)
 
 
 def _labelling(found: Sequence[Run], fps: float) -> Labelling:

@@ -1,7 +1,8 @@
 """One result against its truth, from files: how the two meet.
 
 Both are label files of any format (`kineme.labels`). They are compared at 30 Hz, as published, or
-at the result's rate if that is lower.
+at the result's rate if that is lower. Before its first action and behind its last one a truth says
+nothing, and nothing is right or wrong there.
 """
 
 from __future__ import annotations
@@ -13,9 +14,11 @@ from pathlib import Path
 from typing import Any
 
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.evaluation.comparison import Comparison, labelling_of, runs
-from kineme.evaluation.score import comparison_of, evaluate_segmentation, results_of, value_of
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
+from kineme.evaluation.comparison import Comparison, runs
+from kineme.evaluation.label_truth import truth_of as truth_of  # noqa: PLC0414 (others have it from here)
+from kineme.evaluation.label_truth import with_repetitions
+from kineme.evaluation.score import comparison_of, results_of, value_of
+from kineme.evaluation.truth import UNLABELLED, Truth, check_length
 from kineme.labels.clock_times import by_clock
 from kineme.labels.files import read_content
 from kineme.labels.spans import Labels, as_segmentation
@@ -47,35 +50,19 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
     label_format, content = read_content(path)
     try:
         if isinstance(content, Labels):
-            counted = content.fps or (rate if content.unit == "seconds" else fps or found.fps)
-            content = by_clock(content, found.clock, length_s=found.n_frames / found.fps)
+            counted = content.fps or (found.fps if content.unit == "seconds" else fps or found.fps)
+            length_s = found.n_frames / found.fps
+            content = by_clock(content, found.clock, length_s=length_s)
+            if content.length is None:  # silence at the end
+                length = length_s if content.unit == "seconds" else round(length_s * counted)
+                content = replace(content, length=length)
             content, unusual = as_segmentation(content, path, label_format.name, fps=counted)
             if unusual:
                 warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
-        return truth_of(content, n_frames=n_frames, fps=rate)
+        check_length(content.n_frames, content.fps, found.n_frames, found.fps)
+        return truth_of(with_repetitions(content), n_frames=n_frames, fps=rate)
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
-
-
-def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
-    """The activities of a segmentation as a truth at a rate; transitions are uncertain borders.
-
-    Activities are called by their labels, else by their clusters.
-    """
-    rows = truth.activities
-    clusters = labelling_of(rows, fps=truth.fps)
-    names = [
-        TRANSITION if row.kind == "transition" else row.label or name
-        for row, name in zip(rows, clusters.labels, strict=True)
-    ]
-    labels = replace(clusters, labels=tuple(names)).at(frames=n_frames, fps=fps)
-    actions = Truth.from_labelling(labels)
-    counts = truth.provenance.get("labels", {}).get("counts", ())
-    if len(counts) != len(labels.labels):  # none, or a segment vanished at this rate
-        return actions
-    last = len(counts) - 1
-    kept = [c for i, c in enumerate(counts) if names[i] != TRANSITION or i in (0, last)]
-    return replace(actions, counts=tuple(kept))
 
 
 def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
@@ -90,8 +77,7 @@ def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
     1.0
     """
     compared = _beside(truth, found)
-    results = {} if compared is None else results_of(compared)
-    scores = {name: value_of(result) for name, result in results.items()}
+    scores = {} if compared is None else _scores(compared)
     return {name: value for name, value in scores.items() if isfinite(value)}
 
 
@@ -126,7 +112,11 @@ def _beside(truth: Segmentation, found: Segmentation) -> Comparison | None:
     if not (truth.activities.kind == "activity").any():
         return None
     n_frames, fps = comparison(found)
-    return comparison_of(truth_of(truth, n_frames=n_frames, fps=fps), found)
+    return comparison_of(truth_of(with_repetitions(truth), n_frames=n_frames, fps=fps), found)
+
+
+def _scores(compared: Comparison) -> dict[str, float]:
+    return {name: value_of(one) for name, one in results_of(compared.without_silence()).items()}
 
 
 def comparison(found: Segmentation) -> tuple[int, float]:
@@ -151,7 +141,7 @@ def score(truth: Truth, found: Segmentation, motion: Motion | None = None) -> di
                 f"the recording has {len(data['positions'])} frames at {truth.fps:g} Hz, "
                 f"the result {truth.frames}"
             )
-    return evaluate_segmentation(truth, found, **data)
+    return _scores(comparison_of(truth, found, **data))
 
 
 def recording_of(found: Segmentation) -> Path | None:

@@ -124,8 +124,8 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
     >>> count_errors(Comparison.of(truth, found))
     (0.0, 1.0)
     """
-    truth = compared.spans.actions
-    found = found_counts(truth, compared.spans.primitives)
+    truth, primitives = compared.repetitions
+    found = found_counts(truth, primitives)
     errors = [
         abs(count - true)
         for count, true in zip(found, truth.counts, strict=False)

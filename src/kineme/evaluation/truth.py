@@ -148,12 +148,7 @@ class Labelling:
         ParameterError
             The lengths in seconds differ by more than one frame of the slower rate.
         """
-        length, other = self.frames / self.fps, frames / fps
-        if abs(length - other) > 1 / min(self.fps, fps) + 1e-9:
-            raise ParameterError(
-                f"the labels cover {length:.3f} s ({self.frames} frames at {self.fps:g} fps), the "
-                f"recording lasts {other:.3f} s ({frames} frames at {fps:g} fps)"
-            )
+        check_length(self.frames, self.fps, frames, fps)
         moved = round_half_up(self.borders * (fps / self.fps))
         moved = np.append(np.minimum(moved[:-1], frames), frames)
         kept = np.flatnonzero(np.diff(moved) > 0)
@@ -183,6 +178,8 @@ class Truth:
         Repetitions in each action, None where not known; empty: none is.
     tolerance_s : float
         Seconds beyond these spans within which a found border is right.
+    repetitions : Labelling, optional
+        Single repetitions where people cut them, transitions elsewhere; of as many frames.
 
     Raises
     ------
@@ -204,6 +201,7 @@ class Truth:
     fps: float
     counts: tuple[int | None, ...] = ()
     tolerance_s: float = TOLERANCE_S
+    repetitions: Labelling | None = None
 
     def __post_init__(self) -> None:
         check_rate(self.fps)
@@ -213,6 +211,10 @@ class Truth:
         if self.counts and len(self.counts) != len(self.labels):
             raise ParameterError(
                 f"{len(self.labels)} actions need as many counts, not {len(self.counts)}"
+            )
+        if self.repetitions is not None and self.repetitions.frames != self.frames:
+            raise ParameterError(
+                f"the repetitions are of {self.repetitions.frames} frames, not {self.frames}"
             )
         for name in ("earliest", "mean", "latest"):
             frames = np.asarray(getattr(self, name), np.int64)
@@ -246,11 +248,17 @@ class Truth:
             )
 
     @classmethod
-    def from_labelling(cls, labelling: Labelling, *, tolerance_s: float = TOLERANCE_S) -> Truth:
+    def from_labelling(
+        cls,
+        labelling: Labelling,
+        *,
+        counts: Sequence[int | None] = (),
+        tolerance_s: float = TOLERANCE_S,
+    ) -> Truth:
         """The truth in a labelling: a transition between two actions is an uncertain border.
 
         Its middle counts as the mean. A transition at the beginning or the
-        end of the recording stays a row of its own.
+        end of the recording stays a row of its own. Counts are one for each interval.
         """
         middle = [
             0 < i < len(labelling.labels) - 1 and label == TRANSITION
@@ -266,6 +274,7 @@ class Truth:
             latest,
             labelling.frames,
             labelling.fps,
+            tuple(counts[i] for i in rows) if any(c is not None for c in counts) else (),
             tolerance_s=tolerance_s,
         )
 
@@ -290,6 +299,16 @@ class Truth:
 def round_half_up(values: ArrayLike) -> Ints:
     """Whole numbers; halves go up, as MATLAB rounds."""
     return np.floor(np.asarray(values, np.float64) + 0.5).astype(np.int64)
+
+
+def check_length(frames: int, fps: float, others: int, rate: float) -> None:
+    """A `ParameterError` where labels are not as long as their recording, which has the others."""
+    length, other = frames / fps, others / rate
+    if abs(length - other) > 1 / min(fps, rate) + 1e-9:
+        raise ParameterError(
+            f"the labels cover {length:.3f} s ({frames} frames at {fps:g} fps), the "
+            f"recording lasts {other:.3f} s ({others} frames at {rate:g} fps)"
+        )
 
 
 def check_rate(fps: float) -> None:

@@ -12,6 +12,8 @@ file holds, one that runs backwards is left out, and a note in the provenance sa
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import ceil, isclose
@@ -30,6 +32,7 @@ from kineme.labels.pairs import SAME
 from kineme.labels.registry import format_to_read, holds_labels
 from kineme.labels.spans import TOO_FAR, Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level
 
 SLACK = 1e-6
 """Frames by which a time may miss a frame and still be its own: seconds have few digits."""
@@ -90,6 +93,13 @@ def labels_of(
     They are in a table with a column ``recording``, or in a folder with a file for each. ReadError
     where nothing there is of any of the recordings.
     """
+    return labels_and_strays(recordings, labels)[0]
+
+
+def labels_and_strays(
+    recordings: Iterable[Path], labels: str | PathLike[str]
+) -> tuple[Mapping[Path, LabelSource], list[str]]:
+    """What `labels_of` gives, and the recordings that a table names and that are not there."""
     files, home = list(recordings), Path(labels)
     named = _in_folder(home) if home.is_dir() else _in_table(home)
     pairs = ((path, named.get(path.name) or named.get(path.stem)) for path in files)
@@ -99,7 +109,9 @@ def labels_of(
         owners = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
         of = ", ".join(map(repr, named)) or "none"
         raise ReadError(labels, f"has no labels of {owners}{first!r}, but of {of:.60}")
-    return found
+    present = {name for path in files for name in (path.name, path.stem)}
+    strays = [] if home.is_dir() else [name for name in named if name not in present]
+    return found, strays
 
 
 def labels_for(
@@ -116,13 +128,6 @@ def labels_for(
         return read_segments(labels, fps=fps, n_frames=n_frames, clock=clock)
     (source,) = labels_of([recording], labels).values()
     return source.of(n_frames=n_frames, fps=fps, clock=clock)
-
-
-def strays_of(recordings: Iterable[Path], labels: str | PathLike[str]) -> list[str]:
-    """The recordings that a table names and that are not there; of a folder none."""
-    home = Path(labels)
-    present = {name for path in recordings for name in (path.name, path.stem)}
-    return [] if home.is_dir() else [name for name in _in_table(home) if name not in present]
 
 
 def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
@@ -150,12 +155,21 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     lost = [old for old, new in pairs if old.start <= old.stop and new.start >= new.stop]
     beyond = sum(old.stop * rate > n_frames + 1 for old, new in pairs if new.start < new.stop)
     before = sum(old.start * rate < -1 for old, new in pairs if new.start < new.stop)
+    earlier: defaultdict[Level, _Covered] = defaultdict(_Covered)
+    overlaps = sum(
+        earlier[span.level].add(span.start, span.stop) != [(span.start, span.stop)]
+        for span in forward
+    )
+    later: defaultdict[Level, _Covered] = defaultdict(_Covered)
     kept: list[Span] = []
-    overlaps = 0
-    for new in forward:
-        apart = [cut for old in kept for cut in _cut(old, new)]
-        overlaps += apart != kept
-        kept = [*apart, new]
+    for span in reversed(forward):
+        free = later[span.level].add(span.start, span.stop)
+        count = span.repetitions if len(free) == 1 else None  # else nobody says of which part
+        kept += [
+            span._replace(start=start, stop=stop, repetitions=count)
+            for start, stop in reversed(free)
+        ]
+    kept.reverse()
     counts = {
         "overlapping others": overlaps,
         "running backwards, left out": backward,
@@ -172,12 +186,23 @@ def _first_frame(time: float, n_frames: int) -> int:
     return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
 
-def _cut(old: Span, new: Span) -> list[Span]:
-    """What is left of a span where a later one of its level covers it."""
-    if old.level != new.level or old.stop <= new.start or new.stop <= old.start:
-        return [old]
-    before, after = old._replace(stop=new.start), old._replace(start=new.stop)
-    return [span for span in (before, after) if span.start < span.stop]
+class _Covered:
+    """What spans cover, as spans in order that do not touch each other."""
+
+    def __init__(self) -> None:
+        self._starts: list[float] = []
+        self._stops: list[float] = []
+
+    def add(self, start: float, stop: float) -> list[tuple[float, float]]:
+        """Cover a span, too; what of it was free, in order."""
+        meeting = slice(bisect_left(self._stops, start), bisect_right(self._starts, stop))
+        starts, stops = self._starts[meeting], self._stops[meeting]
+        self._starts[meeting], self._stops[meeting] = (
+            [min([start, *starts])],
+            [max([stop, *stops])],
+        )
+        free = zip([start, *stops], [*starts, stop], strict=True)
+        return [(begin, end) for begin, end in free if begin < end]
 
 
 def _in_table(path: Path) -> dict[str, LabelSource]:

@@ -110,8 +110,9 @@ def as_segmentation(
     """The segmentation that labels speak of, and sentences on what of it is worth a warning.
 
     What no label covers is a transition. Where all spans are of the primitive level they become
-    activities, which every segmentation has. Counts of repetitions, where the labels have some, are
-    kept in the provenance, ``["labels"]["counts"]``: one per row of the activity level, or None.
+    activities, which every segmentation has; the provenance has the level, ``["labels"]["level"]``.
+    Counts of repetitions, where the labels have some, are kept there, too,
+    ``["labels"]["counts"]``: one per row of the activity level, or None.
     """
     if not labels.spans:
         recording = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
@@ -146,7 +147,14 @@ def as_segmentation(
         unusual.append(f"shorter than a frame, left out: {counted(len(rows) - len(full), 'label')}")
     tiled = _both_levels(full, n_frames, path)
     source: dict[str, Any] = {"path": str(path), "format": name}
-    counts = {row[2]: s.repetitions for row, s in zip(rows, labels.spans, strict=True)}
+    level = "activity" if any(row[0] == "activity" for row in full) else "primitive"
+    if level == "primitive":
+        source["level"] = level
+    counts = {
+        row[2]: span.repetitions
+        for row, span in zip(rows, labels.spans, strict=True)
+        if row[0] == level and row[2] < row[3]
+    }
     if any(count is not None for count in counts.values()):
         source["counts"] = [counts.get(row[2]) for row in tiled if row[0] == "activity"]
     try:

@@ -17,7 +17,7 @@ from kineme.evaluation.folder import Evaluated, FolderScores, Mapped, evaluate_f
 from kineme.evaluation.recordings import Reading, check_method, recordings_below
 from kineme.evaluation.score import scores
 from kineme.evaluation.tables import score_rows, shown, write_result
-from kineme.labels.collections import labels_of, strays_of
+from kineme.labels.collections import labels_and_strays
 
 NAMED = 5
 """Names that a list of files shows before it only counts."""
@@ -45,7 +45,7 @@ def run_folder(
     with progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
         recordings = recordings_below(folder)
-        found = labels_of(recordings, labels)
+        found, strays = labels_and_strays(recordings, labels)
         result = evaluate_folder(
             found,
             methods,
@@ -56,7 +56,7 @@ def run_folder(
             progress=stage,
         )
     if not quiet:
-        _tell("labels of recordings that are not there", strays_of(recordings, labels))
+        _tell("labels of recordings that are not there", strays)
         _tell("without labels, left out", [path.name for path in recordings if path not in found])
     _tell_of_recordings(result, quiet=quiet)
     if as_json:
@@ -87,7 +87,9 @@ def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:
 def _show(result: FolderScores) -> None:
     """Print the scores of each recording by the methods, then those over all of them."""
     columns: dict[str, Any] = {method: result.over_all(method) for method in result.methods}
-    short = ("mof", "edit", "f1@50", "border_f1")
+    ones = [one for some in result.methods.values() for one in some]
+    counts = [name for name in ("count_error",) if any(name in one.scores for one in ones)]
+    short = ("mof", "edit", "f1@50", "border_f1", *counts)
     by_method = [
         (method if len(columns) > 1 else "", [(one.recording, _row(one, short)) for one in ones])
         for method, ones in result.methods.items()
