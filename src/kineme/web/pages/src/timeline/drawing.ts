@@ -1,7 +1,7 @@
 /** How lanes look. */
 import { inkOn } from "../colors";
 import type { Segment } from "../messages";
-import { nameOf } from "../segments";
+import { isExcluded, nameOf } from "../segments";
 import type { Drag } from "../state";
 import type { Store } from "../store";
 import { cssColor } from "../theme";
@@ -84,6 +84,8 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
     }
     if (color && right - left > 16) writeName(pen, lane, segment, left, right, room, inkOn(color));
     if (checked.has(segment) && right - left > 8) drawTick(pen, lane, right);
+    if (rows && lane.level === "primitive" && isExcluded(rows.annotation, segment))
+      drawStrike(pen, lane, left, right);
   }
   drawDifferences(pen, lane, scene);
   drawTarget(pen, lane, scene);
@@ -102,6 +104,16 @@ function drawTick(pen: Pen, lane: Lane, right: number): void {
   pen.moveTo(x, y + 1);
   pen.lineTo(x + 2, y + 3);
   pen.lineTo(x + 5, y - 1);
+  pen.stroke();
+}
+
+/** Through a repetition that people left out of means. */
+function drawStrike(pen: Pen, lane: Lane, left: number, right: number): void {
+  pen.strokeStyle = cssColor("panel");
+  pen.lineWidth = 2;
+  pen.beginPath();
+  pen.moveTo(left + 1, lane.top + lane.height);
+  pen.lineTo(right - 1, lane.top);
   pen.stroke();
 }
 
