@@ -15,6 +15,7 @@ import runpy
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
@@ -46,12 +47,9 @@ runpy.run_path({str(ROOT / "docs" / "run_pages.py")!r})["run_page"](*map(Path, s
 
 
 @pytest.fixture(scope="module")
-def programs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """Where ``kineme`` is; elsewhere processes cannot be forked, or sockets have short names."""
-    if sys.platform != "linux":
-        yield RUN["SCRIPTS"]
-        return
-    with ready_kineme(tmp_path_factory.mktemp("programs")) as folder:
+def programs() -> Iterator[Path]:
+    """Where ``kineme`` is: where processes can be forked, one that starts at once."""
+    with ready_kineme() if sys.platform == "linux" else nullcontext(RUN["SCRIPTS"]) as folder:
         yield folder
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -44,6 +46,32 @@ def kineme_in() -> Kineme:
 def kineme_process(kineme_in: Kineme, tmp_path: Path) -> Kineme:
     """Run ``kineme ARGUMENTS`` in an empty folder, as a process: it takes two seconds to start."""
     return partial(kineme_in, tmp_path)
+
+
+@pytest.fixture
+def interrupted(tmp_path: Path) -> Callable[..., tuple[int, str, str]]:
+    """Press Ctrl+C in ``kineme ARGUMENTS`` once something holds; exit code and what is said."""
+
+    def run(at_work: Callable[[int], object], *arguments: object) -> tuple[int, str, str]:
+        with subprocess.Popen(
+            [sys.executable, "-m", "kineme", *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=tmp_path,
+            env={**os.environ, "KINEME_THREADS": "2"},
+            start_new_session=True,
+            # What runs in a script's background is started deaf to Ctrl+C.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        ) as process:
+            while not at_work(process.pid):
+                assert process.poll() is None
+                time.sleep(0.01)
+            os.killpg(process.pid, signal.SIGINT)
+            out, err = process.communicate(timeout=60)
+        return process.returncode, out, err
+
+    return run
 
 
 @pytest.fixture

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -135,27 +133,18 @@ def test_warnings_are_short_lines(kineme_process, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are others there")
-def test_control_c_ends_quietly_with_130(tmp_path: Path) -> None:
+def test_control_c_ends_quietly_with_130(interrupted, tmp_path: Path) -> None:
     head, _, motion = bundled_recording().read_text().partition("Frame Time:")
     time_line, _, frames = motion.partition("\n")
     long = head.replace("Frames: 2898", f"Frames: {40 * 2898}")
     (tmp_path / "a.bvh").write_text(f"{head}Frame Time:{motion}")
     (tmp_path / "b.bvh").write_text(f"{long}Frame Time:{time_line}\n" + 40 * frames)
-    with subprocess.Popen(
-        [sys.executable, "-m", "kineme", "segment", "a.bvh", "b.bvh", "-q", "-o", "{name}.csv"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=tmp_path,
-        # What runs in a script's background is started deaf to Ctrl+C.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    ) as process:
-        while not (tmp_path / "a.csv").exists():  # then the long one is at work
-            assert process.poll() is None
-            time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=30)
-    assert (process.returncode, out, err) == (130, "", "")
+
+    def at_work(_: int) -> bool:
+        return (tmp_path / "a.csv").exists()  # then the long one is
+
+    command = ("segment", "a.bvh", "b.bvh", "-q", "-o", "{name}.csv")
+    assert interrupted(at_work, *command) == (130, "", "")
     assert not list(tmp_path.glob("b.*csv")) + list(tmp_path.glob(".kineme-*"))
 
 

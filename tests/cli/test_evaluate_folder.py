@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import os
-import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -102,26 +99,14 @@ def test_a_call_that_cannot_work_is_one_sentence(kineme, corpus, arguments, mess
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes where Linux lists them")
-def test_control_c_ends_it_quietly(corpus) -> None:
-    with subprocess.Popen(
-        [
-            *(sys.executable, "-m", "kineme", "evaluate", corpus, "-q"),
-            *("--labels", corpus / "labels.csv", "--methods", "kineme,ppca,gmm"),
-        ],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env={**os.environ, "KINEME_THREADS": "2"},
-        start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    ) as process:
-        children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
-        while not children.read_text():
-            time.sleep(0.01)
-        time.sleep(0.3)  # its processes are being started
-        os.killpg(process.pid, signal.SIGINT)
-        out, err = process.communicate(timeout=60)
-    assert (process.returncode, out, err) == (130, "", "")
+def test_control_c_ends_it_quietly(interrupted, corpus) -> None:
+    def at_work(process: int) -> bool:
+        begun = bool(Path(f"/proc/{process}/task/{process}/children").read_text())
+        time.sleep(0.3 * begun)  # its processes are being started
+        return begun
+
+    command = ("evaluate", corpus, "-q", "--labels", corpus / "labels.csv")
+    assert interrupted(at_work, *command, "--methods", "kineme,ppca,gmm") == (130, "", "")
 
 
 def test_several_labels_tell_how_far_people_agree(kineme, corpus, tmp_path) -> None:

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import shutil
-import signal
-import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -107,23 +104,16 @@ def test_what_makes_no_sense_is_one_sentence(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs signals to groups of processes")
-def test_control_c_ends_a_build_quietly(tmp_path: Path) -> None:
+def test_control_c_ends_a_build_quietly(interrupted, tmp_path: Path) -> None:
     for name in ("a.bvh", "b.bvh"):
         shutil.copy(bundled_recording(), tmp_path / name)
-    with subprocess.Popen(
-        [sys.executable, "-m", "kineme", "library", "build", tmp_path, "--into", tmp_path / "lib"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    ) as process:
-        while not (tmp_path / "lib" / ".lock").exists():
-            time.sleep(0.01)
-        time.sleep(0.2)  # its processes are being started
-        os.killpg(process.pid, signal.SIGINT)
-        out, err = process.communicate(timeout=60)
-    assert (process.returncode, out, err) == (130, "", "")
+
+    def at_work(_: int) -> bool:
+        begun = (tmp_path / "lib" / ".lock").exists()
+        time.sleep(0.2 * begun)  # its processes are being started
+        return begun
+
+    assert interrupted(at_work, "library", "build", ".", "--into", "lib") == (130, "", "")
 
 
 def test_a_build_from_nothing_leaves_nothing(tmp_path: Path, kineme) -> None:

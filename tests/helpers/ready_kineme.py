@@ -7,6 +7,7 @@ files of whoever typed it.
 
 from __future__ import annotations
 
+import atexit
 import json
 import os
 import signal
@@ -18,6 +19,7 @@ from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from pkgutil import walk_packages
+from tempfile import TemporaryDirectory
 
 COMMAND = """#!{python} -IS
 import json, os, socket, sys
@@ -35,21 +37,19 @@ ROOMS = ("clips", "cli", "cycles", "evaluation", "library", "methods", "report",
 
 
 @contextmanager
-def ready_kineme(folder: Path) -> Iterator[Path]:
+def ready_kineme() -> Iterator[Path]:
     """A folder to put first on the path, with a ``kineme`` in it, while the block lasts."""
-    command, address = folder / "kineme", folder / "line"
-    command.write_text(COMMAND.format(python=sys.executable, address=str(address)))
-    command.chmod(0o755)
-    process = subprocess.Popen(
-        [sys.executable, __file__, str(address)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE
-    )
-    assert process.stdout is not None
-    try:
-        process.stdout.readline()  # once it listens
-        yield folder
-    finally:
-        process.kill()
-        process.communicate()
+    with TemporaryDirectory() as folder:  # the names of sockets are short
+        command, address = Path(folder, "kineme"), f"{folder}/line"
+        command.write_text(COMMAND.format(python=sys.executable, address=address))
+        command.chmod(0o755)
+        start = [sys.executable, __file__, address]
+        with subprocess.Popen(start, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE) as process:
+            try:
+                process.stdout.readline()  # once it listens
+                yield Path(folder)
+            finally:
+                process.kill()
 
 
 def serve(address: str) -> None:
@@ -64,10 +64,42 @@ def serve(address: str) -> None:
         line, _ = listening.accept()
         if os.fork() == 0:
             if os.fork() == 0:  # whose end nobody needs to wait for
-                run(line)
+                return answer(line)
             os._exit(0)
         os.wait()
         line.close()
+
+
+def answer(line: socket.socket) -> None:
+    """Have a copy of this process run one command, and tell how it ended."""
+    _, files, _, _ = socket.recv_fds(line, 1, 3)
+    with line.makefile("rb") as said:
+        arguments, folder, environment = json.load(said)
+    if command := os.fork():
+        _, status = os.waitpid(command, 0)
+        line.send(bytes([os.waitstatus_to_exitcode(status) % 256]))
+        os._exit(0)
+    line.close()
+    for i, file in enumerate(files):
+        os.dup2(file, i)
+        os.close(file)
+    os.chdir(folder)
+    os.environ.clear()
+    os.environ.update(environment)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    sys.argv = ["kineme", *arguments]
+    code: object = 0
+    try:
+        import_module("kineme.cli").main()
+    except SystemExit as end:
+        code = end.code
+    except BaseException:  # noqa: BLE001 (the copy ends here, whatever it is)
+        sys.excepthook(*sys.exc_info())
+        code = 1
+    atexit._run_exitfuncs()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code if isinstance(code, int) else bool(code))  # to unload it all takes seconds
 
 
 def load() -> None:
@@ -78,35 +110,6 @@ def load() -> None:
         for module in walk_packages(package.__path__, f"{package.__name__}."):
             with suppress(ImportError):  # of what needs more packages
                 import_module(module.name)
-
-
-def run(line: socket.socket) -> None:
-    """One command, in this copy of the process, which ends with it."""
-    _, files, _, _ = socket.recv_fds(line, 1, 3)
-    with line.makefile("rb") as said:
-        arguments, folder, environment = json.load(said)
-    for i, file in enumerate(files):
-        os.dup2(file, i)
-        os.close(file)
-    os.chdir(folder)
-    os.environ.clear()
-    os.environ.update(environment)
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    sys.argv = ["kineme", *arguments]
-    from kineme.cli import main
-
-    code: object = 0
-    try:
-        main()
-    except SystemExit as end:
-        code = end.code
-    except BaseException:  # noqa: BLE001 (the copy ends here, whatever it is)
-        sys.excepthook(*sys.exc_info())
-        code = 1
-    sys.stdout.flush()
-    sys.stderr.flush()
-    line.send(bytes([code if isinstance(code, int) else bool(code)]))
-    os._exit(0)
 
 
 if __name__ == "__main__":
