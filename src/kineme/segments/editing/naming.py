@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from kineme.errors import ParameterError
 from kineme.segments.editing.rows import starting, with_columns
@@ -158,8 +159,9 @@ def changed(
     table = segmentation.table
     places = zip(table.level.tolist(), table.start_frame.tolist(), strict=True)
     rows = [i for i, place in enumerate(places) if place in chosen]
-    values: dict[str, list[object]] = {name: getattr(table, name).tolist() for name in columns}
+    values: dict[str, Any] = table.columns()
     for name, value in columns.items():
+        values[name] = values[name].tolist()
         for row in rows:
             values[name][row] = value
-    return with_columns(segmentation, {**table.columns(), **values})
+    return with_columns(segmentation, values)
