@@ -40,6 +40,7 @@ from pathlib import Path
 from typing import Any
 
 import msgspec
+import numpy as np
 from numpy.typing import NDArray
 
 from kineme._files import atomic_write
@@ -212,10 +213,14 @@ def _rows_as_text(table: SegmentTable) -> Iterator[str]:
 
 def _as_text(column: NDArray[Any]) -> list[str]:
     values = _values(column)
-    if column.dtype.kind != "U":
-        return json.dumps(values)[1:-1].split(", ") if values else []
-    quoted = {text: json.dumps(text) for text in {*values}}
-    return [quoted[text] for text in values]
+    if column.dtype.kind == "U":
+        quoted = {text: json.dumps(text) for text in {*values}}
+        return [quoted[text] for text in values]
+    texts = msgspec.json.encode(values)[1:-1].decode().split(",") if values else []
+    size = np.abs(column)  # it is several times as fast, and writes other exponents
+    for row in np.flatnonzero((size > 0) & (size < 1e-4) | (size >= 1e16)).tolist():
+        texts[row] = json.dumps(values[row])
+    return texts
 
 
 def _values(column: NDArray[Any]) -> list[Any]:
