@@ -6,10 +6,11 @@ import os
 import subprocess
 import sys
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kineme._threads import even_slices, map_threads
+from kineme._threads import asking, even_slices, map_threads
 
 
 @given(st.integers(0, 5000))
@@ -24,6 +25,24 @@ def test_work_that_maps_in_its_turn_ends() -> None:
         return sum(map_threads(abs, range(n)))
 
     assert map_threads(all_below, range(100)) == [n * (n - 1) // 2 for n in range(100)]
+
+
+def test_work_asks_whether_to_go_on_in_whichever_thread() -> None:
+    asked: list[int] = []
+
+    def ask() -> None:
+        asked.append(1)
+        if len(asked) > 150:
+            raise TimeoutError
+
+    def all_below(n: int) -> int:
+        return sum(map_threads(abs, range(n)))
+
+    with asking(ask), pytest.raises(TimeoutError):
+        map_threads(all_below, range(100))
+    assert len(asked) < 300  # of thousands: what had not begun asks once
+    map_threads(all_below, range(100))  # nobody asks any more
+    assert len(asked) < 300
 
 
 INTERRUPTED = """

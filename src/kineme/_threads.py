@@ -1,10 +1,15 @@
-"""Running compiled kernels side by side; they release the interpreter's lock."""
+"""Running compiled kernels side by side; they release the interpreter's lock.
+
+Between them work asks whether to go on, where somebody wants to be asked (`asking`).
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from itertools import pairwise
 from threading import local
@@ -14,22 +19,46 @@ SHORT = 50
 """Rows that take no longer than to hand them to a thread."""
 
 _here = local()
+_ask: ContextVar[Callable[[], None] | None] = ContextVar("ask", default=None)
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
+@contextmanager
+def asking(ask: Callable[[], None] | None) -> Iterator[None]:
+    """While the block lasts, its work asks now and then; what ``ask`` raises ends it."""
+    before = _ask.set(ask)
+    try:
+        yield
+    finally:
+        _ask.reset(before)
+
+
+def go_on() -> None:
+    """Ask whether to go on, where somebody wants to be asked."""
+    if (ask := _ask.get()) is not None:
+        ask()
+
+
 def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
     """``[function(item) for item in items]`` over the available cores, in the same order.
 
-    What a function maps in its turn, it does alone: all cores are at work.
+    Before each it is asked whether to go on. What a function maps in its turn, it does alone: all
+    cores are at work.
     """
-    items = list(items)
+    items, ask = list(items), _ask.get()
+
+    def one(item: Item) -> Result:
+        with asking(ask):  # in whichever thread
+            go_on()
+            return function(item)
+
     if n_threads() == 1 or len(items) == 1 or getattr(_here, "of_pool", False):
-        return [function(item) for item in items]
+        return [one(item) for item in items]
     pool = _pool()
     try:
-        return list(pool.map(function, items))
+        return list(pool.map(one, items))
     except KeyboardInterrupt:
         # A thread that was just being started would wait for work, and the program for it.
         _pool.cache_clear()

@@ -16,6 +16,7 @@ import pytest
 import kineme
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions, sketch
+from kineme.methods.kineme import primitives
 from kineme.segments import editing
 from kineme.studio.downloads import exported
 from kineme.studio.folder import Folder
@@ -157,6 +158,53 @@ def test_a_large_file_shows_some_of_its_poses_while_it_is_read(tmp_path, monkeyp
     assert len(recordings.poses(name, 1449)) > 5 * len(poses)
 
 
+def test_a_large_file_that_is_not_wanted_any_more_is_not_opened(tmp_path, monkeypatch):
+    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
+    wanted, read = threading.Event(), RecordingCache.read
+    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
+    monkeypatch.setattr(
+        RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
+    )
+    opened = []
+    first_table = LoadedRecording.first_table
+    monkeypatch.setattr(
+        LoadedRecording, "first_table", lambda self: opened.append(self) or first_table(self)
+    )
+    told: queue.Queue[tuple[str, int]] = queue.Queue()
+    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
+    (name,) = recordings.folder.recordings()
+    assert recordings.message(name).being_read
+    recordings.cancel(name)
+    wanted.set()
+    while recordings.progress(name).stage:
+        time.sleep(0.01)
+    assert not opened
+    assert told.empty()
+    assert recordings.message(name).being_read  # somebody opens it after all
+    assert told.get(timeout=60)[0] == name
+    assert not recordings.message(name).being_read
+
+
+def test_a_large_file_that_is_wanted_again_while_it_is_read_is_opened(tmp_path, monkeypatch):
+    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
+    wanted, read = threading.Event(), RecordingCache.read
+    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
+    monkeypatch.setattr(
+        RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
+    )
+    told: queue.Queue[tuple[str, int]] = queue.Queue()
+    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
+    (name,) = recordings.folder.recordings()
+    recordings.message(name)
+    recordings.cancel(name)
+    recordings.message(name)
+    wanted.set()
+    assert told.get(timeout=60)[0] == name
+    assert not recordings.message(name).being_read
+
+
 def test_poses_of_a_sketch_are_those_of_the_recording():
     path = kineme.bundled_recording()
     found, whole = sketch(path, ReadOptions(), 300), kineme.read(path)
@@ -282,6 +330,30 @@ def test_a_segmentation_that_is_cancelled_leaves_what_stood(studio, monkeypatch)
     assert (refused.status_code, refused.json()["error"]) == (400, "it was cancelled")
     assert studio.recording()["segmentation"] == before["segmentation"]
     studio.done(before["revision"], "segment", **again)
+
+
+def test_a_segmentation_that_is_cancelled_ends_within_its_stage(studio, monkeypatch):
+    before = studio.recording()
+    there, wanted = threading.Event(), threading.Event()
+
+    def waiting(*args: object) -> object:
+        there.set()
+        wanted.wait(60)
+        return repetitions(*args)
+
+    repetitions = primitives.repetitions  # of one segment
+    monkeypatch.setattr(primitives, "repetitions", waiting)
+    again = {"preset": "kineme", "parameters": {"segment_cost": 0.9 * COST}}
+    stages: list[str] = []
+    stage = Run.stage
+    monkeypatch.setattr(Run, "stage", lambda run, name: stages.append(name) or stage(run, name))
+    with ThreadPoolExecutor() as pool:
+        answer = pool.submit(studio.edit, before["revision"], "segment", **again)
+        assert there.wait(60)
+        studio.client.post(f"/api/recordings/{studio.id}/cancel")
+        wanted.set()
+        assert answer.result().json()["error"] == "it was cancelled"
+    assert stages[-1] == "repetitions"
 
 
 def test_a_newer_preview_ends_the_one_before(studio, monkeypatch):

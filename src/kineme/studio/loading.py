@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from kineme._threads import asking
 from kineme.errors import MotionError, ParameterError, ReadError
 from kineme.methods.presets import DEFAULT
 from kineme.recordings import Motion
@@ -145,7 +146,7 @@ class LoadedRecording:
             segments = former[1]
         else:
             found = self.recording
-            with self.runs.one(run or Run(preset)) as present:
+            with self.runs.one(run or Run(preset)) as present, asking(present.go_on):
                 segments = segment(
                     found,
                     preset=preset,

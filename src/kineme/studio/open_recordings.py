@@ -150,12 +150,19 @@ class OpenRecordings:
                 if made is not None:
                     self._in_background(lambda: self._read(name, made))
             present = self._sketches[name]
+            if present is not None:
+                present.wanted = True
         return present if present is not None and present.reading else None
 
     def _read(self, name: str, instead: Sketched) -> None:
         """Open a recording that is shown as a sketch, and say when it is there, or cannot be."""
         revision = OF_SKETCH + 1  # a page asks anew for any other than its own
         with suppress(KinemeError, UnknownError):
+            self._cache.read(_found(self.folder.recordings(), name, "recording"))
+            with self._sketching:
+                if not instead.wanted:
+                    self._sketches.pop(name, None)
+                    return
             opened = self.get(name)
             opened.loaded.page_data()
             revision = max(revision, opened.revision)
@@ -271,10 +278,12 @@ class OpenRecordings:
         return READING if instead is not None and instead.reading else NOTHING
 
     def cancel(self, name: str) -> None:
-        """Have what is being computed for a recording end."""
-        opened = self._open.get(name)
+        """Have what is being computed for a recording end; one that is being read is not opened."""
+        opened, instead = self._open.get(name), self._sketches.get(name)
         if opened is not None:
             opened.loaded.runs.cancel()
+        elif instead is not None:
+            instead.wanted = False
 
     def people(self, name: str) -> list[str]:
         """The people in a recording of whom one was chosen."""
@@ -296,11 +305,15 @@ def _found(files: dict[str, Path], name: str, what: str) -> Path:
 
 
 class Sketched(Struct):
-    """A recording that is being read, as a page shows it; ``binary`` are its poses."""
+    """A recording that is being read, as a page shows it; ``binary`` are its poses.
+
+    One that is not ``wanted`` any more is not opened once it is read.
+    """
 
     message: Recording
     binary: bytes
     reading: bool = True
+    wanted: bool = True
 
 
 def sketched(name: str, path: Path, options: ReadingOptions) -> Sketched | None:
@@ -337,6 +350,7 @@ def sketched(name: str, path: Path, options: ReadingOptions) -> Sketched | None:
         can_redo=False,
         saved="",
         finding=True,
+        being_read=True,
         warnings=[],
     )
     return Sketched(message, binary)

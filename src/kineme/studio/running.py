@@ -2,7 +2,8 @@
 
 Methods say when a stage begins (`kineme.methods.stages`). How far one is follows from the shares of
 time that the stages took on recordings of an hour, and from the pace so far; of methods that are
-not listed nobody knows. A segmentation that is cancelled ends when its next stage would begin.
+not listed nobody knows. A segmentation that is cancelled ends when its next stage would begin, or
+its work asks whether to go on (`kineme._threads.go_on`), which it does several times a second.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ SHARES: Mapping[str, Mapping[str, float]] = {
 """Of the time that a preset takes, by stage in their order: medians of an hour of motion."""
 NOTHING = Progress(stage="", share=None)
 READING = Progress(stage="reading the file", share=None)
-ENDING = Progress(stage="cancelled: the stage comes to its end", share=None)
+ENDING = Progress(stage="cancelled: it comes to its end", share=None)
 
 
 class CancelledError(KinemeError):
@@ -51,10 +52,14 @@ class Run:
         """Have it end."""
         self._cancelled.set()
 
-    def stage(self, name: str) -> None:
-        """A stage begins; CancelledError where it should not."""
+    def go_on(self) -> None:
+        """CancelledError where it should not."""
         if self._cancelled.is_set():
             raise CancelledError
+
+    def stage(self, name: str) -> None:
+        """A stage begins; CancelledError where it should not."""
+        self.go_on()
         self._stage, self._starts = name, (self._starts[0], self._clock())
 
     def progress(self) -> Progress:

@@ -188,7 +188,8 @@ class Recording(Struct, frozen=True, kw_only=True):
     ``takes`` the animations in its file, of which ``take`` is this one,
     ``levels`` the tables at all details, coarsest first, in a report; the studio's server is
     asked for them.
-    While ``finding`` its segments are still to be found, and the table is a single transition.
+    While ``finding`` its segments are still to be found, and the table is a single transition;
+    while ``being_read`` its file is still being read, and few of its poses are here.
     ``ids`` say who each row of the table is, whatever edits made of it; a report has none.
     """
 
@@ -210,6 +211,7 @@ class Recording(Struct, frozen=True, kw_only=True):
     ids: list[str] = []
     saved: str
     finding: bool = False
+    being_read: bool = False
     warnings: list[str]
 
 

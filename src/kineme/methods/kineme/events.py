@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._threads import go_on
 from kineme.methods.kineme import _event_kernels as kernels
 from kineme.methods.segments import by_first_appearance
 
@@ -123,6 +124,7 @@ def occurrences(
     longest = max(shortest, in_samples(preset.max_repetition))
     lengths = np.unique(np.geomspace(shortest, longest, LENGTHS).round().astype(np.int64))
     all_free = np.ones(len(samples.seconds), np.bool_)
+    go_on()
     spans, scores, ranks = kernels.best_sets(
         lengths, starts, ptr, partners, sums, row_ptr, row_paths, all_free, preset.event_cover
     )
@@ -243,6 +245,7 @@ def matching_paths(
     )
     starts, partners, sums = [], [np.empty(0)], [np.empty(0)]
     for each in ends:
+        go_on()
         forth, forth_sums, back, back_sums = warped_path(columns, costs, each, passed, scale)
         starts += [each[0], each[1]]
         partners += [forth, back]

@@ -212,7 +212,8 @@ export interface Video {
  * `takes` the animations in its file, of which `take` is this one,
  * `levels` the tables at all details, coarsest first, in a report; the studio's server is
  * asked for them.
- * While `finding` its segments are still to be found, and the table is a single transition.
+ * While `finding` its segments are still to be found, and the table is a single transition;
+ * while `being_read` its file is still being read, and few of its poses are here.
  * `ids` say who each row of the table is, whatever edits made of it; a report has none.
  */
 export interface Recording {
@@ -234,6 +235,7 @@ export interface Recording {
   ids?: string[];
   saved: string;
   finding?: boolean;
+  being_read?: boolean;
   warnings: string[];
 }
 

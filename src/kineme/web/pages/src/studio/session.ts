@@ -176,10 +176,12 @@ export class Session {
     this.forgetClosed();
   }
 
-  /** Has the server leave what it is finding; what is there stays. */
+  /** Has the server leave what it is finding; what is there stays, what is being read is closed. */
   cancel(): void {
     this.beside.cancel();
-    this.edited.value?.cancel();
+    const { value: edited } = this.edited;
+    edited?.cancel();
+    if (edited?.confirmed.value.being_read) this.close(edited.id);
   }
 
   /** Nobody answers, or not to us: ask again every second until that has changed. */
