@@ -73,7 +73,7 @@ def dumps(segmentation: Segmentation) -> str:
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
         head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
-    rows = ",\n".join(f"    {row}" for row in _rows_as_text(segmentation.table))
+    rows = ",\n".join(_lines(segmentation.table))
     return f'{head},\n  "segments": [\n{rows}\n  ]\n}}\n'
 
 
@@ -204,15 +204,15 @@ def _rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
     return (dict(zip(COLUMNS, cells, strict=True)) for cells in zip(*columns, strict=True))
 
 
-def _rows_as_text(table: SegmentTable) -> Iterator[str]:
+def _lines(table: SegmentTable) -> Iterator[str]:
     """What `json.dumps` writes for each of `_rows`, column by column: tables have many rows."""
     columns = map(_as_text, table.columns().values())
-    line = "{" + ", ".join(f'"{name}": %s' for name in COLUMNS) + "}"
+    line = "    {" + ", ".join(f'"{name}": %s' for name in COLUMNS) + "}"
     return map(line.__mod__, zip(*columns, strict=True))
 
 
 def _as_text(column: NDArray[Any]) -> list[str]:
-    values = _values(column)
+    values: list[Any] = column.tolist()
     if column.dtype.kind == "U":
         quoted = {text: json.dumps(text) for text in {*values}}
         return [quoted[text] for text in values]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kineme.errors import ParameterError
 from kineme.segments.editing.rows import (
+    Part,
     Rows,
     adopted,
     after_border,
@@ -11,10 +12,8 @@ from kineme.segments.editing.rows import (
     cuts,
     handed_over,
     joined,
-    lanes,
     length,
     moved,
-    with_rows,
 )
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
@@ -54,23 +53,25 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
     >>> moved.cuts()[0].item(), moved.cuts("primitive")[4].item()
     (330, 330)
     """
-    rows, activities, primitives = lanes(segmentation, level)
-    after = after_border(rows, level, frame)
-    low, high = rows[after - 1].start_frame, rows[after].stop_frame
+    after = after_border(segmentation, level, frame)
+    table = segmentation.level(level)
+    low, high = table[after - 1].start_frame, table[after].stop_frame
     if not low < to < high:
         raise ParameterError(
             f"the {level} border at frame {frame} can move to {low + 1} to {high - 1}, not {to}"
         )
     if to == frame:
         return segmentation
+    part = Part.of(segmentation, frame - 1, frame + 1)
+    activities, primitives = part.activities, part.primitives
     if level == "primitive":
         if frame in cuts(activities):
             activities = moved(activities, frame, to)
-        return with_rows(segmentation, activities, moved(primitives, frame, to))
+        return part.replaced(activities, moved(primitives, frame, to))
     wider = moved(activities, frame, to)
     if primitives:
-        primitives = handed_over(primitives, activities, wider, (after, frame, to))
-    return with_rows(segmentation, wider, primitives)
+        primitives = handed_over(primitives, activities, wider, (1, frame, to))
+    return part.replaced(wider, primitives)
 
 
 def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
@@ -100,13 +101,13 @@ def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
     >>> split(found, "activity", 200).activities[:2].label.tolist()
     ['walk', 'walk']
     """
-    rows, activities, primitives = lanes(segmentation, level)
-    if not any(row.start_frame < frame < row.stop_frame for row in rows):
+    table = segmentation.level(level)
+    if not ((table.start_frame < frame) & (frame < table.stop_frame)).any():
         where = f"frame {frame} is not inside a segment of level {level!r}"
         raise ParameterError(f"{where}: choose a frame between two borders")
-    if level == "activity":
-        activities = cut(activities, frame)
-    return with_rows(segmentation, activities, cut(primitives, frame))
+    part = Part.of(segmentation, frame, frame + 1)
+    activities = cut(part.activities, frame) if level == "activity" else part.activities
+    return part.replaced(activities, cut(part.primitives, frame))
 
 
 def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Segmentation:
@@ -137,18 +138,18 @@ def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Se
     >>> len(found.primitives), len(merge(found, "primitive", 0, 126).primitives)
     (38, 37)
     """
-    rows, activities, primitives = lanes(segmentation, level)
-    chosen = [i for i, row in enumerate(rows) if start <= row.start_frame < stop]
+    table = segmentation.level(level)
+    chosen = table.select((start <= table.start_frame) & (table.start_frame < stop))
     at_borders = (
-        len(chosen) > 1
-        and rows[chosen[0]].start_frame == start
-        and rows[chosen[-1]].stop_frame == stop
+        len(chosen) > 1 and chosen[0].start_frame == start and chosen[-1].stop_frame == stop
     )
     if not at_borders:
         raise ParameterError(
             f"frames {start} to {stop} are not two or more whole segments of level {level!r}"
         )
-    return _merged(segmentation, (activities, primitives), level, chosen[0], chosen[-1], chosen[0])
+    part = Part.of(segmentation, start, stop)
+    first = _number(part.of_level(level), start)
+    return _merged(part, level, first, first + len(chosen) - 1, like=first)
 
 
 def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
@@ -178,32 +179,32 @@ def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segme
     >>> delete_border(found, "activity", 326).activities[0].stop_frame
     380
     """
-    rows, activities, primitives = lanes(segmentation, level)
-    after = after_border(rows, level, frame)
+    after_border(segmentation, level, frame)
+    part = Part.of(segmentation, frame - 1, frame + 1)
+    rows = part.of_level(level)
+    after = _number(rows, frame)
     longer = after if length(rows[after]) > length(rows[after - 1]) else after - 1
-    return _merged(segmentation, (activities, primitives), level, after - 1, after, longer)
+    return _merged(part, level, after - 1, after, like=longer)
 
 
-def _merged(
-    segmentation: Segmentation,
-    both: tuple[Rows, Rows],
-    level: Level,
-    first: int,
-    last: int,
-    like: int,
-) -> Segmentation:
-    activities, primitives = both
+def _number(rows: Rows, frame: int) -> int:
+    """The number of the row that starts there."""
+    return next(i for i, row in enumerate(rows) if row.start_frame == frame)
+
+
+def _merged(part: Part, level: Level, first: int, last: int, *, like: int) -> Segmentation:
+    activities, primitives = part.activities, [*part.primitives]
     if level == "primitive":
         if primitives[first].activity != primitives[last].activity:
             border = activities[primitives[first].activity].stop_frame
             raise ParameterError(
                 f"the border at frame {border} is one of activities: delete it on that level"
             )
-        return with_rows(segmentation, activities, joined(primitives, first, last, like))
+        return part.replaced(activities, joined(primitives, first, last, like))
     merged = joined(activities, first, last, like)
     inside = [i for i, row in enumerate(primitives) if first <= row.activity <= last]
     for i in inside:
         primitives[i] = adopted(primitives[i], activities[primitives[i].activity], merged[first])
     if inside and merged[first].kind == "transition":
         primitives = joined(primitives, inside[0], inside[-1], inside[0])
-    return with_rows(segmentation, merged, primitives)
+    return part.replaced(merged, primitives)

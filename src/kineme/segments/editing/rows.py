@@ -1,10 +1,14 @@
-"""Rows of one level, in time order, and what an edit makes of them."""
+"""Rows of one level, in time order, and what an edit makes of them.
+
+An edit of a border reaches the activities about it and no others (`Part`): the rest of a table, of
+thousands of rows, stays as it is.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,11 +20,49 @@ from kineme.segments.table import COLUMNS, Level, Segment, kind_of
 Rows = list[Segment]
 
 
-def lanes(segmentation: Segmentation, level: Level) -> tuple[Rows, Rows, Rows]:
-    """The rows of a level, and those of activities and of primitives."""
-    names: tuple[Level, ...] = (level, "activity", "primitive")
-    found = {name: list(segmentation.level(name)) for name in dict.fromkeys(names)}
-    return found[level], found["activity"], found["primitive"]
+@dataclass(frozen=True)
+class Part:
+    """The activities that hold some frames, and their primitives.
+
+    ``activity`` of their rows counts from the first of these; ``spans`` are their rows in the
+    table.
+    """
+
+    whole: Segmentation
+    activities: Rows
+    primitives: Rows
+    spans: tuple[slice, slice]
+
+    @classmethod
+    def of(cls, segmentation: Segmentation, start: int, stop: int) -> Part:
+        """That of the frames ``[start, stop)``."""
+        table = segmentation.table
+        n = len(segmentation.activities)
+        first = int(np.searchsorted(table.start_frame[:n], start, "right")) - 1
+        last = int(np.searchsorted(table.start_frame[:n], stop, "left"))
+        low, high = (n + np.searchsorted(table.activity[n:], [first, last])).tolist()
+        spans = slice(first, last), slice(low, high)
+        activities, primitives = (
+            [replace(row, activity=row.activity - first) for row in table[span]] for span in spans
+        )
+        return cls(segmentation, activities, primitives, spans)
+
+    def of_level(self, level: Level) -> Rows:
+        """Its rows of a level."""
+        return self.activities if level == "activity" else self.primitives
+
+    def replaced(self, activities: Rows, primitives: Rows) -> Segmentation:
+        """The whole, with these rows in the place of its own."""
+        (before, first), (last, after) = [(span.start, span.stop) for span in self.spans]
+        columns = {}
+        for name, column in self.whole.table.columns().items():
+            upper, lower = (
+                np.array([getattr(row, name) for row in rows]) if rows else column[:0]
+                for rows in (activities, primitives)
+            )
+            parts = column[:before], upper, column[first:last], lower, column[after:]
+            columns[name] = np.concatenate(parts)
+        return with_columns(self.whole, columns)
 
 
 def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
@@ -119,13 +161,14 @@ def cuts(rows: Rows) -> list[int]:
     return [row.start_frame for row in rows[1:]]
 
 
-def after_border(rows: Rows, level: Level, frame: int) -> int:
+def after_border(segmentation: Segmentation, level: Level, frame: int) -> int:
     """The number of the segment after the border; ParameterError where there is none."""
-    if frame not in cuts(rows):
-        nearest = min(cuts(rows), key=lambda border: abs(border - frame), default=None)
+    borders: list[int] = segmentation.cuts(level).tolist()
+    if frame not in borders:
+        nearest = min(borders, key=lambda border: abs(border - frame), default=None)
         hint = "there is none" if nearest is None else f"the nearest is at {nearest}"
         raise ParameterError(f"no border of level {level!r} is at frame {frame}; {hint}")
-    return next(i for i, row in enumerate(rows) if row.start_frame == frame)
+    return borders.index(frame) + 1
 
 
 def length(row: Segment) -> int:

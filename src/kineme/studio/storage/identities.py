@@ -13,7 +13,7 @@ Tables mostly have segments that never moved, so only the others are written dow
 from __future__ import annotations
 
 import math
-from bisect import bisect
+from bisect import bisect, bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import get_args
@@ -47,7 +47,16 @@ class Identities:
         >>> Identities().of(kineme.read_segments(bundled_truth(), fps=60))[:2]
         ['a:0', 'a:326']
         """
-        return [self._at(at) for at in _places(table)]
+        found: list[str] = []
+        for level in get_args(Level):
+            starts, first = table.level(level).start_frame.tolist(), len(found)
+            made = _identity(self.origin, level[0])
+            found += [f"{made}{start}" for start in starts]
+            for place, identity in self.others.items():
+                row = bisect_left(starts, int(place[1:]))
+                if place[0] == level[0] and row < len(starts) and starts[row] == int(place[1:]):
+                    found[first + row] = identity
+        return found
 
     def after(
         self, before: Segmentation, now: Segmentation, edit: str, *, replaced: bool = False
