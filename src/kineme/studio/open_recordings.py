@@ -151,7 +151,7 @@ class OpenRecordings:
                     self._in_background(lambda: self._read(name, made))
             present = self._sketches[name]
             if present is not None:
-                present.wanted = True
+                present.is_open = True
         return present if present is not None and present.reading else None
 
     def _read(self, name: str, instead: Sketched) -> None:
@@ -160,7 +160,7 @@ class OpenRecordings:
         with suppress(KinemeError, UnknownError):
             self._cache.read(_found(self.folder.recordings(), name, "recording"))
             with self._sketching:
-                if not instead.wanted:
+                if not instead.is_open:
                     self._sketches.pop(name, None)
                     return
             opened = self.get(name)
@@ -283,7 +283,7 @@ class OpenRecordings:
         if opened is not None:
             opened.loaded.runs.cancel()
         elif instead is not None:
-            instead.wanted = False
+            instead.is_open = False
 
     def people(self, name: str) -> list[str]:
         """The people in a recording of whom one was chosen."""
@@ -307,13 +307,13 @@ def _found(files: dict[str, Path], name: str, what: str) -> Path:
 class Sketched(Struct):
     """A recording that is being read, as a page shows it; ``binary`` are its poses.
 
-    One that is not ``wanted`` any more is not opened once it is read.
+    One that no page has open any more (``is_open``) is not opened once it is read.
     """
 
     message: Recording
     binary: bytes
     reading: bool = True
-    wanted: bool = True
+    is_open: bool = True
 
 
 def sketched(name: str, path: Path, options: ReadingOptions) -> Sketched | None:

@@ -28,7 +28,7 @@ class Part:
     table.
     """
 
-    whole: Segmentation
+    segmentation: Segmentation
     activities: Rows
     primitives: Rows
     spans: tuple[slice, slice]
@@ -55,14 +55,14 @@ class Part:
         """The whole, with these rows in the place of its own."""
         (before, first), (last, after) = [(span.start, span.stop) for span in self.spans]
         columns = {}
-        for name, column in self.whole.table.columns().items():
+        for name, column in self.segmentation.table.columns().items():
             upper, lower = (
                 np.array([getattr(row, name) for row in rows]) if rows else column[:0]
                 for rows in (activities, primitives)
             )
             parts = column[:before], upper, column[first:last], lower, column[after:]
             columns[name] = np.concatenate(parts)
-        return with_columns(self.whole, columns)
+        return with_columns(self.segmentation, columns)
 
 
 def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
