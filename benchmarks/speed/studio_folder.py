@@ -177,6 +177,7 @@ def compared(tab: Any, folder: Path) -> None:
         f"{len(PEOPLE)} people compared over {TWENTY} recordings: {len(actions)} clicks, ", end=""
     )
     print(f"{took:.1f} s; {said}")
+    record("studio_folder.people.clicks", len(actions))
 
 
 def shown(tab: Any, folder: Path) -> None:
