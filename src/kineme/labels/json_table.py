@@ -69,7 +69,7 @@ def dumps(segmentation: Segmentation) -> str:
     """The JSON text: small parts indented, one line per segment."""
     content = head_of(segmentation)
     levels = content.get("hierarchy", {}).pop("levels", [])
-    head = msgspec.json.format(json.dumps(content), indent=2).removesuffix("\n}")
+    head = _indented(content).removesuffix("\n}")
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
         head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
@@ -202,6 +202,14 @@ def _rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
     """One object per row."""
     columns = [_values(column) for column in table.columns().values()]
     return (dict(zip(COLUMNS, cells, strict=True)) for cells in zip(*columns, strict=True))
+
+
+def _indented(content: dict[str, Any]) -> str:
+    """What `json.dumps` writes with an indent, several times as fast: a long table has many marks."""
+    try:
+        return msgspec.json.format(json.dumps(content), indent=2)
+    except msgspec.DecodeError:  # half of a pair of surrogates, in the name of a file
+        return json.dumps(content, indent=2)
 
 
 def _lines(table: SegmentTable) -> Iterator[str]:
