@@ -205,7 +205,7 @@ def _rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
 
 
 def _indented(content: dict[str, Any]) -> str:
-    """What `json.dumps` writes with an indent, several times as fast: a long table has many marks."""
+    """What `json.dumps` writes with an indent, several times as fast: tables have many marks."""
     try:
         return msgspec.json.format(json.dumps(content), indent=2)
     except msgspec.DecodeError:  # half of a pair of surrogates, in the name of a file
