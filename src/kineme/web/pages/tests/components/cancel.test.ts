@@ -1,0 +1,41 @@
+// @vitest-environment happy-dom
+import "./offscreen";
+import { expect, it } from "vitest";
+import type { State } from "../../src/messages";
+import { Store } from "../../src/store";
+import type { Api } from "../../src/studio/server/api";
+import { Session } from "../../src/studio/session";
+import { briefOf, listing } from "../studio/briefs";
+import { recording } from "../studio/tables";
+import "./browser";
+
+/** A session with a recording whose file, or whose segments, are still on their way. */
+async function opened(being_read: boolean): Promise<{ session: Session; cancelled: string[] }> {
+  const cancelled: string[] = [];
+  const now = { ...recording(), finding: true, being_read };
+  const listed = listing("take", briefOf(now.segmentation));
+  const api = {
+    state: () => Promise.resolve({ folder: "", recordings: [listed] } as unknown as State),
+    recording: () => Promise.resolve(now),
+    cancel: (id: string) => Promise.resolve(void cancelled.push(id)),
+  };
+  const session = new Session(api as unknown as Api, new Store());
+  await session.refresh();
+  await session.open("take");
+  return { session, cancelled };
+}
+
+it("closes what is still being read, and says so to the server", async () => {
+  const { session, cancelled } = await opened(true);
+  session.cancel();
+  expect(cancelled).toEqual(["take"]);
+  expect(session.store.recording.value).toBeUndefined();
+  expect(session.recordings.value).toEqual([]);
+});
+
+it("leaves open what only has no segments yet", async () => {
+  const { session, cancelled } = await opened(false);
+  session.cancel();
+  expect(cancelled).toEqual(["take"]);
+  expect(session.store.recording.value?.id).toBe("take");
+});
