@@ -98,6 +98,13 @@ def test_a_found_table_against_own_intervals_with_counts(kineme, table, tmp_path
     assert "counted exactly" in ran.stdout
 
 
+def test_json_of_a_result_goes_to_standard_output_alone(kineme, tmp_path):
+    ran = kineme("evaluate", bundled_truth(), "--against", bundled_truth(), "--json")
+    assert (ran.returncode, ran.stderr) == (0, "")
+    (row,) = json.loads(ran.stdout)["scores"]
+    assert (row["result"], row["border_f1"]) == (Path(bundled_truth()).name, 1.0)
+
+
 def test_one_label_per_frame_on_both_sides(kineme, tmp_path):
     for name, middle in (("found", 100), ("truth", 110)):
         lines = ["walk"] * middle + ["run"] * (200 - middle)
@@ -170,6 +177,8 @@ def test_annotations_that_overlap_run_backwards_or_pass_the_end(
         (("found.csv",), 2, "--against LABELS is needed"),
         (("found.csv", "--against", "labels.csv"), 1, "found.csv: cannot be read"),
         (("labels.txt", "--against", "labels.csv"), 1, "give fps (--fps)"),
+        (("nope", "--against", "labels.csv"), 1, "nope: there is no such file"),
+        (("nope", "--labels", "labels.csv"), 1, "nope: there is no such folder"),
     ],
 )
 def test_a_call_that_cannot_work_is_one_sentence(kineme, tmp_path, arguments, code, message):

@@ -58,6 +58,19 @@ def test_json_goes_to_standard_output_alone(kineme, corpus) -> None:
 
 
 @pytest.mark.usefixtures("in_one_process")
+def test_counts_of_a_table_are_compared(kineme, corpus, tmp_path) -> None:
+    rows = ["recording,start_s,stop_s,label,count", "a,0,20,slow,10", "a,20,40,fast,"]
+    (tmp_path / "labels.csv").write_text("\n".join(rows))
+    ran = kineme("evaluate", corpus, "--labels", "labels.csv", "--method", "uniform")
+    lines = ran.stdout.splitlines()
+    (head,) = (line for line in lines if line.split()[:2] == ["MoF", "Edit"])
+    (first,) = (line for line in lines if line.split()[:1] == ["a.csv"])
+    assert head.split()[-2:] == ["count", "error"]
+    assert float(first.split()[-1]) > 0
+    assert "counted exactly" in ran.stdout
+
+
+@pytest.mark.usefixtures("in_one_process")
 def test_constants_of_the_methods_can_be_set(kineme, corpus) -> None:
     def told(*options: str) -> object:
         ran = kineme("evaluate", corpus, "--labels", corpus / "labels.csv", "--json", *options)

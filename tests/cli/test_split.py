@@ -122,6 +122,22 @@ def test_convert_goes_through_every_format_and_back(kineme, tmp_path: Path) -> N
     assert back.table.label.tolist() == truth.table.label.tolist()
 
 
+def test_convert_says_what_a_format_of_one_level_leaves_out(kineme, tmp_path: Path) -> None:
+    primitives = len(package.read_segments(bundled_truth()).primitives)
+    done = kineme("convert", bundled_truth(), "a.txt")
+    left_out = f"note: a.txt holds the activities alone, without the {primitives} segments of"
+    assert done.stderr.startswith(left_out)
+    assert "--level primitive" in done.stderr
+    assert (done.stdout, done.stderr.count("\n")) == (f"{bundled_truth()} written as a.txt\n", 1)
+    for name, option in (
+        ("b.txt", "--quiet"),
+        ("c.txt", "--level=primitive"),
+        ("c.eaf", "--fps=60"),
+    ):
+        assert kineme("convert", bundled_truth(), name, option).stderr == ""
+    assert len((tmp_path / "c.txt").read_text().splitlines()) == primitives
+
+
 def test_clips_as_animations_of_a_glb_and_back(kineme, tmp_path: Path) -> None:
     cuts = ("--segments", bundled_truth(), "--cluster", "0")
     done = kineme("split", bundled_recording(), *cuts, "--format", "glb", "-o", "clips")

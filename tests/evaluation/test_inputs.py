@@ -7,7 +7,14 @@ import pytest
 from kineme.errors import ReadError
 from kineme.evaluation import TRANSITION
 from kineme.evaluation.comparison import compare
-from kineme.evaluation.inputs import agreement, differences, read_result, read_truth, score
+from kineme.evaluation.inputs import (
+    agreement,
+    differences,
+    read_result,
+    read_truth,
+    score,
+    truth_of,
+)
 from kineme.evaluation.score import results_of, value_of
 from kineme.labels.collections import LabelSource
 from kineme.segments.segmentation import Segmentation
@@ -152,6 +159,17 @@ def test_primitives_alone_are_repetitions_with_pauses_between_them(tmp_path, cou
     for scores in (one, folder):
         assert (scores["count_error"], scores["count_exact"]) == (0.5, 0.5)
         assert scores["repetition_f1"] == pytest.approx(4 / 5)
+
+
+def test_an_activity_may_be_called_transition_in_a_segment_table() -> None:
+    columns = {"level": ["activity"] * 3, "kind": ["activity", "transition", "activity"],
+               "start_frame": [0, 20, 25], "stop_frame": [20, 25, 60],
+               "label": ["transition", "", "walk"]}  # fmt: skip
+    table = Segmentation.from_columns(columns, n_frames=60, fps=10)
+    assert truth_of(table, n_frames=60, fps=10).labels == ("transition (activity)", "walk")
+    found = agreement(table, table)
+    assert found["cluster_ratio"] == found["border_f1"] == found["mof"] == 1.0
+    assert value_of(results_of(compare(table, table))["mof"]) == 1.0
 
 
 def test_counts_of_neighbours_of_one_name_add_up(tmp_path) -> None:

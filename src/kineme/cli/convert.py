@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.help import INPUT, LABELS, OUTPUT, option
 from kineme.cli.options.inputs import Batch, Recursive
 from kineme.cli.options.reading import Quiet, with_reading_options
@@ -14,6 +15,7 @@ from kineme.cli.options.request import Request
 from kineme.cli.options.targets import make_folder_of
 from kineme.errors import WriteError
 from kineme.labels import read_segments, write_segments
+from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
 
@@ -123,9 +125,25 @@ def convert(
                     path, format=from_format, fps=request.reading.get("fps"), n_frames=frames
                 )
                 write_segments(segments, place, format=to_format, level=level)
+                if not quiet and level is None:
+                    _tell_of_primitives(segments, place, to_format)
             if not quiet:
                 typer.echo(f"{path} written as {place}")
     batch.exit()
+
+
+def _tell_of_primitives(segments: Segmentation, place: Path, name: str | None) -> None:
+    """Say on standard error what a file of one level does not hold."""
+    from kineme.labels.registry import format_to_write
+
+    label_format, primitives = format_to_write(place, name), segments.primitives
+    if len(primitives) and label_format.holds == "level":
+        typer.echo(
+            f"note: {place} holds the activities alone, without the "
+            f"{counted(len(primitives), 'segment')} of the level primitive: --level primitive "
+            "writes these instead",
+            err=True,
+        )
 
 
 def _convert_recording(request: Request, path: Path, target: Path) -> None:

@@ -67,7 +67,7 @@ def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
     rows = truth.activities
     clusters = labelling_of(rows, fps=truth.fps)
     names = [
-        TRANSITION if _is_transition(row) else row.label or name
+        TRANSITION if _is_transition(row) else _class(row.label) or name
         for row, name in zip(rows, clusters.labels, strict=True)
     ]
     numbered = replace(clusters, labels=tuple(map(str, range(len(names)))))
@@ -112,7 +112,7 @@ def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
         if row.kind == "transition"
         else f"{row.cluster}"
         if row.cluster >= 0
-        else row.label or f"~{i}"
+        else _class(row.label) or f"~{i}"
         for i, row in enumerate(rows)
     ]
     return Labelling(np.append(rows.start_frame, rows.stop_frame[-1]), tuple(labels), fps)
@@ -123,6 +123,11 @@ def _counts(labels: Segmentation) -> Sequence[Count]:
     counts: Sequence[Count] = labels.provenance.get("labels", {}).get("counts", ())
     rows = len(labels.activities)
     return counts if len(counts) == rows else [None] * rows  # edited since, or none at all
+
+
+def _class(label: str) -> str:
+    """A label as the name of a class, also where people call one what belongs to none."""
+    return f"{label} (activity)" if label == TRANSITION else label
 
 
 def _is_transition(row: Segment) -> bool:

@@ -174,9 +174,10 @@ def evaluate(
     Scores of frames and clusters read ``clusters``; those of borders, and ``strict`` and
     ``tolerant``, read ``activities``; repetitions and variances read ``primitives``. Names that
     end in ``ratio`` are found over true. ``count_error``, ``count_exact`` appear where the truth
-    knows counts, ``cloud_distance``, ``cloud_variance`` (metres) with positions,
-    ``feature_distance``, ``feature_variance`` with features: smaller is
-    better, 0 is best, ``count_exact`` apart. ``length_mean`` and
+    knows counts, ``repetition_f1`` where it has repetitions, ``cloud_distance``,
+    ``cloud_variance`` (metres) with positions, ``feature_distance``, ``feature_variance`` with
+    features: smaller is better, 0 is best, ``count_exact`` and ``repetition_f1`` apart.
+    ``length_mean`` and
     ``length_variance`` (seconds) describe the clusters and tell nothing of quality.
 
     Parameters

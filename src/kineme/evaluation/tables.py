@@ -62,15 +62,14 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
     suffix = path.suffix.lower()
     if suffix not in OUTPUTS:
         raise WriteError(path, f"scores are written as {' or '.join(OUTPUTS)}")
-    plain = [{name: finite(value) for name, value in record.items()} for record in records]
     with (
         atomic_write(path) as draft,
         draft.open("w", encoding="utf-8", newline="\n" if suffix == ".json" else "") as file,
     ):
         if suffix == ".json":
-            json.dump({"kineme": __version__, "scores": plain}, file, indent=1, ensure_ascii=False)
-            file.write("\n")
+            file.write(f"{records_json(records)}\n")
         else:
+            plain = _plain(records)
             names = list(dict.fromkeys(name for record in plain for name in record))
             table = csv.DictWriter(file, names, lineterminator="\n")
             table.writeheader()
@@ -78,6 +77,12 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
                 {k: as_text(v) if isinstance(v, str) else v for k, v in record.items()}
                 for record in plain
             )
+
+
+def records_json(records: Sequence[Mapping[str, Any]]) -> str:
+    """Records as one JSON object, with the version."""
+    content = {"kineme": __version__, "scores": _plain(records)}
+    return json.dumps(content, indent=1, ensure_ascii=False)
 
 
 class Result(Protocol):
@@ -100,3 +105,7 @@ def write_result(result: Result, path: Path) -> None:
 def finite(value: Any) -> Any:
     """The value; None in place of a number that cannot be had."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _plain(records: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    return [{name: finite(value) for name, value in record.items()} for record in records]

@@ -101,9 +101,10 @@ def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelF
         return _named(name)
     suffix = Path(path).suffix.lower()
     fitting = [candidate for candidate in label_formats().values() if suffix in candidate.suffixes]
+    if not fitting and not Path(path).exists():
+        raise ReadError(path, "there is no such file")
     if not fitting:
-        reason = f"segments are stored as {_suffixes_read()}, not {suffix or 'that'!r}"
-        raise ReadError(path, reason)
+        raise ReadError(path, f"segments are stored as {_suffixes_read()}, not {_other(suffix)}")
     fitting.sort(key=lambda candidate: candidate.written_suffix.lower() != suffix)
     return next((candidate for candidate in fitting if _speaks(candidate, Path(path))), fitting[0])
 
@@ -127,8 +128,7 @@ def format_to_write(path: str | PathLike[str], name: str | None = None) -> Label
     stored = ", ".join(written_suffixes())
     if fitting:
         raise WriteError(path, f"{fitting[0].name} is only read: segments go into {stored}")
-    reason = f"segments are stored as {stored}, not {suffix or 'that'!r}"
-    raise WriteError(path, reason)
+    raise WriteError(path, f"segments are stored as {stored}, not {_other(suffix)}")
 
 
 def holds_labels(path: str | PathLike[str]) -> bool:
@@ -167,6 +167,10 @@ def _named(name: str) -> LabelFormat:
     if not is_one_of(name, formats):
         raise ParameterError(f"format must be one of {', '.join(formats)}, not {name!r}")
     return formats[name]
+
+
+def _other(suffix: str) -> str:
+    return repr(suffix) if suffix else "without a suffix"
 
 
 def _suffixes_read() -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -12,7 +12,7 @@ from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.method import SET, Constants, constants_of
 from kineme.cli.options.reading import Quiet
-from kineme.errors import KinemeError, WriteError
+from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.methods.presets import DEFAULT
 
 BENCHMARK = "cmu86"
@@ -83,7 +83,7 @@ def evaluate(
         ),
     ] = None,
     constants: Constants = None,
-    as_json: Annotated[bool, option(OUTPUT, "Print JSON, of a folder.", "--json")] = False,
+    as_json: Annotated[bool, option(OUTPUT, "Print JSON in place of tables.", "--json")] = False,
     fps: Annotated[float | None, option(RESULT, "Frames per second of .txt files.")] = None,
     recording: Annotated[
         Path | None,
@@ -173,20 +173,29 @@ def evaluate(
         if constants:
             raise typer.BadParameter("constants are of a folder of recordings", param_hint=SET)
         if what != BENCHMARK:
+            if labels and not Path(what).exists():
+                raise ReadError(what, "there is no such folder")
             if against is None:
                 raise typer.BadParameter(f"--against LABELS is needed, or {BENCHMARK} to run it")
             from kineme.cli.evaluate.result import score_file
 
-            records = score_file(Path(what), against, fps, recording, trial, quiet=quiet)
+            silent = quiet or as_json
+            records = score_file(Path(what), against, fps, recording, trial, quiet=silent)
         else:
             if against is not None:
                 raise typer.BadParameter(f"{BENCHMARK} brings its own truth: leave out --against")
-            records = _benchmark()(names, trial, data, plot, figures, quiet=quiet)
-        if output is not None:
-            from kineme.evaluation.tables import write_records
-
-            write_records(records, output)
+            records = _benchmark()(names, trial, data, plot, figures, quiet=quiet or as_json)
+        _give(records, output, as_json=as_json)
     failures.exit()
+
+
+def _give(records: Sequence[Mapping[str, Any]], output: Path | None, *, as_json: bool) -> None:
+    from kineme.evaluation.tables import records_json, write_records
+
+    if as_json:
+        typer.echo(records_json(records))
+    if output is not None:
+        write_records(records, output)
 
 
 def _benchmark() -> Callable[..., list[dict[str, Any]]]:
