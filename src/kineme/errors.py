@@ -123,7 +123,7 @@ class EndEffectorError(MotionError):
     ...     kineme.end_effectors(skeleton)
     ... except kineme.EndEffectorError as error:
     ...     print(error.reason)
-    no left ankle, right ankle, head, left wrist and right wrist among the joints
+    no left ankle, right ankle, head, left wrist or right wrist among the joints
     """
 
     def __init__(self, message: str, *, reason: str | None = None):
