@@ -29,6 +29,7 @@ from kineme.evaluation.recordings import recordings_below
 from kineme.evaluation.score import over_all, scores
 from kineme.labels.collections import labels_of
 from kineme.library import Hit, Library, Settings, build
+from kineme.matching import THRESHOLD
 from kineme.transfer import share_clusters
 from sets import READING
 
@@ -37,6 +38,8 @@ SETS = {"hugadb": 4, "hapt": 1, "ipolgait": 1, "utkinect": 1}
 KEPT = ("level", "kind", "start_frame", "stop_frame")
 SHARES = ("mof", "edit", "f1@50")
 EXAMPLES, LONGEST = few(40, 5), 3.0
+WIDE = 1.4
+"""A threshold for who would rather look through too much than miss it."""
 
 
 def show(name: str, home: Path) -> None:
@@ -73,20 +76,28 @@ def searched(name: str, library: Library, truths: Mapping[str, kineme.Segmentati
     """What is found of labelled stretches in the recordings that they are not of."""
     random = np.random.default_rng(0)
     rows = [(key, row) for key, truth in truths.items() for row in truth.activities if row.label]
-    right = found = reached = there = 0
-    for number in random.choice(len(rows), EXAMPLES):
-        key, row = rows[number]
-        start = row.start_s + max(row.duration_s - LONGEST, 0) / 2
-        stop = min(start + LONGEST, row.stop_s)
-        hits = [hit for hit in library.search(key, start, stop, top=None) if hit.recording != key]
-        good = [hit for hit in hits if label_at(truths[hit.recording], hit) == row.label]
-        right, found = right + len(good), found + len(hits)
-        reached += len({hit.recording for hit in good})
-        there += len({other for other, one in rows if other != key and one.label == row.label})
-    precision, recall = right / max(found, 1), reached / max(there, 1)
-    print(f"{name}, searched: precision {precision:.2f}, recordings found {recall:.2f}", flush=True)
-    record(f"vocabulary_of_signals.{name}.search.precision", round(precision, 2))
-    record(f"vocabulary_of_signals.{name}.search.recordings", round(recall, 2))
+    examples = random.choice(len(rows), EXAMPLES)
+    for way, threshold in {"search": THRESHOLD, "wide_search": WIDE}.items():
+        right = found = reached = there = 0
+        for number in examples:
+            key, row = rows[number]
+            start = row.start_s + max(row.duration_s - LONGEST, 0) / 2
+            stop = min(start + LONGEST, row.stop_s)
+            hits = [
+                hit
+                for hit in library.search(key, start, stop, top=None, threshold=threshold)
+                if hit.recording != key
+            ]
+            good = [hit for hit in hits if label_at(truths[hit.recording], hit) == row.label]
+            right, found = right + len(good), found + len(hits)
+            reached += len({hit.recording for hit in good})
+            there += len({other for other, one in rows if other != key and one.label == row.label})
+        precision, recall = right / max(found, 1), reached / max(there, 1)
+        print(
+            f"{name}, {way}: precision {precision:.2f}, recordings found {recall:.2f}", flush=True
+        )
+        record(f"vocabulary_of_signals.{name}.{way}.precision", round(precision, 2))
+        record(f"vocabulary_of_signals.{name}.{way}.recordings", round(recall, 2))
 
 
 def label_at(truth: kineme.Segmentation, hit: Hit) -> str:
