@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from posed_figures import posed
 
 import kineme
 from kineme.cycles import channels_of, landmarks
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.operations import move, scale, turn
-from posed_figures import posed
 
 T = np.linspace(0, 2 * np.pi, 121)
 ANGLES = {

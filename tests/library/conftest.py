@@ -6,10 +6,10 @@ import shutil
 from pathlib import Path
 
 import pytest
+from library_folders import write_channels
 
 import kineme
 from kineme.library import Library, build
-from library_folders import write_channels
 
 SPANS = {"walk.bvh": (0, 1500), "jacks.bvh": (1200, 2898)}
 """Frames of the bundled recording; some are in both."""

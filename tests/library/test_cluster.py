@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
 from crowds import bytes_of, crowd, joined
+from library_folders import contents
+
 from kineme.errors import ParameterError
 from kineme.library import Library, build
-from library_folders import contents
 
 dask = pytest.importorskip("dask", reason="dask is not installed")
 distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")

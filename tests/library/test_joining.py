@@ -7,8 +7,8 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-
 from crowds import KINDS, bytes_of, crowd, joined, once_deadly
+
 from kineme.library.executors import processes
 from kineme.library.vocabulary import joining
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from library_folders import write_channels
 from matplotlib.image import imread
 from pyarrow import parquet
 
@@ -24,7 +25,6 @@ from kineme.library.storage.layout import as_column
 from kineme.library.storage.tables import DESCRIBED
 from kineme.matching import THRESHOLD
 from kineme.segments.table import COLUMNS
-from library_folders import write_channels
 
 
 def test_columns_are_those_described(library: Library) -> None:

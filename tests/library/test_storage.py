@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from library_folders import contents
 
 from kineme.errors import ParameterError, ReadError
 from kineme.library import Library, build
-from library_folders import contents
 
 fsspec = pytest.importorskip("fsspec", reason="fsspec is not installed")
 pytest.importorskip("upath", reason="universal_pathlib is not installed")

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
+from presets import OWN
 
 from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
@@ -18,7 +19,6 @@ from kineme.features.emg import emg_envelope
 from kineme.methods import resolve_preset
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
-from presets import OWN
 
 VALUES = arrays.arrays(
     np.float64, st.tuples(st.integers(1, 40), st.integers(1, 4)), elements=st.floats(-1e3, 1e3)

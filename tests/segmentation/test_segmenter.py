@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from presets import OWN
 
 from kineme.datasets import Action, random_recording, synthesize
 from kineme.errors import ParameterError
@@ -22,7 +23,6 @@ from kineme.recordings.operations import cut, move, resample, turn
 from kineme.segmentation.bodies import motion_features
 from kineme.segmentation.segmenter import analyze, segment, segment_and_found
 from kineme.segments.segmentation import Segmentation
-from presets import OWN
 
 presets = pytest.mark.parametrize("preset", OWN)
 few = settings(max_examples=5)

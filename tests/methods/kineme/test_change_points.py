@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from bands import one_sided
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from bands import one_sided
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.segments import by_first_appearance
 

@@ -6,11 +6,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from bands import points
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from bands import points
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.preset import KINEME
 from kineme.methods.kineme.repetitions import Candidate, at_rest, repetitions
