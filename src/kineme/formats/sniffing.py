@@ -86,9 +86,9 @@ def sniff(content: FileContent) -> DelimitedText:
     else:
         row = next(filter(str.strip, islice(lines, below, None)), "")
         cells = _head_cells(content, lines[head], row, separator)
-    second = _joined(cells, cells_of(lines[full[first + 1]], separator)) if words else cells
-    passed = full[first + 1 + (second != cells) : first + 1 + words]
-    cells = second
+    passed = full[first + 1 : first + 1 + words]
+    if words and (both := _joined(cells, cells_of(lines[passed[0]], separator))) != cells:
+        cells, passed = both, passed[1:]
     headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
     notes = []
     if first:
@@ -128,15 +128,16 @@ def _head_cells(content: FileContent, line: str, row: str, separator: str) -> li
 
 def _first_line(lines: Sequence[str], full: Sequence[int], separator: str | None) -> int:
     """Which of the full lines has the names, or is the first row of a table without names."""
-    heads = [k for k in range(min(HIGHEST, len(full))) if _is_head(lines, full, k, separator)]
+    heads = (k for k in range(min(HIGHEST, len(full))) if _is_head(lines, full, k, separator))
     nameless = _first_of_nameless(lines, full, separator)
-    places = [*heads, nameless]
+    if not nameless:
+        return next(heads, 0)
 
     def width(place: int) -> int:
         line = lines[full[place]]
         return len(cells_of(line, separator or separator_of(line)))
 
-    return max(places, key=width) if nameless else next(iter(places))
+    return max([*heads, nameless], key=width)
 
 
 def _is_head(lines: Sequence[str], full: Sequence[int], at: int, separator: str | None) -> bool:
