@@ -129,7 +129,9 @@ def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypa
     assert "not segmented: no such constant" in recordings.message(name).warnings
 
 
-def test_a_large_file_shows_some_of_its_poses_while_it_is_read(tmp_path, monkeypatch):
+@pytest.fixture
+def large_take(tmp_path, monkeypatch):
+    """A recording that is read once ``wanted`` is set: its folder, id and news."""
     shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
     wanted, read = threading.Event(), RecordingCache.read
     monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
@@ -140,6 +142,11 @@ def test_a_large_file_shows_some_of_its_poses_while_it_is_read(tmp_path, monkeyp
     told: queue.Queue[tuple[str, int]] = queue.Queue()
     recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
     (name,) = recordings.folder.recordings()
+    return recordings, name, told, wanted
+
+
+def test_a_large_file_shows_some_of_its_poses_while_it_is_read(large_take):
+    recordings, name, told, wanted = large_take
     few = recordings.message(name)
     assert few.finding
     assert few.n_frames == 2898
@@ -158,22 +165,13 @@ def test_a_large_file_shows_some_of_its_poses_while_it_is_read(tmp_path, monkeyp
     assert len(recordings.poses(name, 1449)) > 5 * len(poses)
 
 
-def test_a_large_file_that_is_not_wanted_any_more_is_not_opened(tmp_path, monkeypatch):
-    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
-    wanted, read = threading.Event(), RecordingCache.read
-    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
-    monkeypatch.setattr(
-        RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
-    )
+def test_a_large_file_that_is_not_wanted_any_more_is_not_opened(large_take, monkeypatch):
     opened = []
     first_table = LoadedRecording.first_table
     monkeypatch.setattr(
         LoadedRecording, "first_table", lambda self: opened.append(self) or first_table(self)
     )
-    told: queue.Queue[tuple[str, int]] = queue.Queue()
-    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
-    (name,) = recordings.folder.recordings()
+    recordings, name, told, wanted = large_take
     assert recordings.message(name).being_read
     recordings.cancel(name)
     wanted.set()
@@ -186,17 +184,8 @@ def test_a_large_file_that_is_not_wanted_any_more_is_not_opened(tmp_path, monkey
     assert not recordings.message(name).being_read
 
 
-def test_a_large_file_that_is_wanted_again_while_it_is_read_is_opened(tmp_path, monkeypatch):
-    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
-    wanted, read = threading.Event(), RecordingCache.read
-    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
-    monkeypatch.setattr(
-        RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
-    )
-    told: queue.Queue[tuple[str, int]] = queue.Queue()
-    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
-    (name,) = recordings.folder.recordings()
+def test_a_large_file_that_is_wanted_again_while_it_is_read_is_opened(large_take):
+    recordings, name, told, wanted = large_take
     recordings.message(name)
     recordings.cancel(name)
     recordings.message(name)
