@@ -127,6 +127,7 @@ HELPERS = {
     "_rotations": set(),
     "_threads": set(),
     "_version": set(),
+    "_xml": set(),
 }
 # From the graph on nothing knows what a skeleton is; bundling takes any curve.
 PLAIN = {"graph", "methods"}

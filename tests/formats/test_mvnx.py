@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import kineme
 from kineme.errors import ReadError, SeveralPeopleError
+from kineme.formats import people_in
 from kineme.formats.skeletons.mvnx import PARENTS
 from kineme.recordings import Motion, Skeleton
 
@@ -97,7 +98,10 @@ def test_one_of_several_subjects(tmp_path: Path) -> None:
     text = one.replace("</mvnx>", other[other.index("<subject") :])
     with pytest.raises(SeveralPeopleError, match="Anna, Bob"):
         read(tmp_path, text)
-    assert read(tmp_path, text, person="Bob").positions[0, 0, 0] > 0.5
+    bob = read(tmp_path, text, person="Bob")
+    assert bob.positions[0, 0, 0] > 0.5
+    assert (bob.provenance.person, bob.provenance.people) == ("Bob", ("Anna", "Bob"))
+    assert people_in(tmp_path / "a.mvnx") == ("Anna", "Bob")
 
 
 @pytest.mark.parametrize(
@@ -122,5 +126,5 @@ def test_wrong_files(tmp_path: Path, spoil, reason: str) -> None:
 def test_entities_do_not_grow(tmp_path: Path) -> None:
     levels = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 12))
     head = f'<?xml version="1.0"?><!DOCTYPE mvnx [<!ENTITY e0 "ha">{levels}]>'
-    with pytest.raises(ReadError):
+    with pytest.raises(ReadError, match="it has a document type"):
         read(tmp_path, f"{head}<mvnx><subject label='x'>&e11;</subject></mvnx>")

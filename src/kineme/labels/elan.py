@@ -23,10 +23,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, get_args
+from typing import get_args
 from xml.etree import ElementTree as ET
 
 from kineme._files import atomic_write, video_beside
+from kineme._xml import NoEntities
 from kineme.errors import ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
@@ -139,16 +140,12 @@ def chosen_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
     return {names[0]: "activity"}
 
 
-class _Builder(ET.TreeBuilder):
+class _Builder(NoEntities, ET.TreeBuilder):
     """Elements of a document that defines no entities."""
-
-    def doctype(self, *_: Any) -> None:
-        """Refuse: entities are defined here, and could grow a small file without bounds."""
-        raise ET.ParseError("it has a document type")
 
 
 def _parsed(path: Path) -> ET.Element:
-    parser = ET.XMLParser(target=_Builder())  # noqa: S314 (see _Builder)
+    parser = ET.XMLParser(target=_Builder())  # noqa: S314 (see NoEntities)
     try:
         with path.open("rb") as file:
             return ET.parse(file, parser).getroot()  # noqa: S314

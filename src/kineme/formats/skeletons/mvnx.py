@@ -11,10 +11,8 @@ Source: Xsens, "MVN User Manual", chapter on the file format MVNX.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from io import BytesIO
-from typing import Any
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -22,7 +20,7 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme._counts import listed
-from kineme._files import HEAD
+from kineme._xml import NoEntities
 from kineme.errors import SeveralPeopleError
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
@@ -31,6 +29,9 @@ from kineme.formats.skeletons.placing import place
 from kineme.recordings import Motion, Skeleton
 
 Floats = NDArray[np.float64]
+
+KINDS = ("position", "orientation")
+"""What is read of a frame."""
 
 _LIMBS = {
     "Shoulder": "T8", "UpperArm": "Shoulder", "ForeArm": "UpperArm", "Hand": "ForeArm",
@@ -52,19 +53,19 @@ class Subject:
     name: str
     rate: float
     segments: list[str] = field(default_factory=list)
-    positions: list[Floats] = field(default_factory=list)
-    orientations: list[Floats] = field(default_factory=list)
+    values: dict[str, list[Floats]] = field(default_factory=lambda: {kind: [] for kind in KINDS})
 
 
 def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of a suit in an MVNX file."""
-    subject = _chosen(content, list(_subjects(content)), options.person)
+    people = _subjects(content)
+    subject = _chosen(content, people, options.person)
     names = [name for name in PARENTS if name in subject.segments]
     if "Pelvis" not in names:
         raise content.error("none of its segments is a 'Pelvis'")
     n, chosen = len(subject.segments), [subject.segments.index(name) for name in names]
-    positions = _stacked(content, "position", subject.positions, 3 * n).reshape(-1, n, 3)
-    world = _stacked(content, "orientation", subject.orientations, 4 * n).reshape(-1, n, 4)
+    positions = _stacked(content, subject, "position", 3 * n).reshape(-1, n, 3)
+    world = _stacked(content, subject, "orientation", 4 * n).reshape(-1, n, 4)
     if len(positions) != len(world):
         raise content.error("not all frames have positions and orientations: export both")
     positions, world = positions[:, chosen], world[:, chosen]
@@ -85,6 +86,9 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         raise content.error("it tells no frameRate: give fps= (--fps)")
     left = [name for name in subject.segments if name not in PARENTS]
     notes = [f"segments left out: {', '.join(left)}"] if left else []
+    provenance = content.provenance("MVNX", notes)
+    if len(people) > 1:
+        provenance = provenance.of_person(subject.name, [each.name for each in people])
     return place(
         Skeleton(tuple(names), tuple(parents), offsets),
         local,
@@ -92,49 +96,60 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         fps,
         unit=options.unit or "m",
         up=options.up or "z",
-        provenance=content.provenance("MVNX", notes),
+        provenance=provenance,
     )
 
 
-def _subjects(content: FileContent) -> Iterator[Subject]:
-    """The people in a file, read element by element; ReadError where it breaks off."""
-    subject: Subject | None = None
-    if b"<!DOCTYPE" in content.data[:HEAD]:  # without one no entity can grow
-        raise content.error("has a document type, which MVN's have not")
-    events = ET.iterparse(BytesIO(content.data), events=("start", "end"))  # noqa: S314 (see above)
+class _Subjects(NoEntities):
+    """The people in a file, made of its elements as they come; nothing else is kept."""
+
+    def __init__(self, content: FileContent) -> None:
+        self.content = content
+        self.people: list[Subject] = []
+        self._normal = False
+        self._text: list[str] | None = None  # of the element that is read
+
+    def start(self, tag: str, attributes: Mapping[str, str]) -> None:
+        name = tag.rpartition("}")[2]
+        if name == "subject":
+            rate = _number(attributes.get("frameRate", ""))
+            self.people.append(Subject(attributes.get("label", ""), rate))
+        elif name == "segment" and self.people:
+            self.people[-1].segments.append(attributes.get("label", ""))
+        elif name == "frame":
+            self._normal = attributes.get("type", "normal") == "normal"
+        elif name in KINDS and self._normal and self.people:
+            self._text = []
+
+    def data(self, text: str) -> None:
+        if self._text is not None:
+            self._text.append(text)
+
+    def end(self, tag: str) -> None:
+        name = tag.rpartition("}")[2]
+        if self._text is None or name not in KINDS:
+            return
+        words, self._text = "".join(self._text).split(), None
+        try:
+            self.people[-1].values[name].append(np.array(words, np.float64))
+        except ValueError:
+            raise self.content.error(f"a frame has a {name} that is no number") from None
+
+
+def _subjects(content: FileContent) -> list[Subject]:
+    """The people in a file; ReadError where it breaks off."""
+    found = _Subjects(content)
+    parser = ET.XMLParser(target=found)  # noqa: S314 (see NoEntities)
     try:
-        for event, element in events:
-            tag = element.tag.rpartition("}")[2]
-            if tag == "subject" and event == "start":
-                rate = _number(element.get("frameRate", ""))
-                subject = Subject(element.get("label", ""), rate)
-            elif event == "start" or subject is None:
-                continue
-            elif tag == "segment":
-                subject.segments.append(element.get("label", ""))
-            elif tag == "frame":
-                if element.get("type", "normal") == "normal":
-                    _take_frame(content, subject, element)
-                element.clear()
-            elif tag == "subject":
-                yield subject
-                element.clear()
+        parser.feed(content.data)
+        parser.close()
     except ET.ParseError as error:
         raise content.error(f"is no whole XML: {error}") from None
+    return found.people
 
 
-def _take_frame(content: FileContent, subject: Subject, frame: Any) -> None:
-    for child in frame:
-        tag = child.tag.rpartition("}")[2]
-        if tag in ("position", "orientation"):
-            try:
-                values = np.array((child.text or "").split(), np.float64)
-            except ValueError:
-                raise content.error(f"a frame has a {tag} that is no number") from None
-            (subject.positions if tag == "position" else subject.orientations).append(values)
-
-
-def _stacked(content: FileContent, what: str, frames: list[Floats], width: int) -> Floats:
+def _stacked(content: FileContent, subject: Subject, what: str, width: int) -> Floats:
+    frames = subject.values[what]
     if not frames:
         raise content.error(f"no frame has a {what} of segments: export it with them")
     if any(len(values) != width for values in frames):
