@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -35,6 +37,20 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         return SLOWEST_FIRST.index(place) if place in SLOWEST_FIRST else len(SLOWEST_FIRST)
 
     items.sort(key=turn)
+
+
+COMPILE = "import importlib, sys; [importlib.import_module(name) for name in sys.argv[1:]]"
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_setupnodes() -> None:
+    """Compile all kernels before workers, and the servers they start, do it each for itself."""
+    sources = HERE.parent / "src"
+    files = sorted(path.relative_to(sources) for path in sources.rglob("_*kernels.py"))
+    names = [".".join(path.with_suffix("").parts) for path in files]
+    halves = [[sys.executable, "-c", COMPILE, *names[i::2]] for i in range(2)]
+    for half in [subprocess.Popen(command) for command in halves]:
+        half.wait()  # what cannot be compiled fails where it is tested
 
 
 def find_data_dir() -> Path | None:

@@ -9,7 +9,7 @@ from typing import Any
 DESKTOP = {"width": 1280, "height": 720}
 GUTTER, RULER, GAP = 78, 22, 4  # pixels of the timeline, as in its lanes.ts
 SHARES = {"activity": 1.0, "primitive": 1.2, "label": 0.7}
-PATIENCE = 90.0  # seconds: on a slow machine compiling takes half of them
+PATIENCE = 180.0  # seconds: until then a slow machine may be at work yet, then something hangs
 NEXT_FRAME = "new Promise((done) => requestAnimationFrame(done))"
 PLACES = {"figure": ".place-viewer", "lanes": ".place-timeline", "matrix": ".place-matrix"}
 

@@ -1,16 +1,9 @@
 """Which frames are similar, and which spans match: graph and warping paths.
 
-Nothing here knows what a skeleton is: any array of frames × dims will do.
+Nothing here knows what a skeleton is: any array of frames × dims will do. Who needs the graph
+alone, a picture say, does not wait until the code of the paths is compiled.
 """
 
-from kineme.graph.neighbors import NeighborGraph, neighbor_graph
-from kineme.graph.warping import BASIC_STEPS, WarpingPaths, component_labels, warping_paths
+import lazy_loader
 
-__all__ = [
-    "BASIC_STEPS",
-    "NeighborGraph",
-    "WarpingPaths",
-    "component_labels",
-    "neighbor_graph",
-    "warping_paths",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
