@@ -5,10 +5,10 @@
 Three libraries: the five trials of subject 86; six sequences of HDM05 exercises, two of each of
 three people; all of them. Each cluster of a library stands for one action at most, the same in all
 its recordings; told is the share of frames that are right then, and how many clusters there are
-for how many actions. Then the mean of five more libraries, of six other sequences each, which
-were looked at when the constants were chosen. ``--most`` lets so many words at most be compared
-each with each, as in larger libraries. ``--keep`` keeps what was found in each recording alone
-for the next time.
+for how many actions. Then the mean of five more libraries, of six other sequences each; then takes
+of ten exercises of rehabilitation, done rightly and wrongly (UI-PRMD), on which nothing was chosen.
+``--most`` lets so many words at most be compared each with each, as in larger libraries. ``--keep``
+keeps what was found in each recording alone for the next time.
 
 ``--growth 100 1000 10000`` measures instead what joining so many words takes, those of shaken
 copies of subject 86: processor seconds of the tasks and of what is done between them, how many
@@ -30,11 +30,13 @@ from typing import Any
 
 import numpy as np
 
+import kineme
 import kineme.library.compiling
 from _figures import add_option, record
 from _libraries import SHAKEN, library_of
 from _options import command_line, few
 from _recordings import Case, hdm05, subject_86
+from _sources import of_bodies
 from kineme import Library
 from kineme.evaluation import TRANSITION, Comparison, Labelling, Truth, one_to_one_accuracy
 from kineme.library.compiling import compiled
@@ -54,6 +56,16 @@ def said_in(case: Case) -> np.ndarray:
     rows = case.made.activities
     names = [TRANSITION if row.kind == "transition" else row.label for row in rows]
     return np.repeat(np.array(names, dtype=object), rows.stop_frame - rows.start_frame)
+
+
+def takes(name: str) -> list[Case]:
+    """Takes of one exercise each, which is what is said of all of it."""
+    cases = []
+    for key, path, rows in of_bodies(name, "labels.csv")[:: few(1, 10)]:
+        motion = kineme.read(path)
+        said = Labelling.from_frames([rows[0]["label"]] * motion.n_frames, fps=motion.fps)
+        cases.append(Case(key, motion, Truth.from_labelling(said)))
+    return cases
 
 
 def found_in(library: Library, case: Case) -> np.ndarray:
@@ -215,6 +227,8 @@ def main() -> None:
         show("hdm05", home, sequences)
         show("both", home, [*trials, *sequences])
         show_others(home)
+        show("uiprmd", home, takes("uiprmd"))
+        show("uiprmd_incorrect", home, takes("uiprmd_incorrect"))
         if given.quick:
             show_growth(home, [20], given.most)
 

@@ -20,13 +20,19 @@ RARE = 3
 
 
 def crowd() -> tuple[Crowd, np.ndarray]:
-    """Words of some kinds of movement, one of each in a recording, and their kinds."""
-    rng = np.random.default_rng(0)
-    shapes = rng.normal(size=(KINDS, 24, 8))
+    """Words of some kinds of movement, one of each in a recording, and their kinds.
+
+    Each kind is an arc in a plane of its own: nothing in one is like anything in another.
+    """
+    rng = np.random.default_rng(1)
+    angle = np.linspace(0, np.pi, 24)
+    shapes = np.zeros((KINDS, 24, 2 * KINDS))
+    for kind in range(KINDS):
+        shapes[kind, :, 2 * kind : 2 * kind + 2] = np.column_stack([np.cos(angle), np.sin(angle)])
     kinds, words, recordings = [], [], []
     for recording in range(RECORDINGS):
         for kind in range(KINDS - (recording >= RARE)):
-            values = shapes[kind] + 0.2 * rng.normal(size=shapes[kind].shape)
+            values = shapes[kind] + 0.1 * rng.normal(size=shapes[kind].shape)
             values /= np.linalg.norm(values, axis=1, keepdims=True)
             example = values.astype(np.float32)
             words.append(Word(example[4:20], example))

@@ -159,13 +159,6 @@ class VocabularyConstants:
         "words are joined up to this mean distance, as a search measures it", limits=SOME_LENGTH,
         default=0.85,
     )  # fmt: skip
-    farthest: float = constant(
-        "a larger distance counts as this one", limits=SOME_LENGTH, default=2.0, fine=True
-    )
-    same_recording: float = constant(
-        "a smaller distance of two words of one recording counts as this one", limits=SOME_LENGTH,
-        default=1.3, fine=True,
-    )  # fmt: skip
     longest_example: float = constant(
         "a longer example is cut to this", unit="s", limits=SOME_TIME, default=4.0, fine=True
     )

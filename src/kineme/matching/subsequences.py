@@ -17,6 +17,7 @@ The steps are those of Müller, Information Retrieval for Music and Motion (2007
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -54,6 +55,52 @@ class Matches(NamedTuple):
     starts: Ints
     stops: Ints
     distances: Float32s
+
+
+class Searched:
+    """A recording in which examples are searched.
+
+    Parameters
+    ----------
+    recording : (n, dims) array
+        Matching features.
+    """
+
+    def __init__(self, recording: ArrayLike):
+        self._features = _checked(recording, "recording")
+
+    def distances(self, example: ArrayLike, *, most: float) -> tuple[Float32s, NDArray[np.int32]]:
+        """``distances[j]``, ``starts[j]``: of the match that ends with sample j.
+
+        A distance above ``most`` is inf.
+        """
+        short = _checked(example, "example")
+        costs, starts = warped(short, self._features)
+        variance = float(short.var(axis=0, dtype=np.float64).sum())
+        # The smaller movement goes no farther than the example: what is dearer is no match.
+        dearest = most * np.sqrt(2 * max(variance, STILL))
+        ends = np.flatnonzero(costs <= dearest)
+        smaller = np.maximum(np.minimum(self._variances(starts[ends], ends), variance), STILL)
+        found = (costs[ends] / np.sqrt(2 * smaller)).astype(np.float32)
+        distances = np.full(len(costs), np.inf, np.float32)
+        distances[ends] = np.where(found <= np.float32(most), found, np.inf)
+        return distances, starts
+
+    @cached_property
+    def _sums(self) -> Floats:
+        """Sums of all samples before each, around their mean, and of their squares."""
+        n, dims = self._features.shape
+        sums = np.zeros((n + 1, dims + 1))
+        np.subtract(self._features, self._features.mean(axis=0), out=sums[1:, :dims])
+        sums[1:, dims] = np.einsum("ij,ij->i", sums[1:, :dims], sums[1:, :dims])
+        return np.cumsum(sums, axis=0, out=sums)
+
+    def _variances(self, starts: NDArray[np.integer], lasts: Ints) -> Floats:
+        """Of the samples from each start to each last one, summed over their numbers."""
+        stops = lasts + 1
+        means = (self._sums[stops] - self._sums[starts]) / (stops - starts)[:, None]
+        variances: Floats = means[:, -1] - np.einsum("ij,ij->i", means[:, :-1], means[:, :-1])
+        return variances
 
 
 def search(
@@ -98,21 +145,12 @@ def search(
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
     if top is not None and not (is_number(top) and top >= 1):
         raise ParameterError(f"top must be a whole number above 0, not {top!r:.60}")
-    short, long = _checked(example, "example"), _checked(recording, "recording")
-    costs, starts = warped(short, long)
-    variance = float(short.var(axis=0, dtype=np.float64).sum())
-    # The smaller movement goes no farther than the example: what is dearer than this is no match.
-    dearest = threshold * np.sqrt(2 * max(variance, STILL))
-    candidates = np.flatnonzero(costs <= dearest)
-    variances = _variances(long, starts[candidates], candidates)
-    smaller = np.maximum(np.minimum(variances, variance), STILL)
-    distances = np.full(len(costs), np.inf, np.float32)
-    distances[candidates] = costs[candidates] / np.sqrt(2 * smaller)
-    ends = candidates[distances[candidates] <= np.float32(threshold)]
+    distances, starts = Searched(recording).distances(example, most=threshold)
+    ends = np.flatnonzero(distances <= np.float32(threshold))
     ends = ends[np.argsort(distances[ends], kind="stable")]
     chosen = np.empty(len(ends), np.int64)
     most = len(ends) if top is None else int(top)
-    n = apart(ends, starts, most, np.zeros(len(costs), np.bool_), chosen)
+    n = apart(ends, starts, most, np.zeros(len(starts), np.bool_), chosen)
     ends = chosen[:n]
     return Matches(starts[ends].astype(np.int64), ends + 1, distances[ends])
 
@@ -162,26 +200,6 @@ def warped(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[
         found = costs[span], starts[span]
         warp_columns(products, _squares(part), example_squares, first, sums, begins, rows, *found)
     return costs, starts
-
-
-def _variances(features: Float32s, starts: NDArray[np.integer], lasts: Ints) -> Floats:
-    """Of the samples from each start to each last one, summed over their numbers.
-
-    `numpy.add.reduceat` sums from one index to the next: each second sum is of a span.
-    """
-    if not len(starts):
-        return np.empty(0)
-    n, dims = features.shape
-    stops = lasts + 1
-    extended = np.empty((n + 1, dims + 1))
-    extended[:n, :dims] = features - features.mean(axis=0)
-    extended[:n, dims] = np.einsum("ij,ij->i", extended[:n, :dims], extended[:n, :dims])
-    extended[n] = 0.0
-    spans = np.column_stack([starts, stops]).ravel()
-    sums = np.add.reduceat(extended, spans, axis=0)[::2] / (stops - starts)[:, None]
-    means = sums[:, :dims]
-    variances: Floats = sums[:, dims] - np.einsum("ij,ij->i", means, means)
-    return variances
 
 
 def _squares(features: Float32s) -> Float32s:

@@ -3,12 +3,12 @@
 The clusters that were found in each recording alone are the *words* to be joined. A word is looked
 at by an example, its typical segment, and by a context, the activity around it: in a cyclic
 movement, the example of one recording may be cut at another phase than that of the next. The
-distance of two words is the mean of what it costs to find the example of each in the context of the
-other.
+distance of two words is the mean of those at which a search finds the example of each in the
+context of the other; what it would not find within 1 has nothing in common and is at 1.
 
-Words of one recording were found to differ there: they are as far apart at least as two that have
-nothing in common, so that they are one only where those of others lie between them. Words are
-joined by average linkage, as long as a search would find them by each other.
+Words of one recording were found to differ there: they are at 1, too, so that they are one only
+where those of others lie between them. Words are joined by average linkage, as long as a search
+would find them by each other, on average.
 
 More words than can be compared each with each are clustered in turns. In each, a sample of those
 that are left is compared each with each. Every other word is compared with the most typical words
@@ -45,6 +45,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Float32s = NDArray[np.float32]
 
+FARTHEST = 1.0
+"""Of two movements that have nothing in common: see `kineme.matching.subsequences`."""
 APART = 1e3
 """Value of each feature between two contexts: no match crosses it."""
 BLOCK = 100
@@ -155,34 +157,34 @@ def _compared(task: _Pairs) -> Floats:
     """The distance of each word of the rows from each of the columns."""
     ones = [task.load(place) for place in task.ones]
     others = ones if task.columns == task.rows else [task.load(place) for place in task.others]
-    forward = _all_costs(ones, Contexts(others))
-    backward = forward if others is ones else _all_costs(others, Contexts(ones))
+    forward = _all_distances(ones, Contexts(others))
+    backward = forward if others is ones else _all_distances(others, Contexts(ones))
     both: Floats = (forward + backward.T) / 2
     return both
 
 
-def _all_costs(words: Sequence[Word], contexts: Contexts) -> Floats:
+def _all_distances(words: Sequence[Word], contexts: Contexts) -> Floats:
     with threadpool_limits(1):  # sums do not depend on threads
-        return np.array(map_threads(contexts.costs_of, words), np.float64)
+        return np.array(map_threads(contexts.distances_of, words), np.float64)
 
 
 class Contexts:
     """The contexts of several words, to look for examples in."""
 
     def __init__(self, words: Sequence[Word]):
+        from kineme.matching.subsequences import Searched  # half a second, for who compares only
+
         gap = np.full((1, words[0].example.shape[1]), APART, np.float32)
-        self._features = np.concatenate([part for word in words for part in (word.context, gap)])
-        self._ends = np.cumsum([len(word.context) + 1 for word in words])
+        parts = [part for word in words for part in (word.context, gap)]
+        self._searched = Searched(np.concatenate(parts))
+        lengths = [len(word.context) + 1 for word in words]
+        self._starts = np.cumsum([0, *lengths[:-1]])
 
-    def costs_of(self, word: Word) -> Float32s:
-        """What it costs to find the example of a word in each of the contexts."""
-        from kineme.matching.subsequences import warped  # half a second, for who compares only
-
-        costs = warped(word.example, self._features)[0]
-        costs[self._ends - 1] = np.inf
-        starts = np.concatenate([[0], self._ends[:-1]])
-        least: Float32s = np.minimum.reduceat(costs, starts)
-        return least
+    def distances_of(self, word: Word) -> Float32s:
+        """How far the example of a word is from the nearest movement in each of the contexts."""
+        distances, _ = self._searched.distances(word.example, most=FARTHEST)
+        least: Float32s = np.minimum.reduceat(distances, self._starts)
+        return np.minimum(least, np.float32(FARTHEST))
 
 
 class Joined(NamedTuple):
@@ -207,20 +209,16 @@ class Joined(NamedTuple):
     spread: Floats
 
 
-def joined(
-    distances: Floats, recording: Ints, seconds: Floats, constants: VocabularyConstants
-) -> Joined:
+def joined(distances: Floats, recording: Ints, seconds: Floats, threshold: float) -> Joined:
     """The clusters of words of these recordings, by `mutual_distances` and seconds of each."""
     n = len(distances)
     if n < 2:
         alone = np.zeros(n, np.int64)
         return Joined(alone, alone - 1, np.full(n, np.nan), np.zeros(n))
-    distances = np.minimum(distances, constants.farthest)
-    same = recording[:, None] == recording
-    distances[same] = np.maximum(distances[same], constants.same_recording)
+    distances = np.where(recording[:, None] == recording, FARTHEST, distances)
     np.fill_diagonal(distances, 0.0)
     tree = linkage(squareform(distances, checks=False), "average")
-    labels = fcluster(tree, constants.join, "distance").astype(np.int64) - 1
+    labels = fcluster(tree, threshold, "distance").astype(np.int64) - 1
     order = np.argsort(-np.bincount(labels, seconds), kind="stable")
     labels = np.argsort(order)[labels]
     return _fitted(distances, labels)
@@ -301,7 +299,7 @@ def _each_with_each(
     crowd: Crowd, constants: VocabularyConstants, executor: Executor, workers: int
 ) -> Joined:
     distances = mutual_distances(crowd, executor, workers)
-    return joined(distances, crowd.recording, crowd.seconds, constants)
+    return joined(distances, crowd.recording, crowd.seconds, constants.join)
 
 
 def _searches(constants: VocabularyConstants) -> int:
@@ -343,14 +341,12 @@ def _clusters_of(task: _Search) -> Joined:
     def nearest(number: int) -> tuple[int, int, float, float]:
         at = near[number]
         word, others = crowd.load(crowd.places[number]), [typical[i] for i in at.tolist()]
-        forward = Contexts(others).costs_of(word).astype(np.float64)
+        forward = Contexts(others).distances_of(word).astype(np.float64)
         context = Contexts([word])
-        costs = (forward + [context.costs_of(other)[0] for other in others]) / 2
-        same = task.typical.words.recording[at] == crowd.recording[number]
-        costs[same] = np.maximum(costs[same], constants.same_recording)
+        distances = (forward + [context.distances_of(other)[0] for other in others]) / 2
+        distances[task.typical.words.recording[at] == crowd.recording[number]] = FARTHEST
         clusters, of = np.unique(labels[at], return_inverse=True)
-        costs = np.minimum(costs, constants.farthest)
-        means = np.bincount(of, costs) / np.bincount(of)
+        means = np.bincount(of, distances) / np.bincount(of)
         order = np.argsort(means, kind="stable")
         cluster, least = int(clusters[order[0]]), float(means[order[0]])
         if least > constants.join:
