@@ -60,6 +60,11 @@ FILES = {
     + rows(",", counted(1), counted(20_000, 2**31)),
     "Xsens MTw": "// Start Time: Unknown\n// Update Rate: 50.0Hz\n// Option Flags: none\n"
     "PacketCounter\tSampleTimeFine\tX\tY\tZ\n" + rows("\t", counted(1), "", end="\t"),
+    "Empatica": ", ".join(["1419261264.000000"] * 3)
+    + "\n"
+    + ", ".join(["50.000000"] * 3)
+    + "\n"
+    + rows(","),
     "SensorLog": "loggingTime(txt);loggingSample(N);X(G);Y(G);Z(G)\n"
     + rows(";", dated("%Y-%m-%dT%H:%M:%S.%3f+01:00"), counted(1)),
     "a clock under its own name": "sensorTimestamp_sinceReboot(s),X,Y,Z\n"
@@ -96,6 +101,14 @@ def test_a_rate_that_the_header_tells_is_said(tmp_path: Path) -> None:
     signals = read(tmp_path, FILES["ActiGraph"])
     assert "50 Hz, as a line above the columns says" in signals.provenance.notes
     assert "5 lines above the names passed over" in signals.provenance.notes
+
+
+def test_the_file_of_a_wristband_tells_what_its_columns_are(tmp_path: Path) -> None:
+    path = tmp_path / "BVP.csv"
+    path.write_text("1419261264.00\n64.000000\n" + "\n".join(map(str, VALUES[:, 0])) + "\n")
+    pulse = kineme.read(path)
+    assert (pulse.names, pulse.fps) == (("bvp",), 64.0)
+    assert np.array_equal(pulse.values[:, 0], VALUES[:, 0])
 
 
 def test_a_rate_is_not_guessed_from_several(tmp_path: Path) -> None:
