@@ -14,11 +14,9 @@ from kineme._counts import counted
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.method import PresetName
-from kineme.cli.options.reading import Quiet, with_reading_options
-from kineme.cli.options.request import EVERYBODY, Request
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.request import EVERYBODY, SEGMENTING, Request, asks
 from kineme.errors import ParameterError
-from kineme.methods.presets import DEFAULT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,9 +35,10 @@ IN_A_COLUMN = 4
 """Axes of a picture, one below the other; of more there are two columns, left beside right."""
 
 
-@with_reading_options
+@asks(READING | SEGMENTING)
 def cycles(
     files: Files,
+    request: Request,
     output: Annotated[
         Path | None,
         option(
@@ -112,10 +111,8 @@ def cycles(
         ),
     ] = False,
     segments: SegmentTable = None,
-    preset: PresetName = DEFAULT,
     recursive: Recursive = False,
     quiet: Quiet = False,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Measure each repetition: its duration, how far each joint went, mean curves.
 
@@ -126,7 +123,6 @@ def cycles(
     from kineme.cycles import compare_sides, write_cycles, write_table
     from kineme.cycles.measure import cycles as measured
 
-    request = Request.of(preset, reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
     _check_targets(output, plot, compare, sides)
@@ -335,7 +331,7 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -
     """Print a line for each group, of two sessions for each of both, and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import new_table
+    from kineme.cli.tables import SURE, SURE_OF, new_table, sure_cell
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
@@ -343,9 +339,8 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -
     units = dict(zip(cycles.channels, cycles.units, strict=True))
     ranges = [f"{name} range {units[name]}".strip() for name in shown]
     first = ["recording"] if sessions else []
-    table = new_table(
-        *first, "label", "cycles", "n", "duration s", "sd", "cv %", "per min", *ranges
-    )
+    names = "label", "cycles", SURE, "n", "duration s", "sd", "cv %", "per min"
+    table = new_table(*first, *names, *ranges)
     without: list[str] = []
     for each in sessions or [cycles]:
         values = _by_measure(each, ends=ends)
@@ -355,11 +350,18 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -
             per_min = values[group, "cadence_per_min"][1]
             cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
             cells += [_with_deviation(*values[group, f"{channel}.range"][1:3]) for channel in shown]
-            count = int((each.columns["group"] == group).sum())
-            table.add_row(*name, group, str(count), str(n), *(_filled(cell) for cell in cells))
+            rows = each.select(each.columns["group"] == group).columns
+            sure = sure_cell(rows["confidence"], rows["border_confidence"])
+            head = group, str(len(rows["group"])), sure, str(n)
+            table.add_row(*name, *head, *(_filled(cell) for cell in cells))
             if n == 0:
                 without.append(group)
+    at = len(first) + 2
+    if not any(table.columns[at].cells):
+        del table.columns[at]
     console.print(table)
+    if table.columns[at].header == SURE:
+        console.print(f"{SURE_OF}, of the least sure activity.")
     of = "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
     console.print(f"n, means: over {of}.")
     if len(cycles.channels) > len(shown) > 0:

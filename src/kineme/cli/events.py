@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from math import isnan
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from kineme._counts import counted
 from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.reading import Quiet, with_reading_options
-from kineme.cli.options.request import Request
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.request import Request, asks
 
 if TYPE_CHECKING:
     from kineme.cycles import Events
@@ -21,9 +21,10 @@ if TYPE_CHECKING:
 FEET = "Feet"
 
 
-@with_reading_options
+@asks(READING)
 def events(
     files: Files,
+    request: Request,
     output: Annotated[
         Path | None,
         option(
@@ -61,7 +62,6 @@ def events(
     ] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Find when feet come down and leave the ground, and measure the gait.
 
@@ -73,7 +73,6 @@ def events(
     from kineme.labels import write_segments
     from kineme.labels.c3d_events import write_events
 
-    request = Request.of(reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.targets("--output", output, ".csv")
     gaits = batch.targets("--gait", gait, ".csv")

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from kineme._counts import counted
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.method import Constants, Detail, PresetName
-from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
-from kineme.cli.options.request import Request
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.request import SEGMENTING, Request, asks
 from kineme.cli.options.targets import make_folder_of
-from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 
 
-@with_reading_options
+@asks(READING | SEGMENTING)
 def split(
     files: Files,
+    request: Request,
     output: Annotated[
         Path,
         option(
@@ -66,16 +65,10 @@ def split(
         ),
     ] = None,
     segments: SegmentTable = None,
-    detail: Detail = 1.0,
-    preset: PresetName = DEFAULT,
     recursive: Recursive = False,
     quiet: Quiet = False,
-    effectors: Effectors = None,
-    constants: Constants = None,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Write each segment as a file of its own, never retargeted to another skeleton, and a list."""
-    request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
     batch.tables("--segments", segments)  # whether there are any

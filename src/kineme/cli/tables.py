@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from rich import box
 from rich.columns import Columns
 from rich.console import Group, RenderableType
@@ -17,9 +19,12 @@ from kineme.cli.terminal import Console
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
+Floats = NDArray[np.float64]
 Section = tuple[str, Sequence[tuple[str, Sequence[str]]]]
 """A title, and rows: a name and the cells beside it."""
 
+SURE = "sure %"
+SURE_OF = "sure %: how probable it is that the number of repetitions is right"
 WORDS = ("kind", "cluster", "label", "recording", "example")
 """Columns that hold no numbers."""
 _NOTHING_FOUND = (
@@ -50,9 +55,16 @@ def show_facts(
 
 
 def show_segments(
-    segmentation: Segmentation, level: Level, *, written: Sequence[Path | None] = ()
+    segmentation: Segmentation,
+    level: Level,
+    *,
+    written: Sequence[Path | None] = (),
+    said: Sequence[str] = (),
 ) -> None:
-    """Print one row per segment of a level, a summary, the notes and the files written."""
+    """Print one row per segment of a level, a summary, the notes and the files written.
+
+    Notes that were ``said`` before, as warnings, are not said again.
+    """
     console = Console(highlight=False)
     source = segmentation.provenance["input"]["path"]
     console.print(
@@ -66,7 +78,8 @@ def show_segments(
     console.print(rows(segmentation))
     console.print(f"{segmentation.describe()}.")
     for note in segmentation.provenance["notes"]:
-        console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
+        if note not in said:
+            console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
     if "activity" not in segmentation.activities.kind:
         console.print(Text(f"note: {_NOTHING_FOUND}", style="dim"))
     show_written(console, written)
@@ -104,19 +117,36 @@ def show_table(title: str, header: Sequence[str], sections: Sequence[Section]) -
 
 def _activity_rows(segmentation: Segmentation) -> Table:
     """Activities and transitions with their repetitions counted."""
-    table = new_table("#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label")
-    primitives = segmentation.primitives
+    table = new_table(
+        "#", "kind", "start s", "stop s", "frames", "repetitions", SURE, "cluster", "label"
+    )
+    primitives, captions = segmentation.primitives, []
     for number, row in enumerate(segmentation.activities):
         repeated = (primitives.activity == number) & (primitives.kind == "primitive")
         inside = primitives.cluster[repeated].tolist()
         count = _repetitions(inside, row.cluster) if row.kind == "activity" else ""
-        table.add_row(
-            *_span(number, row), count, cluster_cell(row.cluster), row.label, style=_style(row)
-        )
+        sure = sure_cell(primitives.confidence[repeated], primitives.border_confidence[repeated])
+        cells = count, sure, cluster_cell(row.cluster), row.label
+        table.add_row(*_span(number, row), *cells, style=_style(row))
     if any("+" in str(cell) for cell in table.columns[5].cells):
-        table.caption = "(+n): primitives of the activity that are in other clusters, or in none"
-        table.caption_justify = "left"
+        captions.append("(+n): primitives of the activity that are in other clusters, or in none")
+    if any(table.columns[6].cells):
+        captions.append(SURE_OF)
+    else:
+        del table.columns[6]
+    table.caption, table.caption_justify = "\n".join(captions) or None, "left"
     return _without_empty_labels(table, segmentation.activities.label.tolist())
+
+
+def sure_cell(confidence: Floats, borders: Floats) -> str:
+    """How sure the least sure count of repetitions is, in per cent.
+
+    Nothing where there is nothing to count, or where ``confidence`` is no probability: those
+    of published methods, which have none of ``borders``.
+    """
+    if len(confidence) < 2 or not np.isfinite(confidence * borders).any():
+        return ""
+    return f"{100 * np.nanmin(confidence):.0f}"
 
 
 def _repetitions(clusters: list[int], main: int) -> str:
