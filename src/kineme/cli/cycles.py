@@ -171,7 +171,13 @@ def cycles(
             if sides is not None:
                 write_table(compare_sides(found, ends=ends), sides)
             if not quiet:
-                _show(found, sessions, chosen=channels is not None, ends=ends)
+                _show(
+                    found,
+                    sessions,
+                    chosen=channels is not None,
+                    ends=ends,
+                    given=segments is not None,
+                )
                 show_written(Console(highlight=False), [output, plot, compare, sides])
     batch.exit()
     failures.exit()
@@ -327,7 +333,7 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
         figure.savefig(draft)
 
 
-def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -> None:
+def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, given: bool) -> None:
     """Print a line for each group, of two sessions for each of both, and the notes."""
     from rich.text import Text
 
@@ -351,8 +357,9 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -
             cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
             cells += [_with_deviation(*values[group, f"{channel}.range"][1:3]) for channel in shown]
             rows = each.select(each.columns["group"] == group).columns
-            sure = sure_cell(rows["confidence"], rows["border_confidence"])
-            head = group, str(len(rows["group"])), sure, str(n)
+            several = rows["place"] != "only"  # of one there is nothing to count
+            sure = sure_cell(*(rows[f"{of}confidence"][several] for of in ("", "border_")))
+            head = group, str(len(several)), sure, str(n)
             table.add_row(*name, *head, *(_filled(cell) for cell in cells))
             if n == 0:
                 without.append(group)
@@ -374,7 +381,8 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -
         groups = ", ".join(dict.fromkeys(without))
         console.print(f"{groups}: no inner repetition; --ends counts the others.")
     if len(cycles) == 0:
-        console.print("no repetition: nothing repeats itself here.")
+        why = "the segments given have no primitives" if given else "nothing repeats itself here"
+        console.print(f"no repetition: {why}.")
     for note in cycles.provenance["notes"]:
         console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
 

@@ -37,7 +37,11 @@ def events(
     ] = None,
     gait: Annotated[
         Path | None,
-        option(OUTPUT, "Write times of strides, stands, swings and steps: .csv or .parquet."),
+        option(
+            OUTPUT,
+            "Write means of strides, stands, swings and steps: .csv or .parquet, and each stride "
+            "beside it (.strides.csv).",
+        ),
     ] = None,
     labels: Annotated[
         Path | None,
@@ -67,7 +71,7 @@ def events(
 
     From the positions of heel and toe, from gyroscopes at the feet, or from the force under them.
     """
-    from kineme.cycles.events import foot_events
+    from kineme.cycles.events import foot_events, strides
     from kineme.cycles.events import gait as gait_of
     from kineme.cycles.export import write_table
     from kineme.labels import write_segments
@@ -96,6 +100,9 @@ def events(
             write_table(found.columns(), table)
         if measured is not None:
             write_table(measures, measured)
+            each = measured.with_suffix(f".strides{measured.suffix}")
+            write_table(strides(found, recording), each)
+            targets = (*targets, each)
         if span is not None:
             write_segments(found.segmentation(), span)
         if copy is not None:
