@@ -106,9 +106,10 @@ def convert(
 
     batch = Batch(sources, recursive=recursive)
     several = not batch.single or "{" in target.name
-    if several and (target.is_dir() or not target.suffix):
+    if several and "{" not in str(target):
+        folder, suffix = target.with_suffix(""), target.suffix or ".bvh"
         raise typer.BadParameter(
-            f"name the files in it, such as '{target}/{{name}}.bvh'", param_hint="TO"
+            f"name the file of each, such as '{folder}/{{name}}{suffix}'", param_hint="TO"
         )
     places = batch.files("TO", target) if several else [target]
     for path, place in zip(batch.paths, places, strict=True):

@@ -97,7 +97,8 @@ def split(
             close=close,
         )
         if not quiet:
-            typer.echo(f"{counted(len(clips), 'clip')} in {folder}")
+            ranked = "; manifest.csv tells how good each loop is (cost, less is better)" * loop
+            typer.echo(f"{counted(len(clips), 'clip')} in {folder}{ranked}")
 
     for path, folder in zip(batch.paths, folders, strict=True):
         batch.each_person(path, request, work, folder, tables=("--segments", segments))
