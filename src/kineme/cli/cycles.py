@@ -337,7 +337,7 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     """Print a line for each group, of two sessions for each of both, and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import SURE, SURE_OF, new_table, sure_cell
+    from kineme.cli.tables import COUNT_CONFIDENCE, COUNT_CONFIDENCE_MEANS, in_per_cent, new_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
@@ -345,7 +345,7 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     units = dict(zip(cycles.channels, cycles.units, strict=True))
     ranges = [f"{name} range {units[name]}".strip() for name in shown]
     first = ["recording"] if sessions else []
-    names = "label", "cycles", SURE, "n", "duration s", "sd", "cv %", "per min"
+    names = "label", "cycles", COUNT_CONFIDENCE, "n", "duration s", "sd", "cv %", "per min"
     table = new_table(*first, *names, *ranges)
     without: list[str] = []
     for each in sessions or [cycles]:
@@ -356,10 +356,8 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
             per_min = values[group, "cadence_per_min"][1]
             cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
             cells += [_with_deviation(*values[group, f"{channel}.range"][1:3]) for channel in shown]
-            rows = each.select(each.columns["group"] == group).columns
-            several = rows["place"] != "only"  # of one there is nothing to count
-            sure = sure_cell(*(rows[f"{of}confidence"][several] for of in ("", "border_")))
-            head = group, str(len(several)), sure, str(n)
+            count = int((each.columns["group"] == group).sum())
+            head = group, str(count), in_per_cent(each.count_confidence(group)), str(n)
             table.add_row(*name, *head, *(_filled(cell) for cell in cells))
             if n == 0:
                 without.append(group)
@@ -367,8 +365,8 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     if not any(table.columns[at].cells):
         del table.columns[at]
     console.print(table)
-    if table.columns[at].header == SURE:
-        console.print(f"{SURE_OF}, of the least sure activity.")
+    if table.columns[at].header == COUNT_CONFIDENCE:
+        console.print(f"{COUNT_CONFIDENCE_MEANS}, of the least sure activity.")
     of = "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
     console.print(f"n, means: over {of}.")
     if len(cycles.channels) > len(shown) > 0:

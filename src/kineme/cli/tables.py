@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from math import isnan
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
 from rich import box
 from rich.columns import Columns
 from rich.console import Group, RenderableType
@@ -19,12 +18,11 @@ from kineme.cli.terminal import Console
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
-Floats = NDArray[np.float64]
 Section = tuple[str, Sequence[tuple[str, Sequence[str]]]]
 """A title, and rows: a name and the cells beside it."""
 
-SURE = "sure %"
-SURE_OF = "sure %: how probable it is that the number of repetitions is right"
+COUNT_CONFIDENCE = "sure %"
+COUNT_CONFIDENCE_MEANS = "sure %: how probable it is that the number of repetitions is right"
 WORDS = ("kind", "cluster", "label", "recording", "example")
 """Columns that hold no numbers."""
 _NOTHING_FOUND = (
@@ -117,36 +115,42 @@ def show_table(title: str, header: Sequence[str], sections: Sequence[Section]) -
 
 def _activity_rows(segmentation: Segmentation) -> Table:
     """Activities and transitions with their repetitions counted."""
+    from kineme.cycles.table import count_confidence
+
     table = new_table(
-        "#", "kind", "start s", "stop s", "frames", "repetitions", SURE, "cluster", "label"
+        "#",
+        "kind",
+        "start s",
+        "stop s",
+        "frames",
+        "repetitions",
+        COUNT_CONFIDENCE,
+        "cluster",
+        "label",
     )
     primitives, captions = segmentation.primitives, []
     for number, row in enumerate(segmentation.activities):
         repeated = (primitives.activity == number) & (primitives.kind == "primitive")
         inside = primitives.cluster[repeated].tolist()
         count = _repetitions(inside, row.cluster) if row.kind == "activity" else ""
-        sure = sure_cell(primitives.confidence[repeated], primitives.border_confidence[repeated])
-        cells = count, sure, cluster_cell(row.cluster), row.label
+        probability = count_confidence(
+            primitives.confidence[repeated], primitives.border_confidence[repeated]
+        )
+        cells = count, in_per_cent(probability), cluster_cell(row.cluster), row.label
         table.add_row(*_span(number, row), *cells, style=_style(row))
     if any("+" in str(cell) for cell in table.columns[5].cells):
         captions.append("(+n): primitives of the activity that are in other clusters, or in none")
     if any(table.columns[6].cells):
-        captions.append(SURE_OF)
+        captions.append(COUNT_CONFIDENCE_MEANS)
     else:
         del table.columns[6]
     table.caption, table.caption_justify = "\n".join(captions) or None, "left"
     return _without_empty_labels(table, segmentation.activities.label.tolist())
 
 
-def sure_cell(confidence: Floats, borders: Floats) -> str:
-    """How sure the least sure count of repetitions is, in per cent.
-
-    Nothing where there is nothing to count, or where ``confidence`` is no probability: those
-    of published methods, which have none of ``borders``.
-    """
-    if len(confidence) < 2 or not np.isfinite(confidence * borders).any():
-        return ""
-    return f"{100 * np.nanmin(confidence):.0f}"
+def in_per_cent(probability: float) -> str:
+    """A probability in per cent; nothing where there is none."""
+    return "" if isnan(probability) else f"{100 * probability:.0f}"
 
 
 def _repetitions(clusters: list[int], main: int) -> str:
