@@ -337,7 +337,7 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     """Print a line for each group, of two sessions for each of both, and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import COUNT_CONFIDENCE, COUNT_CONFIDENCE_MEANS, in_per_cent, new_table
+    from kineme.cli.tables import OF_COUNTS, PER_CENT, in_per_cent, new_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
@@ -345,7 +345,7 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     units = dict(zip(cycles.channels, cycles.units, strict=True))
     ranges = [f"{name} range {units[name]}".strip() for name in shown]
     first = ["recording"] if sessions else []
-    names = "label", "cycles", COUNT_CONFIDENCE, "n", "duration s", "sd", "cv %", "per min"
+    names = "label", "cycles", PER_CENT, "n", "duration s", "sd", "cv %", "per min"
     table = new_table(*first, *names, *ranges)
     without: list[str] = []
     for each in sessions or [cycles]:
@@ -365,8 +365,8 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     if not any(table.columns[at].cells):
         del table.columns[at]
     console.print(table)
-    if table.columns[at].header == COUNT_CONFIDENCE:
-        console.print(f"{COUNT_CONFIDENCE_MEANS}, of the least sure activity.")
+    if table.columns[at].header == PER_CENT:
+        console.print(f"{OF_COUNTS}, of the least sure activity.")
     of = "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
     console.print(f"n, means: over {of}.")
     if len(cycles.channels) > len(shown) > 0:

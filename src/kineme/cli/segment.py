@@ -132,4 +132,4 @@ def print_segments(
     elif not quiet:
         from kineme.cli.tables import show_segments
 
-        show_segments(result, level, written=written, said=recording.provenance.warnings)
+        show_segments(result, level, written=written, warned=recording.provenance.warnings)

@@ -97,8 +97,8 @@ def split(
             close=close,
         )
         if not quiet:
-            ranked = "; manifest.csv tells how good each loop is (cost, less is better)" * loop
-            typer.echo(f"{counted(len(clips), 'clip')} in {folder}{ranked}")
+            where = "; manifest.csv tells how good each loop is (cost, less is better)" * loop
+            typer.echo(f"{counted(len(clips), 'clip')} in {folder}{where}")
 
     for path, folder in zip(batch.paths, folders, strict=True):
         batch.each_person(path, request, work, folder, tables=("--segments", segments))

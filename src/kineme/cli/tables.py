@@ -21,8 +21,8 @@ from kineme.segments.table import Level, Segment
 Section = tuple[str, Sequence[tuple[str, Sequence[str]]]]
 """A title, and rows: a name and the cells beside it."""
 
-COUNT_CONFIDENCE = "sure %"
-COUNT_CONFIDENCE_MEANS = "sure %: how probable it is that the number of repetitions is right"
+PER_CENT = "sure %"
+OF_COUNTS = "sure %: how probable it is that the number of repetitions is right"
 WORDS = ("kind", "cluster", "label", "recording", "example")
 """Columns that hold no numbers."""
 _NOTHING_FOUND = (
@@ -57,11 +57,11 @@ def show_segments(
     level: Level,
     *,
     written: Sequence[Path | None] = (),
-    said: Sequence[str] = (),
+    warned: Sequence[str] = (),
 ) -> None:
     """Print one row per segment of a level, a summary, the notes and the files written.
 
-    Notes that were ``said`` before, as warnings, are not said again.
+    Notes that were ``warned`` of before are not said again.
     """
     console = Console(highlight=False)
     source = segmentation.provenance["input"]["path"]
@@ -76,7 +76,7 @@ def show_segments(
     console.print(rows(segmentation))
     console.print(f"{segmentation.describe()}.")
     for note in segmentation.provenance["notes"]:
-        if note not in said:
+        if note not in warned:
             console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
     if "activity" not in segmentation.activities.kind:
         console.print(Text(f"note: {_NOTHING_FOUND}", style="dim"))
@@ -124,7 +124,7 @@ def _activity_rows(segmentation: Segmentation) -> Table:
         "stop s",
         "frames",
         "repetitions",
-        COUNT_CONFIDENCE,
+        PER_CENT,
         "cluster",
         "label",
     )
@@ -141,7 +141,7 @@ def _activity_rows(segmentation: Segmentation) -> Table:
     if any("+" in str(cell) for cell in table.columns[5].cells):
         captions.append("(+n): primitives of the activity that are in other clusters, or in none")
     if any(table.columns[6].cells):
-        captions.append(COUNT_CONFIDENCE_MEANS)
+        captions.append(OF_COUNTS)
     else:
         del table.columns[6]
     table.caption, table.caption_justify = "\n".join(captions) or None, "left"

@@ -186,8 +186,8 @@ def _count(cycles: Cycles, group: str) -> int:
 
 def _count_and_confidence(cycles: Cycles, group: str) -> str:
     probability = cycles.count_confidence(group)
-    told = "" if isnan(probability) else f" ({100 * probability:.0f} % sure)"
-    return f"{_count(cycles, group)}{told}"
+    text = "" if isnan(probability) else f" ({100 * probability:.0f} % sure)"
+    return f"{_count(cycles, group)}{text}"
 
 
 def _row(sheet: Sheet, group: str, measure: str) -> dict[str, float]:

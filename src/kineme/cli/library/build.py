@@ -89,7 +89,7 @@ def build(
         settings: Settings | None = None
         if not request.is_default:
             settings = Settings(
-                request.options.preset,
+                str(request.options.preset),
                 request.options.constants,
                 request.reading,
                 request.effectors,

@@ -52,15 +52,15 @@ def asks(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable
 
     def with_options(command: Callable[..., None]) -> Callable[..., None]:
         signature = inspect.signature(command, eval_str=True)
-        own = [each for each in signature.parameters.values() if each.name != "request"]
+        parameters = [each for each in signature.parameters.values() if each.name != "request"]
 
         @wraps(command)
         def wrapped(**values: Any) -> None:
             given = {name: values.pop(name) for name in options}
             command(**values, request=Request.of(**given))
 
-        wrapped.__signature__ = signature.replace(parameters=[*own, *added])  # type: ignore[attr-defined]
-        wrapped.__annotations__ = {each.name: each.annotation for each in (*own, *added)}
+        wrapped.__signature__ = signature.replace(parameters=[*parameters, *added])  # type: ignore[attr-defined]
+        wrapped.__annotations__ = {each.name: each.annotation for each in (*parameters, *added)}
         return wrapped
 
     return with_options
@@ -106,8 +106,8 @@ class Request:
             effectors=effector_names(effectors),
             emg=bool(keywords.get("emg")),
         )
-        said = any((preset, detail, constants, effectors, keywords))
-        return cls(options, keywords, detail or DEFAULT_DETAIL, is_default=not said)
+        is_default = not any((preset, detail, constants, effectors, keywords))
+        return cls(options, keywords, detail or DEFAULT_DETAIL, is_default=is_default)
 
     @property
     def effectors(self) -> Names | None:
