@@ -48,20 +48,12 @@ def cycles(
             "-o",
         ),
     ] = None,
-    plot: Annotated[
-        Path | None,
-        option(OUTPUT, "Draw mean curves: .png, .pdf or .svg."),
-    ] = None,
+    plot: Annotated[Path | None, option(OUTPUT, "Draw mean curves: .png, .pdf or .svg.")] = None,
     compare: Annotated[
-        Path | None,
-        option(
-            OUTPUT,
-            "Write two recordings side by side: .csv, .parquet, .html.",
-        ),
+        Path | None, option(OUTPUT, "Write two recordings side by side: .csv, .parquet, .html.")
     ] = None,
     sides: Annotated[
-        Path | None,
-        option(OUTPUT, "Write left beside right (.csv, .parquet); --plot draws it."),
+        Path | None, option(OUTPUT, "Write left beside right (.csv, .parquet); --plot draws it.")
     ] = None,
     channels: Annotated[
         str | None,
@@ -99,16 +91,10 @@ def cycles(
         ),
     ] = None,
     ends: Annotated[
-        bool,
-        option(MEASURED, "Count first and last repetitions, too.", "--ends"),
+        bool, option(MEASURED, "Count first and last repetitions, too.", "--ends")
     ] = False,
     common: Annotated[
-        bool,
-        option(
-            MEASURED,
-            "Tables (--segments) number their clusters in common.",
-            "--common",
-        ),
+        bool, option(MEASURED, "Tables (--segments) number their clusters in common.", "--common")
     ] = False,
     segments: SegmentTable = None,
     recursive: Recursive = False,

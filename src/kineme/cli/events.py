@@ -48,8 +48,7 @@ def events(
         option(OUTPUT, f"Write the spans from each event to the next as labels: {TABLES}."),
     ] = None,
     c3d: Annotated[
-        Path | None,
-        option(OUTPUT, "Of a C3D: write a copy of it that has the events, too."),
+        Path | None, option(OUTPUT, "Of a C3D: write a copy of it that has the events, too.")
     ] = None,
     left: Annotated[
         str | None,
@@ -60,10 +59,7 @@ def events(
             metavar="NAME",
         ),
     ] = None,
-    right: Annotated[
-        str | None,
-        option(FEET, "Those of the right foot.", metavar="NAME"),
-    ] = None,
+    right: Annotated[str | None, option(FEET, "Those of the right foot.", metavar="NAME")] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:

@@ -99,10 +99,7 @@ def _segmented(
 
 
 def write_results(
-    result: Segmentation,
-    found: Found,
-    table: Path | None,
-    picture: Path | None,
+    result: Segmentation, found: Found, table: Path | None, picture: Path | None
 ) -> None:
     """The table and the picture, where wanted."""
     if table is not None:

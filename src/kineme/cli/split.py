@@ -35,16 +35,10 @@ def split(
         bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
     ] = False,
     best: Annotated[
-        int | None,
-        option(OUTPUT, "Of loops: so many of each cluster.", "--best", min=1),
+        int | None, option(OUTPUT, "Of loops: so many of each cluster.", "--best", min=1)
     ] = None,
     in_place: Annotated[
-        bool,
-        option(
-            OUTPUT,
-            "Put clips to the origin, without root motion.",
-            "--in-place",
-        ),
+        bool, option(OUTPUT, "Put clips to the origin, without root motion.", "--in-place")
     ] = False,
     straight: Annotated[
         bool, option(OUTPUT, "Take the turn out of each clip.", "--straight")
@@ -58,10 +52,7 @@ def split(
     to_format: Annotated[
         str | None,
         option(
-            OUTPUT,
-            "Such as glb; by default bvh, or csv of points.",
-            "--format",
-            metavar="SUFFIX",
+            OUTPUT, "Such as glb; by default bvh, or csv of points.", "--format", metavar="SUFFIX"
         ),
     ] = None,
     segments: SegmentTable = None,

@@ -26,8 +26,7 @@ if TYPE_CHECKING:
 Files = Annotated[
     list[Path],
     typer.Argument(
-        metavar="FILES",
-        help="Recordings, or folders of them (formats: kineme info --help).",
+        metavar="FILES", help="Recordings, or folders of them (formats: kineme info --help)."
     ),
 ]
 FilesOfFormats = Annotated[

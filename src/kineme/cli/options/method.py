@@ -22,13 +22,7 @@ if TYPE_CHECKING:
 
 SET = "--set"
 PresetName = Annotated[
-    str | None,
-    option(
-        METHOD,
-        f"{PRESETS}; see `kineme presets`.",
-        "--preset",
-        metavar="NAME",
-    ),
+    str | None, option(METHOD, f"{PRESETS}; see `kineme presets`.", "--preset", metavar="NAME")
 ]
 Constants = Annotated[
     list[str] | None,

@@ -25,16 +25,13 @@ Up = Annotated[
     str | None, option(UNSAID, "Axis that points up: x, y, z, -x, -y, -z.", metavar="AXIS")
 ]
 Person = Annotated[
-    str | None,
-    option(UNSAID, "Which of several people in it, by name or number.", metavar="NAME"),
+    str | None, option(UNSAID, "Which of several people in it, by name or number.", metavar="NAME")
 ]
 Confidence = Annotated[
-    float | None,
-    option(UNSAID, "Leave out points of less confidence, such as 0.5."),
+    float | None, option(UNSAID, "Leave out points of less confidence, such as 0.5.")
 ]
 Take = Annotated[
-    str | None,
-    option(UNSAID, "Which of several animations, by name or number.", metavar="NAME"),
+    str | None, option(UNSAID, "Which of several animations, by name or number.", metavar="NAME")
 ]
 Effectors = Annotated[
     str | None,
