@@ -188,8 +188,9 @@ def foot_events(
             names += [f"{side} {event}"] * len(seconds)
     if not sources:
         raise ParameterError(
-            "no foot was found: a body needs ankles; of signals name the channels of its "
-            "gyroscope or of the force under it, as in left='lf_gyr_*' (--left 'lf_gyr_*')"
+            "no foot was found: a body needs heels or ankles by a usual name; of signals name the "
+            "channels of its gyroscope, as in left='lf_gyr_*' (--left 'lf_gyr_*'), or the force "
+            "under it (of a C3D --columns '*' --left Fz1 --right Fz2)"
         )
     order = np.argsort(times, kind="stable")
     return Events(
