@@ -88,7 +88,7 @@ def test_help_fits_on_a_page(words: tuple[str, ...]) -> None:
     done = CliRunner().invoke(app, [*words, "--help"], env={"COLUMNS": "80"})
     assert done.exit_code == 0
     lines = done.stdout.splitlines()
-    assert len(lines) <= (80 if words == ("segment",) else 60)
+    assert len(lines) <= 60
     assert max(map(len, lines)) <= 80
     assert "@" not in done.stdout.replace("@START", "").replace("bvh@", "")
 
@@ -102,6 +102,20 @@ def test_options_stand_in_named_groups(kineme) -> None:
     method = text[text.index("Method:") : text.index("Output:")]
     for name in ("--preset", "--detail", "--set NAME=VALUE", *PRESETS):
         assert name in method
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "segment", "cycles", "report", "split -o clips", "graph -o graph.json",
+        "label --labels x.json --knowledge known.npz", "transfer --knowledge known.npz",
+        "library build --into lib",
+    ],
+)  # fmt: skip
+def test_all_commands_which_segment_take_the_same_options(kineme, words: str) -> None:
+    given = ["--detail", "4", "--set", "min_action=2", "--effectors", "head=Top", "--unit", "cmm"]
+    done = kineme(*words.split(), "x.bvh", *given)
+    assert "unit is 'cmm'" in done.stderr
 
 
 def test_presets_are_listed_with_a_line_each(kineme) -> None:
@@ -164,7 +178,7 @@ def test_constants_given_one_by_one_make_the_preset(preset: Preset) -> None:
     assert set(values) == {known.name for known in preset.constants()}
 
 
-@pytest.mark.parametrize("command", ["segment", "split", "report", "library build"])
+@pytest.mark.parametrize("command", ["segment", "cycles", "graph", "library build"])
 @pytest.mark.parametrize(
     ("given", "told"),
     [
@@ -237,7 +251,7 @@ def test_the_preset_of_another_package_is_one_like_any_other(tmp_path: Path) -> 
         done = subprocess.run(given, capture_output=True, text=True, check=True, cwd=tmp_path)
         return done.stdout
 
-    assert "uniform, toy." in " ".join(toy("segment", "--help").split())
+    assert "uniform, toy;" in " ".join(toy("segment", "--help").split())
     assert "toy          Cuts as a toy does." in toy("presets")
     assert "averaging\t7\tsamples\t\t7\t\twhatever a toy averages over" in toy("presets", "toy")
     given = "--preset", "toy", "--set", "averaging=9", "--set", "level=3", "--json"

@@ -121,6 +121,14 @@ def test_a_command_that_makes_no_sense_exits_with_2(kineme, arguments: tuple[str
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("target", "named"), [("out", "out/{name}.bvh"), ("walk.glb", "walk/{name}.glb")]
+)
+def test_several_files_are_told_at_once_how_they_are_named(kineme, target: str, named: str) -> None:
+    done = kineme("convert", "a.bvh", "b.bvh", target)
+    assert named in done.stderr.replace("\\", "/")
+
+
 def test_warnings_are_short_lines(kineme_process, tmp_path: Path) -> None:
     text = bundled_recording().read_text().replace("Frames: 2898", "Frames: 2900")
     (tmp_path / "short.bvh").write_text(text)

@@ -42,6 +42,25 @@ def test_cycles_are_measured_written_and_drawn(kineme_process, take: Path, tmp_p
     assert {row["right_channel"] for row in sides} == {"knee_r"}
 
 
+def test_one_table_may_have_the_segments_of_several_recordings(
+    kineme, take: Path, tmp_path: Path
+) -> None:
+    shutil.copy(take, tmp_path / "other.bvh")
+    lines = ["recording,level,kind,start_frame,stop_frame,label"]
+    for name in ("take.bvh", "other"):
+        lines += [f"{name},activity,activity,0,2898,squats"]
+        lines += [f"{name},primitive,primitive,{i},{i + 60},squat" for i in range(900, 1200, 60)]
+    (tmp_path / "all.csv").write_text("\n".join(lines))
+    done = kineme(
+        "cycles", "take.bvh", "other.bvh", "--segments", "all.csv", "-o", "c.csv", "--channels",
+        "knee_l", "--compare", "both.csv",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    rows = rows_of(tmp_path / "c.csv")
+    assert [row["group"] for row in rows] == 10 * ["squat"]
+    assert [row["place"] for row in rows[:5]] == ["first", *3 * ["inner"], "last"]
+
+
 def test_several_recordings_are_measured_together(kineme, take: Path, tmp_path: Path) -> None:
     shutil.copy(take, tmp_path / "other.bvh")
     (tmp_path / "tables").mkdir()
@@ -122,7 +141,12 @@ def test_events_are_told_and_written(kineme_process, take: Path, tmp_path: Path)
     assert {row["event"] for row in rows} == {
         f"{side} foot {what}" for side in ("left", "right") for what in ("strike", "off")
     }
-    assert rows_of(tmp_path / "g.csv")[0]["measure"] == "stride_s"
+    mean = rows_of(tmp_path / "g.csv")[0]
+    assert mean["measure"] == "stride_s"
+    strides = [row for row in rows_of(tmp_path / "g.strides.csv") if row["foot"] == "left"]
+    assert len(strides) == int(mean["left_n"])
+    lengths = [float(row["stride_s"]) for row in strides]
+    assert sum(lengths) / len(lengths) == pytest.approx(float(mean["left_mean"]))
     assert "left foot strike" in (tmp_path / "e.TextGrid").read_text()
 
 

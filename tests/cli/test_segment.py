@@ -6,6 +6,7 @@ import json
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 from matplotlib.image import imread
 
@@ -31,6 +32,26 @@ def test_the_table_counts_repetitions(kineme, recording: Path) -> None:
         ]
     assert f"{len(result.repetitions())} clusters." in done.stdout
     assert "note: unit cm inferred" in done.stdout
+
+
+def test_the_table_tells_how_sure_each_count_is(kineme, recording: Path) -> None:
+    done = kineme("segment", recording)
+    rows = [line.split() for line in done.stdout.splitlines() if line.split()[1:2] == ["activity"]]
+    segments = package.segment(package.read(recording))
+    for number, cells in enumerate(rows):
+        inside = segments.primitives.activity == number
+        assert cells[6] == f"{100 * np.nanmin(segments.primitives.confidence[inside]):.0f}"
+    assert "sure %: how probable it is" in done.stdout
+    others = kineme("segment", recording, "--preset", "krueger2017")  # which tells no probability
+    assert "sure %" not in others.stdout
+
+
+def test_a_warning_is_said_once(kineme_process, recording: Path) -> None:
+    broken = recording.read_text().replace("Frames: 2898", "Frames: 2900")
+    recording.write_text(broken)
+    for command in ("segment", "info"):
+        done = kineme_process(command, recording)
+        assert (done.stdout + done.stderr).count("2900") == 1
 
 
 def test_level_primitive_prints_every_one(kineme, recording: Path) -> None:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from kineme._counts import counted
 from kineme.cli.help import INPUT, LABELS, OUTPUT, option
 from kineme.cli.options.inputs import Batch, Recursive
-from kineme.cli.options.reading import Quiet, with_reading_options
-from kineme.cli.options.request import Request
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.request import Request, asks
 from kineme.cli.options.targets import make_folder_of
 from kineme.errors import WriteError
 from kineme.labels import read_segments, write_segments
@@ -53,7 +53,7 @@ def _names_channels(path: Path) -> bool:
     return hold_channels(table.names) and table.names[0] != "1" and bool(table.numeric())
 
 
-@with_reading_options
+@asks(READING)
 def convert(
     files: Annotated[
         list[Path],
@@ -63,6 +63,7 @@ def convert(
             "new file to write, for several with {name} in it.",
         ),
     ],
+    request: Request,
     from_format: Annotated[
         str | None,
         option(
@@ -91,7 +92,6 @@ def convert(
     ] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Turn segments into labels of another program and back, or a recording into another format.
 
@@ -104,12 +104,12 @@ def convert(
         raise typer.BadParameter("give what to read and the file to write", param_hint="FROM… TO")
     *sources, target = files
 
-    request = Request.of(reading=reading)
     batch = Batch(sources, recursive=recursive)
     several = not batch.single or "{" in target.name
-    if several and (target.is_dir() or not target.suffix):
+    if several and "{" not in str(target):
+        folder, suffix = target.with_suffix(""), target.suffix or ".bvh"
         raise typer.BadParameter(
-            f"name the files in it, such as '{target}/{{name}}.bvh'", param_hint="TO"
+            f"name the file of each, such as '{folder}/{{name}}{suffix}'", param_hint="TO"
         )
     places = batch.files("TO", target) if several else [target]
     for path, place in zip(batch.paths, places, strict=True):

@@ -14,11 +14,9 @@ from kineme._counts import counted
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.method import PresetName
-from kineme.cli.options.reading import Quiet, with_reading_options
-from kineme.cli.options.request import EVERYBODY, Request
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.request import EVERYBODY, SEGMENTING, Request, asks
 from kineme.errors import ParameterError
-from kineme.methods.presets import DEFAULT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,9 +35,10 @@ IN_A_COLUMN = 4
 """Axes of a picture, one below the other; of more there are two columns, left beside right."""
 
 
-@with_reading_options
+@asks(READING | SEGMENTING)
 def cycles(
     files: Files,
+    request: Request,
     output: Annotated[
         Path | None,
         option(
@@ -49,20 +48,12 @@ def cycles(
             "-o",
         ),
     ] = None,
-    plot: Annotated[
-        Path | None,
-        option(OUTPUT, "Draw mean curves: .png, .pdf or .svg."),
-    ] = None,
+    plot: Annotated[Path | None, option(OUTPUT, "Draw mean curves: .png, .pdf or .svg.")] = None,
     compare: Annotated[
-        Path | None,
-        option(
-            OUTPUT,
-            "Write two recordings side by side: .csv, .parquet, .html.",
-        ),
+        Path | None, option(OUTPUT, "Write two recordings side by side: .csv, .parquet, .html.")
     ] = None,
     sides: Annotated[
-        Path | None,
-        option(OUTPUT, "Write left beside right (.csv, .parquet); --plot draws it."),
+        Path | None, option(OUTPUT, "Write left beside right (.csv, .parquet); --plot draws it.")
     ] = None,
     channels: Annotated[
         str | None,
@@ -100,22 +91,14 @@ def cycles(
         ),
     ] = None,
     ends: Annotated[
-        bool,
-        option(MEASURED, "Count first and last repetitions, too.", "--ends"),
+        bool, option(MEASURED, "Count first and last repetitions, too.", "--ends")
     ] = False,
     common: Annotated[
-        bool,
-        option(
-            MEASURED,
-            "Tables (--segments) number their clusters in common.",
-            "--common",
-        ),
+        bool, option(MEASURED, "Tables (--segments) number their clusters in common.", "--common")
     ] = False,
     segments: SegmentTable = None,
-    preset: PresetName = DEFAULT,
     recursive: Recursive = False,
     quiet: Quiet = False,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Measure each repetition: its duration, how far each joint went, mean curves.
 
@@ -126,7 +109,6 @@ def cycles(
     from kineme.cycles import compare_sides, write_cycles, write_table
     from kineme.cycles.measure import cycles as measured
 
-    request = Request.of(preset, reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
     _check_targets(output, plot, compare, sides)
@@ -175,7 +157,13 @@ def cycles(
             if sides is not None:
                 write_table(compare_sides(found, ends=ends), sides)
             if not quiet:
-                _show(found, sessions, chosen=channels is not None, ends=ends)
+                _show(
+                    found,
+                    sessions,
+                    chosen=channels is not None,
+                    ends=ends,
+                    given=segments is not None,
+                )
                 show_written(Console(highlight=False), [output, plot, compare, sides])
     batch.exit()
     failures.exit()
@@ -331,11 +319,11 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
         figure.savefig(draft)
 
 
-def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -> None:
+def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, given: bool) -> None:
     """Print a line for each group, of two sessions for each of both, and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import new_table
+    from kineme.cli.tables import OF_COUNTS, PER_CENT, in_per_cent, new_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
@@ -343,9 +331,8 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -
     units = dict(zip(cycles.channels, cycles.units, strict=True))
     ranges = [f"{name} range {units[name]}".strip() for name in shown]
     first = ["recording"] if sessions else []
-    table = new_table(
-        *first, "label", "cycles", "n", "duration s", "sd", "cv %", "per min", *ranges
-    )
+    names = "label", "cycles", PER_CENT, "n", "duration s", "sd", "cv %", "per min"
+    table = new_table(*first, *names, *ranges)
     without: list[str] = []
     for each in sessions or [cycles]:
         values = _by_measure(each, ends=ends)
@@ -356,10 +343,16 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -
             cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
             cells += [_with_deviation(*values[group, f"{channel}.range"][1:3]) for channel in shown]
             count = int((each.columns["group"] == group).sum())
-            table.add_row(*name, group, str(count), str(n), *(_filled(cell) for cell in cells))
+            head = group, str(count), in_per_cent(each.count_confidence(group)), str(n)
+            table.add_row(*name, *head, *(_filled(cell) for cell in cells))
             if n == 0:
                 without.append(group)
+    at = len(first) + 2
+    if not any(table.columns[at].cells):
+        del table.columns[at]
     console.print(table)
+    if table.columns[at].header == PER_CENT:
+        console.print(f"{OF_COUNTS}, of the least sure activity.")
     of = "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
     console.print(f"n, means: over {of}.")
     if len(cycles.channels) > len(shown) > 0:
@@ -372,7 +365,8 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool) -
         groups = ", ".join(dict.fromkeys(without))
         console.print(f"{groups}: no inner repetition; --ends counts the others.")
     if len(cycles) == 0:
-        console.print("no repetition: nothing repeats itself here.")
+        why = "the segments given have no primitives" if given else "nothing repeats itself here"
+        console.print(f"no repetition: {why}.")
     for note in cycles.provenance["notes"]:
         console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from math import isnan
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from kineme._counts import counted
 from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.reading import Quiet, with_reading_options
-from kineme.cli.options.request import Request
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.request import Request, asks
 
 if TYPE_CHECKING:
     from kineme.cycles import Events
@@ -21,9 +21,10 @@ if TYPE_CHECKING:
 FEET = "Feet"
 
 
-@with_reading_options
+@asks(READING)
 def events(
     files: Files,
+    request: Request,
     output: Annotated[
         Path | None,
         option(
@@ -36,15 +37,18 @@ def events(
     ] = None,
     gait: Annotated[
         Path | None,
-        option(OUTPUT, "Write times of strides, stands, swings and steps: .csv or .parquet."),
+        option(
+            OUTPUT,
+            "Write means of strides, stands, swings and steps: .csv or .parquet, and each stride "
+            "beside it (.strides.csv).",
+        ),
     ] = None,
     labels: Annotated[
         Path | None,
         option(OUTPUT, f"Write the spans from each event to the next as labels: {TABLES}."),
     ] = None,
     c3d: Annotated[
-        Path | None,
-        option(OUTPUT, "Of a C3D: write a copy of it that has the events, too."),
+        Path | None, option(OUTPUT, "Of a C3D: write a copy of it that has the events, too.")
     ] = None,
     left: Annotated[
         str | None,
@@ -55,25 +59,20 @@ def events(
             metavar="NAME",
         ),
     ] = None,
-    right: Annotated[
-        str | None,
-        option(FEET, "Those of the right foot.", metavar="NAME"),
-    ] = None,
+    right: Annotated[str | None, option(FEET, "Those of the right foot.", metavar="NAME")] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Find when feet come down and leave the ground, and measure the gait.
 
     From the positions of heel and toe, from gyroscopes at the feet, or from the force under them.
     """
-    from kineme.cycles.events import foot_events
+    from kineme.cycles.events import foot_events, strides
     from kineme.cycles.events import gait as gait_of
     from kineme.cycles.export import write_table
     from kineme.labels import write_segments
     from kineme.labels.c3d_events import write_events
 
-    request = Request.of(reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.targets("--output", output, ".csv")
     gaits = batch.targets("--gait", gait, ".csv")
@@ -97,6 +96,9 @@ def events(
             write_table(found.columns(), table)
         if measured is not None:
             write_table(measures, measured)
+            each = measured.with_suffix(f".strides{measured.suffix}")
+            write_table(strides(found, recording), each)
+            targets = (*targets, each)
         if span is not None:
             write_segments(found.segmentation(), span)
         if copy is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,8 +12,8 @@ from kineme._counts import counted
 from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.reading import Quiet, with_body_options
-from kineme.cli.options.request import Request
+from kineme.cli.options.reading import BODY, Quiet
+from kineme.cli.options.request import SEGMENTING, Request, asks
 from kineme.cli.options.targets import check_place, check_writable
 
 if TYPE_CHECKING:
@@ -22,9 +22,10 @@ if TYPE_CHECKING:
     from kineme.synthesis import MotionGraph
 
 
-@with_body_options
+@asks(BODY | SEGMENTING)
 def graph(
     files: Files,
+    request: Request,
     output: Annotated[Path, option(OUTPUT, "The motion graph: a .json file.", "--output", "-o")],
     segments: SegmentTable = None,
     plot: Annotated[Path | None, option(OUTPUT, "Draw the graph: .png, .pdf or .svg.")] = None,
@@ -49,14 +50,12 @@ def graph(
     ] = False,
     recursive: Recursive = False,
     quiet: Quiet = False,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Find which primitives of recordings can be played one after the other.
 
     Primitives are single movements, such as a step or a jump. What is written is a motion graph,
     of which `kineme synthesize` makes new motion.
     """
-    request = Request.of(reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--segments", segments, request.person)
     failures = Failures()

@@ -28,7 +28,7 @@ LABELS = "@labels@"
 TABLES = "@tables@"
 """Stands for the suffixes by which these are written."""
 PRESETS = "@presets@"
-"""Stands for the names of the presets."""
+"""Stands for the names of the presets, the default one first."""
 
 INPUT, UNSAID, METHOD, OUTPUT = "Input", "What the file does not say", "Method", "Output"
 _ARGUMENTS, _OTHER = "Arguments", "Other"
@@ -181,12 +181,13 @@ def _filled(text: str) -> str:
     from kineme.labels import label_formats, written_suffixes
     from kineme.methods import PRESETS as ALL_PRESETS
 
+    default, *others = ALL_PRESETS
     recordings = [each.name for each in supported_formats() if each.read is not None]
     names = {
         RECORDINGS: reversed(recordings),  # the oldest first
         LABELS: label_formats(),
         TABLES: written_suffixes(),
-        PRESETS: ALL_PRESETS,
+        PRESETS: (f"{default} (default)", *others),
     }
     for mark, entries in names.items():
         text = text.replace(mark, ", ".join(entries))

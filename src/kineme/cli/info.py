@@ -10,9 +10,9 @@ import typer
 
 from kineme._counts import counted
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.reading import Effectors, Json, with_reading_options
-from kineme.cli.options.request import Request
+from kineme.cli.options.inputs import Batch, FilesOfFormats, Recursive
+from kineme.cli.options.reading import READING, Effectors, Json
+from kineme.cli.options.request import Request, asks
 from kineme.errors import EndEffectorError
 
 if TYPE_CHECKING:
@@ -24,9 +24,10 @@ IN_A_LINE = 12
 """Channels that are told in a line; more get a list of their own."""
 
 
-@with_reading_options
+@asks({"effectors": Effectors} | READING)
 def info(
-    files: Files,
+    files: FilesOfFormats,
+    request: Request,
     joints: Annotated[bool, option(OUTPUT, "Show the tree of joints.", "--joints")] = False,
     channels: Annotated[
         bool,
@@ -34,11 +35,8 @@ def info(
     ] = False,
     recursive: Recursive = False,
     json: Json = False,
-    effectors: Effectors = None,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Tell a recording's format, length, frame rate and skeleton or channels."""
-    request = Request.of(reading=reading, effectors=effectors)
     batch = Batch(files, recursive=recursive)
     for path in batch.paths:
         with batch.caught(path):
@@ -117,8 +115,9 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
     from kineme.formats.points import BODY
     from kineme.recordings import Motion
 
+    notes = [note for note in facts["notes"] if note not in recording.provenance.warnings]
     if not joints:  # from which points each joint of the body is: of use to few
-        facts = facts | {"notes": [note for note in facts["notes"] if not note.startswith(BODY)]}
+        notes = [note for note in notes if not note.startswith(BODY)]
     length = f"{counted(facts['frames'], 'frame')} at {facts['fps']:g} Hz, {facts['seconds']:.2f} s"
     if isinstance(recording, Motion):
         named = (facts["end_effectors"] or {}).items()
@@ -141,7 +140,7 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
         below = columns_of(names) if many else None
     if "measures" in facts:
         below = _listed(facts["measures"])
-    show_facts(facts, lines | {"SHA-256": facts["sha256"]}, below=below)
+    show_facts(facts | {"notes": notes}, lines | {"SHA-256": facts["sha256"]}, below=below)
 
 
 def _listed(measures: list[Facts]) -> Any:

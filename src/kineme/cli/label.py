@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,16 +11,17 @@ from kineme._counts import counted
 from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.reading import Effectors, Quiet, with_body_options
-from kineme.cli.options.request import Request, Stage
+from kineme.cli.options.reading import BODY, Quiet
+from kineme.cli.options.request import SEGMENTING, Request, Stage, asks
 
 if TYPE_CHECKING:
     from kineme.transfer import KnowledgeBase
 
 
-@with_body_options
+@asks(BODY | SEGMENTING)
 def label(
     files: Files,
+    request: Request,
     labels: Annotated[
         Path,
         option(
@@ -36,8 +37,6 @@ def label(
     ],
     recursive: Recursive = False,
     quiet: Quiet = False,
-    effectors: Effectors = None,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Add the labelled primitives of recordings to a knowledge base.
 
@@ -46,7 +45,6 @@ def label(
     whole activities only, the recording is cut into primitives first. What the knowledge base
     held of a recording is replaced.
     """
-    request = Request.of(reading=reading, effectors=effectors)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--labels", labels, request.person)
     failures = Failures()

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.method import Constants, Detail, PresetName
-from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
-from kineme.cli.options.request import Request
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.request import SEGMENTING, Request, asks
 from kineme.cli.options.targets import check_writable
-from kineme.methods.presets import DEFAULT
 
 
-@with_reading_options
+@asks(READING | SEGMENTING)
 def report(
     files: Files,
+    request: Request,
     output: Annotated[
         Path,
         option(
@@ -31,19 +30,13 @@ def report(
         ),
     ] = Path(),
     segments: SegmentTable = None,
-    preset: PresetName = DEFAULT,
-    detail: Detail = 1.0,
     recursive: Recursive = False,
     quiet: Quiet = False,
-    effectors: Effectors = None,
-    constants: Constants = None,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Write a page on which a recording plays beside its segments, for any browser.
 
     One file with everything in it: it needs neither a server nor a network.
     """
-    request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     pages = batch.files("--output", output, ".html")
     batch.tables("--segments", segments)  # whether there are any

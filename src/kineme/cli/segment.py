@@ -5,21 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from json import dumps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from kineme.cli.help import OUTPUT, TABLES, option
-from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.method import Constants, Detail, PresetName
-from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
-from kineme.cli.options.request import Request, Stage
+from kineme.cli.options.inputs import Batch, FilesOfFormats, Recursive
+from kineme.cli.options.reading import READING, Json, Quiet
+from kineme.cli.options.request import SEGMENTING, Request, Stage, asks
 from kineme.cli.options.targets import check_writable
-from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
     from kineme.methods.base import Found
+    from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
 PrintedLevel = Annotated[
@@ -27,11 +26,10 @@ PrintedLevel = Annotated[
 ]
 
 
-@with_reading_options
+@asks(READING | SEGMENTING)
 def segment(
-    files: Files,
-    preset: PresetName = DEFAULT,
-    detail: Detail = 1.0,
+    files: FilesOfFormats,
+    request: Request,
     output: Annotated[
         Path | None,
         option(
@@ -58,20 +56,16 @@ def segment(
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
-    effectors: Effectors = None,
-    constants: Constants = None,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Cut recordings into activities, transitions and repeated primitives.
 
     An activity is one kind of movement for a while, such as walking; a transition leads from one
     to the next. Primitives are the movements that an activity repeats, such as each double step.
-    What is alike has the same cluster number. Each recording is printed as a table; with
-    --person all each of the people in it, whose results are called after them.
+    What is alike has the same cluster number. With --person all each of the people in a recording
+    is segmented, and results are called after them.
 
     For example: kineme segment walk.bvh --output walk.csv --plot walk.png
     """
-    request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.targets("--output", output, ".csv")
     pictures = batch.targets("--plot", plot, ".png")
@@ -80,8 +74,10 @@ def segment(
     def work(path: Path, asked: Request, _: None, *targets: Path | None) -> None:
         check_writable(*targets)
         with batch.progress(path) as stage:
-            result = _segmented(path, asked, targets, stage)
-        print_segments(result, level, [*targets], json=json, quiet=quiet)
+            stage("reading")
+            recording = asked.read(path)
+            result = _segmented(recording, asked, targets, stage)
+        print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
         batch.each_person(path, request, work, *targets)
@@ -89,12 +85,10 @@ def segment(
 
 
 def _segmented(
-    path: Path, request: Request, targets: Sequence[Path | None], stage: Stage
+    recording: Motion | Signals, request: Request, targets: Sequence[Path | None], stage: Stage
 ) -> Segmentation:
     """The segments of a recording, written as table, picture and page where these are wanted."""
     table, picture, page = targets
-    stage("reading")
-    recording = request.read(path)
     result, found = request.segment(recording, stage)
     write_results(result, found, table, picture)
     if page is not None:
@@ -105,10 +99,7 @@ def _segmented(
 
 
 def write_results(
-    result: Segmentation,
-    found: Found,
-    table: Path | None,
-    picture: Path | None,
+    result: Segmentation, found: Found, table: Path | None, picture: Path | None
 ) -> None:
     """The table and the picture, where wanted."""
     if table is not None:
@@ -122,7 +113,13 @@ def write_results(
 
 
 def print_segments(
-    result: Segmentation, level: Level, written: list[Path | None], *, json: bool, quiet: bool
+    result: Segmentation,
+    recording: Motion | Signals,
+    level: Level,
+    written: list[Path | None],
+    *,
+    json: bool,
+    quiet: bool,
 ) -> None:
     """The segments as JSON, or as a table above the files that were written."""
     if json:
@@ -132,4 +129,4 @@ def print_segments(
     elif not quiet:
         from kineme.cli.tables import show_segments
 
-        show_segments(result, level, written=written)
+        show_segments(result, level, written=written, warned=recording.provenance.warnings)

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from kineme._counts import counted
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.method import Constants, Detail, PresetName
-from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
-from kineme.cli.options.request import Request
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.request import SEGMENTING, Request, asks
 from kineme.cli.options.targets import make_folder_of
-from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 
 
-@with_reading_options
+@asks(READING | SEGMENTING)
 def split(
     files: Files,
+    request: Request,
     output: Annotated[
         Path,
         option(
@@ -36,16 +35,10 @@ def split(
         bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
     ] = False,
     best: Annotated[
-        int | None,
-        option(OUTPUT, "Of loops: so many of each cluster.", "--best", min=1),
+        int | None, option(OUTPUT, "Of loops: so many of each cluster.", "--best", min=1)
     ] = None,
     in_place: Annotated[
-        bool,
-        option(
-            OUTPUT,
-            "Put clips to the origin, without root motion.",
-            "--in-place",
-        ),
+        bool, option(OUTPUT, "Put clips to the origin, without root motion.", "--in-place")
     ] = False,
     straight: Annotated[
         bool, option(OUTPUT, "Take the turn out of each clip.", "--straight")
@@ -59,23 +52,14 @@ def split(
     to_format: Annotated[
         str | None,
         option(
-            OUTPUT,
-            "Such as glb; by default bvh, or csv of points.",
-            "--format",
-            metavar="SUFFIX",
+            OUTPUT, "Such as glb; by default bvh, or csv of points.", "--format", metavar="SUFFIX"
         ),
     ] = None,
     segments: SegmentTable = None,
-    detail: Detail = 1.0,
-    preset: PresetName = DEFAULT,
     recursive: Recursive = False,
     quiet: Quiet = False,
-    effectors: Effectors = None,
-    constants: Constants = None,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Write each segment as a file of its own, never retargeted to another skeleton, and a list."""
-    request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
     batch.tables("--segments", segments)  # whether there are any
@@ -104,7 +88,8 @@ def split(
             close=close,
         )
         if not quiet:
-            typer.echo(f"{counted(len(clips), 'clip')} in {folder}")
+            where = "; manifest.csv tells how good each loop is (cost, less is better)" * loop
+            typer.echo(f"{counted(len(clips), 'clip')} in {folder}{where}")
 
     for path, folder in zip(batch.paths, folders, strict=True):
         batch.each_person(path, request, work, folder, tables=("--segments", segments))

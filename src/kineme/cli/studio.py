@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
-from kineme.cli.options.reading import Effectors, effector_names, with_body_options
-from kineme.cli.options.request import of_everybody
+from kineme.cli.options.reading import BODY, Effectors
+from kineme.cli.options.request import Request, asks, of_everybody
 from kineme.errors import ParameterError
 
 if TYPE_CHECKING:
     from kineme.studio.reading import ReadingOptions
 
 
-@with_body_options
+@asks({"effectors": Effectors} | BODY)
 def studio(
+    request: Request,
     files: Annotated[
         list[Path] | None,
         typer.Argument(
@@ -48,8 +49,6 @@ def studio(
         bool,
         typer.Option("--dev", hidden=True, help="For `npm run dev`: pages from their sources."),
     ] = False,
-    effectors: Effectors = None,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """See recordings and correct their segments, in the browser.
 
@@ -65,14 +64,14 @@ def studio(
         from kineme.studio.reading import ReadingOptions
         from kineme.studio.server import serve
 
-        everybody, reading = of_everybody(reading or {})
-        options = ReadingOptions(ReadOptions(**reading), effector_names(effectors))
+        everybody, reading = of_everybody(request.reading)
+        options = ReadingOptions(ReadOptions(**reading), request.effectors)
         if everybody:
             _tell_apart(recordings, options)
 
         library = None
         if recordings is None and (root / HEAD).is_file():
-            if reading or effectors:
+            if not request.is_default:
                 raise ParameterError(f"{root} is a library, read as it was built: no such options")
             from kineme.studio.library import ShownLibrary
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,8 @@ from kineme.segments.table import Level, Segment
 Section = tuple[str, Sequence[tuple[str, Sequence[str]]]]
 """A title, and rows: a name and the cells beside it."""
 
+PER_CENT = "sure %"
+OF_COUNTS = "sure %: how probable it is that the number of repetitions is right"
 WORDS = ("kind", "cluster", "label", "recording", "example")
 """Columns that hold no numbers."""
 _NOTHING_FOUND = (
@@ -50,9 +53,16 @@ def show_facts(
 
 
 def show_segments(
-    segmentation: Segmentation, level: Level, *, written: Sequence[Path | None] = ()
+    segmentation: Segmentation,
+    level: Level,
+    *,
+    written: Sequence[Path | None] = (),
+    warned: Sequence[str] = (),
 ) -> None:
-    """Print one row per segment of a level, a summary, the notes and the files written."""
+    """Print one row per segment of a level, a summary, the notes and the files written.
+
+    Notes that were ``warned`` of before are not said again.
+    """
     console = Console(highlight=False)
     source = segmentation.provenance["input"]["path"]
     console.print(
@@ -66,7 +76,8 @@ def show_segments(
     console.print(rows(segmentation))
     console.print(f"{segmentation.describe()}.")
     for note in segmentation.provenance["notes"]:
-        console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
+        if note not in warned:
+            console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
     if "activity" not in segmentation.activities.kind:
         console.print(Text(f"note: {_NOTHING_FOUND}", style="dim"))
     show_written(console, written)
@@ -104,19 +115,42 @@ def show_table(title: str, header: Sequence[str], sections: Sequence[Section]) -
 
 def _activity_rows(segmentation: Segmentation) -> Table:
     """Activities and transitions with their repetitions counted."""
-    table = new_table("#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label")
-    primitives = segmentation.primitives
+    from kineme.cycles.table import count_confidence
+
+    table = new_table(
+        "#",
+        "kind",
+        "start s",
+        "stop s",
+        "frames",
+        "repetitions",
+        PER_CENT,
+        "cluster",
+        "label",
+    )
+    primitives, captions = segmentation.primitives, []
     for number, row in enumerate(segmentation.activities):
         repeated = (primitives.activity == number) & (primitives.kind == "primitive")
         inside = primitives.cluster[repeated].tolist()
         count = _repetitions(inside, row.cluster) if row.kind == "activity" else ""
-        table.add_row(
-            *_span(number, row), count, cluster_cell(row.cluster), row.label, style=_style(row)
+        probability = count_confidence(
+            primitives.confidence[repeated], primitives.border_confidence[repeated]
         )
+        cells = count, in_per_cent(probability), cluster_cell(row.cluster), row.label
+        table.add_row(*_span(number, row), *cells, style=_style(row))
     if any("+" in str(cell) for cell in table.columns[5].cells):
-        table.caption = "(+n): primitives of the activity that are in other clusters, or in none"
-        table.caption_justify = "left"
+        captions.append("(+n): primitives of the activity that are in other clusters, or in none")
+    if any(table.columns[6].cells):
+        captions.append(OF_COUNTS)
+    else:
+        del table.columns[6]
+    table.caption, table.caption_justify = "\n".join(captions) or None, "left"
     return _without_empty_labels(table, segmentation.activities.label.tolist())
+
+
+def in_per_cent(probability: float) -> str:
+    """A probability in per cent; nothing where there is none."""
+    return "" if isnan(probability) else f"{100 * probability:.0f}"
 
 
 def _repetitions(clusters: list[int], main: int) -> str:

@@ -10,19 +10,21 @@ import typer
 from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.reading import Effectors, Json, Quiet, with_body_options
-from kineme.cli.options.request import Request, Stage
+from kineme.cli.options.reading import BODY, Json, Quiet
+from kineme.cli.options.request import SEGMENTING, Request, Stage, asks
 from kineme.cli.options.targets import check_writable
 from kineme.cli.segment import PrintedLevel, print_segments
 
 if TYPE_CHECKING:
+    from kineme.recordings import Motion
     from kineme.segments.segmentation import Segmentation
     from kineme.transfer import KnowledgeBase
 
 
-@with_body_options
+@asks(BODY | SEGMENTING)
 def transfer(
     files: Files,
+    request: Request,
     knowledge: Annotated[
         list[Path],
         option(
@@ -57,8 +59,6 @@ def transfer(
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
-    effectors: Effectors = None,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Cut recordings, and label the movements in them that a knowledge base knows.
 
@@ -66,7 +66,6 @@ def transfer(
     """
     if threshold is not None and not 0 < threshold < float("inf"):
         raise typer.BadParameter(f"must be a number above 0, not {threshold}")
-    request = Request.of(reading=reading, effectors=effectors)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.targets("--output", output, ".csv")
     failures = Failures()
@@ -85,23 +84,23 @@ def transfer(
         with batch.caught(path):
             check_writable(table)
             with batch.progress(path) as stage:
-                result = _named(request, path, base, options, stage)
+                stage("reading")
+                motion = request.read_motion(path)
+                result = _named(request, motion, base, options, stage)
             if table is not None:
                 from kineme.labels import write_segments
 
                 write_segments(result, table)
-            print_segments(result, level, [table], json=json, quiet=quiet)
+            print_segments(result, motion, level, [table], json=json, quiet=quiet)
     batch.exit()
 
 
 def _named(
-    request: Request, path: Path, base: KnowledgeBase, options: dict[str, Any], stage: Stage
+    request: Request, motion: Motion, base: KnowledgeBase, options: dict[str, Any], stage: Stage
 ) -> Segmentation:
-    """The segments of a file, labelled."""
+    """The segments of a recording, labelled."""
     from kineme.transfer import transfer_features, transfer_labels
 
-    stage("reading")
-    motion = request.read_motion(path)
     found = request.segment(motion, stage)[0]
     stage("labels")
     features = transfer_features(motion, effectors=request.effectors)

@@ -14,7 +14,7 @@ from kineme.cycles.contacts import (
     stands_from_positions,
     swings_from_gyroscope,
 )
-from kineme.cycles.events import Events, foot_events, gait
+from kineme.cycles.events import Events, foot_events, gait, strides
 from kineme.cycles.export import write_cycles, write_table
 from kineme.cycles.landmarks import landmarks
 from kineme.cycles.measure import cycles
@@ -43,6 +43,7 @@ __all__ = [
     "plot_sides",
     "stands_from_force",
     "stands_from_positions",
+    "strides",
     "swings_from_gyroscope",
     "write_cycles",
     "write_table",

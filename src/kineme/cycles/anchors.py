@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from kineme._checks import as_floats
 from kineme.cycles.channels import channels_of
 from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
-from kineme.cycles.runs import Repetition
+from kineme.cycles.runs import Repetition, movement
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
 
@@ -30,7 +30,7 @@ _CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.
 def anchored(
     found: Sequence[Repetition],
     recordings: Sequence[Motion | Signals],
-    groups: Sequence[Mapping[int, Hashable]],
+    groups: Sequence[Mapping[int | str, Hashable]],
     anchor: str | Sequence[float],
     beside: Sequence[Signals] = (),
 ) -> list[Repetition]:
@@ -41,7 +41,7 @@ def anchored(
     found : sequence of Repetition
     recordings : sequence of Motion or Signals
     groups : sequence of mapping
-        Of each recording the group of each cluster, which has one usual phase.
+        Of each recording the group of each `movement`, which has one usual phase.
     anchor : str or sequence of float
         ``knee_r max``, ``knee_r > 40`` (``<``: where it falls below), an event of the file, or a
         foot contact as ``left foot strike``; or the seconds of events of the one recording.
@@ -57,8 +57,8 @@ def anchored(
     extreme = _EXTREME.fullmatch(text.strip())
     members: dict[Hashable, list[int]] = {}
     for i, each in enumerate(found):
-        cluster = each.segment.cluster
-        members.setdefault(groups[each.recording].get(cluster, cluster), []).append(i)
+        what = movement(each.segment)
+        members.setdefault(groups[each.recording].get(what, what), []).append(i)
     starts = np.full(len(found), np.nan)
     if extreme is not None:
         curves = [_curve(each, extreme["channel"], beside) for each in recordings]

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import check_type
-from kineme._counts import counted
+from kineme._counts import counted, listed
 from kineme.cycles.contacts import (
     stands_from_force,
     stands_from_positions,
@@ -30,6 +30,8 @@ Floats = NDArray[np.float64]
 STRIKE, OFF = "foot strike", "foot off"
 LONGEST = 1.8
 """Of the median stride: a longer one is a stop, or a step between that was missed."""
+NAMED = 20
+"""Channels that a message names before it only counts."""
 _FOOT = {"left": ("lf", "leftfoot", "footleft", "lfoot", "footl"),
          "right": ("rf", "rightfoot", "footright", "rfoot", "footr")}  # fmt: skip
 _SHANK = {"left": ("ls", "leftshank", "shankleft", "lshank", "shankl"),
@@ -186,8 +188,9 @@ def foot_events(
             names += [f"{side} {event}"] * len(seconds)
     if not sources:
         raise ParameterError(
-            "no foot was found: a body needs ankles; of signals name the channels of its "
-            "gyroscope or of the force under it, as in left='lf_gyr_*' (--left 'lf_gyr_*')"
+            "no foot was found: a body needs heels or ankles by a usual name; of signals name the "
+            "channels of its gyroscope, as in left='lf_gyr_*' (--left 'lf_gyr_*'), or the force "
+            "under it (of a C3D --columns '*' --left Fz1 --right Fz2)"
         )
     order = np.argsort(times, kind="stable")
     return Events(
@@ -290,8 +293,8 @@ def _channels(names: Sequence[str], side: str, pattern: str | None) -> list[str]
         chosen = [name for name in names if fnmatchcase(name, pattern)]
         if len(chosen) not in (1, 3):
             raise ParameterError(
-                f"{side}={pattern!r} names {counted(len(chosen), 'channel')}: three axes of a "
-                "gyroscope are needed, or one force"
+                f"{side}={pattern!r} names {counted(len(chosen), 'channel')} of "
+                f"{listed(names, NAMED)}: three axes of a gyroscope are needed, or one force"
             )
         return chosen
     for words in (_FOOT[side], _SHANK[side]):
@@ -337,39 +340,68 @@ def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
     >>> table["measure"].tolist()
     ['stride_s', 'stance_s', 'swing_s', 'stance_percent', 'step_s', 'cadence_per_min']
     """
-    check_type(events, Events, "gait", "foot_events(recording) gives them")
-    measured = {side: _strides(events, side, recording) for side in SIDES}
-    measures = list(dict.fromkeys(name for each in measured.values() for name in each))
+    table = strides(events, recording)
+    measures = [*table][3:] if len(table["foot"]) else []
     columns: dict[str, list[Any]] = {"measure": measures}
     for side in SIDES:
-        values = [measured[side].get(name, np.empty(0)) for name in measures]
+        of_side = [table[name][table["foot"] == side] for name in measures]
+        values = [each[np.isfinite(each)] for each in of_side]
         columns[f"{side}_n"] = [len(each) for each in values]
         columns[f"{side}_mean"] = [each.mean() if len(each) else np.nan for each in values]
         columns[f"{side}_sd"] = [each.std(ddof=1) if len(each) > 1 else np.nan for each in values]
     left, right = (np.array(columns[f"{side}_mean"], np.float64) for side in SIDES)
-    table = {name: np.array(column) for name, column in columns.items()}
-    table["asymmetry_percent"] = 100 * (left - right) / ((left + right) / 2)
-    return table
+    means = {name: np.array(column) for name, column in columns.items()}
+    means["asymmetry_percent"] = 100 * (left - right) / ((left + right) / 2)
+    return means
 
 
-def _strides(events: Events, side: str, recording: Motion | Signals | None) -> dict[str, Floats]:
+def strides(events: Events, recording: Motion | Signals | None = None) -> Columns:
+    """Each stride of each foot, from strike to strike: what `gait` has the means of.
+
+    Parameters
+    ----------
+    events : Events
+    recording : Motion or Signals, optional
+        As for `gait`.
+
+    Returns
+    -------
+    dict of str to array
+        Columns: ``foot``, ``start_s``, ``stop_s``, and the measures. What cannot be told of a
+        stride is missing.
+
+    Examples
+    --------
+    >>> from kineme.cycles import foot_events, strides
+    >>> from kineme.datasets import Action, synthesize
+    >>> strides(foot_events(synthesize([Action("walk", 4)], fps=60).motion))["foot"].tolist()
+    ['left', 'left', 'right', 'right']
+    """
+    check_type(events, Events, "gait", "foot_events(recording) gives them")
+    sides = [_strides(events, side, recording) for side in SIDES]
+    return {name: np.concatenate([side[name] for side in sides]) for name in sides[0]}
+
+
+def _strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:
     """Of each stride of a foot, from strike to strike, what can be measured."""
     strikes, offs = events.at(f"{side} {STRIKE}"), events.at(f"{side} {OFF}")
     others = events.at(f"{SIDES[side == SIDES[0]]} {STRIKE}")
-    if len(strikes) < 2:
-        return {}
     pairs = np.column_stack([strikes[:-1], strikes[1:]])
     lengths = np.diff(pairs, axis=1)[:, 0]
-    pairs = pairs[lengths <= LONGEST * np.median(lengths)]
+    if len(pairs):
+        pairs = pairs[lengths <= LONGEST * np.median(lengths)]
     rows = []
     for start, stop in pairs.tolist():
         between = offs[(offs > start) & (offs < stop)]
         step = others[(others > start) & (others < stop)]
         off = between[0] if len(between) == 1 else np.nan
         rows.append((start, off, stop, stop - step[0] if len(step) == 1 else np.nan))
-    start, off, stop, step = np.array(rows, np.float64).T
+    start, off, stop, step = np.array(rows, np.float64).reshape(-1, 4).T
     stride = stop - start
     found = {
+        "foot": np.full(len(rows), side),
+        "start_s": start,
+        "stop_s": stop,
         "stride_s": stride,
         "stance_s": off - start,
         "swing_s": stop - off,
@@ -386,4 +418,4 @@ def _strides(events: Events, side: str, recording: Motion | Signals | None) -> d
             ends = recording.positions[frames, foot][..., [0, 2]]
             found["stride_m"] = np.linalg.norm(ends[1] - ends[0], axis=1)
             found["speed_m_per_s"] = found["stride_m"] / stride
-    return {name: values[np.isfinite(values)] for name, values in found.items()}
+    return found

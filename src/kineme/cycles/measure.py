@@ -23,7 +23,7 @@ from kineme._version import __version__
 from kineme.cycles.align import ALIGNMENTS, LINEAR, aligned
 from kineme.cycles.anchors import anchored
 from kineme.cycles.channels import Channel, channels_of
-from kineme.cycles.runs import Repetition, repetitions
+from kineme.cycles.runs import Repetition, movement, repetitions
 from kineme.cycles.table import BY_HAND, INCOMPLETE, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
@@ -252,19 +252,19 @@ def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
     ]
 
 
-def _groups(table: Segmentation, prefix: str) -> dict[int, str]:
-    """By cluster what its repetitions are summarised with: their label, or the cluster's number."""
-    found: dict[int, str] = {}
-    labels: dict[int, Counter[str]] = {}
+def _groups(table: Segmentation, prefix: str) -> dict[int | str, str]:
+    """By `movement` what its repetitions are summarised with: the label, or the cluster."""
+    found: dict[int | str, str] = {}
+    labels: dict[int | str, Counter[str]] = {}
     activities = table.activities
     for row in table.primitives:
         if row.kind == "primitive":
             label = row.label or str(activities.label[row.activity])
-            labels.setdefault(row.cluster, Counter())[label] += 1
-    for cluster, counts in labels.items():
+            labels.setdefault(movement(row), Counter())[label] += 1
+    for what, counts in labels.items():
         label = counts.most_common(1)[0][0]
-        unnamed = f"{prefix}cluster {cluster}" if cluster >= 0 else f"{prefix}no cluster"
-        found[cluster] = label or unnamed
+        unnamed = "no cluster" if what == "" else f"cluster {what}"
+        found[what] = label or f"{prefix}{unnamed}"
     return found
 
 
@@ -272,7 +272,7 @@ def _columns(
     found: Sequence[Repetition],
     tables: Sequence[Segmentation],
     names: Sequence[str],
-    groups: Sequence[dict[int, str]],
+    groups: Sequence[dict[int | str, str]],
 ) -> Columns:
     """The columns of the table that are the same whatever is measured."""
     fps = np.array([tables[each.recording].fps for each in found])
@@ -286,7 +286,7 @@ def _columns(
         "number": np.array([each.number for each in found], np.int64),
         "cluster": np.array([row.cluster for row in rows], np.int64),
         "label": np.array([row.label for row in rows], np.str_),
-        "group": np.array([groups[e.recording][e.segment.cluster] for e in found], np.str_),
+        "group": np.array([groups[e.recording][movement(e.segment)] for e in found], np.str_),
         "place": np.array([each.place for each in found], np.str_),
         "start_frame": start * fps,
         "stop_frame": stop * fps,

@@ -71,7 +71,7 @@ class Repetition:
 def repetitions(
     recordings: Sequence[Motion | Signals],
     tables: Sequence[Segmentation],
-    groups: Sequence[Mapping[int, Hashable]],
+    groups: Sequence[Mapping[int | str, Hashable]],
 ) -> list[Repetition]:
     """The repetitions of all recordings, in the order of recordings and of time.
 
@@ -81,7 +81,7 @@ def repetitions(
     tables : sequence of Segmentation
         One of each.
     groups : sequence of mapping
-        Of each: the group that a cluster belongs to. Repetitions of one group begin at one phase.
+        Of each: the group of a `movement`. Repetitions of one group begin at one phase.
     """
     fine = [fine_features(recording) for recording in recordings]
     members: dict[Hashable, list[tuple[Run, list[Segment]]]] = defaultdict(list)
@@ -90,9 +90,9 @@ def repetitions(
         for segments in _back_to_back(table):
             frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
             run = run_of(number, np.array(frames) / table.fps)
-            cluster = segments[0].cluster
-            alone = id(run) if cluster < 0 else -1 if comparable else number
-            group = groups[number].get(cluster, cluster)
+            what = movement(segments[0])
+            alone = id(run) if what == "" else -1 if comparable else number
+            group = groups[number].get(what, what)
             members[group, dims, alone].append((run, segments))
     found: list[Repetition] = []
     features, rates = [each.values for each in fine], [each.rate for each in fine]
@@ -106,8 +106,13 @@ def repetitions(
     return _numbered(found)
 
 
+def movement(segment: Segment) -> int | str:
+    """What repetitions of one movement have in common: the cluster, else the label, if any."""
+    return segment.cluster if segment.cluster >= 0 else segment.label
+
+
 def _back_to_back(table: Segmentation) -> list[list[Segment]]:
-    """The repetitions of one cluster in one activity, one after the other without a gap."""
+    """The repetitions of one movement in one activity, one after the other without a gap."""
     runs: list[list[Segment]] = []
     for row in table.primitives:
         if row.kind != "primitive":
@@ -115,8 +120,8 @@ def _back_to_back(table: Segmentation) -> list[list[Segment]]:
         last = runs[-1][-1] if runs else None
         if (
             last is not None
-            and row.cluster >= 0
-            and (last.cluster, last.activity) == (row.cluster, row.activity)
+            and movement(row) != ""
+            and (movement(last), last.activity) == (movement(row), row.activity)
             and last.stop_frame == row.start_frame
         ):
             runs[-1].append(row)

@@ -145,7 +145,8 @@ def _common(first: Cycles, second: Cycles) -> list[str]:
         raise ParameterError(
             f"no group is in both sessions: {', '.join(first.groups) or 'none'} and "
             f"{', '.join(second.groups) or 'none'}; name clusters alike, or say with --common "
-            "(common=True) that equal numbers are equal movements"
+            "(common=True) that equal numbers are equal movements: in the studio, or by `kineme "
+            "library name` and `export`, whose table --segments takes"
         )
     return groups
 

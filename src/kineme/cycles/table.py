@@ -207,6 +207,22 @@ class Cycles:
         _check_number(least, "least")
         return self.exclude(np.flatnonzero(self.columns["border_confidence"] < least), UNSURE)
 
+    def count_confidence(self, group: str) -> float:
+        """How probable it is that the least sure count of repetitions in a group is right.
+
+        Parameters
+        ----------
+        group : str
+
+        Returns
+        -------
+        float
+            nan where nobody says, and where nothing is repeated.
+        """
+        rows = (self.columns["group"] == group) & (self.columns["place"] != "only")
+        names = "confidence", "border_confidence"
+        return count_confidence(*(self.columns[name][rows] for name in names))
+
     def summary(self, *, ends: bool = False) -> Columns:
         """Number, mean and deviation of all that was measured, for each group.
 
@@ -387,6 +403,17 @@ class Cycles:
                 },
             },
         )
+
+
+def count_confidence(confidence: Floats, borders: Floats) -> float:
+    """The probability that the number of these repetitions is right, the least one of several.
+
+    nan where there is nothing to count, or where ``confidence`` is no probability: that of the
+    published methods, which have none of ``borders``.
+    """
+    if len(confidence) < 2 or not np.isfinite(confidence * borders).any():
+        return np.nan
+    return float(np.nanmin(confidence))
 
 
 def _described(values: Floats, measure: str) -> tuple[float, ...]:

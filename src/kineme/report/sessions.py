@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from io import BytesIO
-from math import floor, log10
+from math import floor, isnan, log10
 from os import PathLike
 from pathlib import Path
 
@@ -184,6 +184,12 @@ def _count(cycles: Cycles, group: str) -> int:
     return int((cycles.columns["group"] == group).sum())
 
 
+def _count_and_confidence(cycles: Cycles, group: str) -> str:
+    probability = cycles.count_confidence(group)
+    text = "" if isnan(probability) else f" ({100 * probability:.0f} % sure)"
+    return f"{_count(cycles, group)}{text}"
+
+
 def _row(sheet: Sheet, group: str, measure: str) -> dict[str, float]:
     numbers = sheet.numbers
     at = np.flatnonzero((numbers["group"] == group) & (numbers["measure"] == measure))[0]
@@ -227,7 +233,7 @@ def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
         ]  # fmt: skip
         lines.append(f"<tr{' class=clear' if clear else ''}>{_cells(cells)}</tr>")
     heads = ["", *sheet.names, "difference", "95 %", "changed"]
-    counts = " → ".join(str(_count(each, group)) for each in sheet.sessions)
+    counts = " → ".join(_count_and_confidence(each, group) for each in sheet.sessions)
     duration = _row(sheet, group, "duration_s")
     used = " and ".join(f"{duration[f'{session}_n']:.0f}" for session in ("first", "second"))
     return (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,17 +14,14 @@ from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
 from kineme.cli.library.commands import Scheduler, path_or_url
 from kineme.cli.messages import Failures, one_line, progress, say_skipped
 from kineme.cli.options.inputs import Batch
-from kineme.cli.options.method import DETAIL, PRESET, Constants
-from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
-from kineme.cli.options.request import Request
-from kineme.methods.presets import DEFAULT
-from kineme.segments.hierarchy import DEFAULT_DETAIL
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.request import SEGMENTING, Request, asks
 
 if TYPE_CHECKING:
     from kineme.library import Built, Settings
 
 
-@with_reading_options
+@asks(READING | SEGMENTING)
 def build(
     into: Annotated[
         Path,
@@ -36,6 +33,7 @@ def build(
             metavar="LIB",
         ),
     ],
+    request: Request,
     files: Annotated[
         list[Path] | None,
         typer.Argument(
@@ -69,25 +67,13 @@ def build(
             show_default="as the last time",
         ),
     ] = None,
-    detail: Annotated[float | None, DETAIL] = None,
-    preset: Annotated[str | None, PRESET] = None,
     quiet: Quiet = False,
-    effectors: Effectors = None,
-    constants: Constants = None,
-    reading: dict[str, Any] | None = None,
 ) -> None:
     """Segment a collection of recordings once, and keep what a search needs.
 
     What is there already is kept, and goes on where it ended. How recordings are read and
     segmented stays as it was; where an option says otherwise, all are segmented anew.
     """
-    request = Request.of(
-        preset or DEFAULT,
-        constants,
-        reading,
-        effectors,
-        DEFAULT_DETAIL if detail is None else detail,
-    )
     failures = Failures()
     processes = jobs or n_threads()
     with failures.caught(into):
@@ -101,9 +87,9 @@ def build(
         from kineme.library.storage.places import is_remote
 
         settings: Settings | None = None
-        if any((preset, constants, reading, effectors, detail)):
+        if not request.is_default:
             settings = Settings(
-                preset or DEFAULT,
+                str(request.options.preset),
                 request.options.constants,
                 request.reading,
                 request.effectors,

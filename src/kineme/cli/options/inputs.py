@@ -26,9 +26,12 @@ if TYPE_CHECKING:
 Files = Annotated[
     list[Path],
     typer.Argument(
-        metavar="FILES",
-        help=f"Recordings, or folders of them: {RECORDINGS}.",
+        metavar="FILES", help="Recordings, or folders of them (formats: kineme info --help)."
     ),
+]
+FilesOfFormats = Annotated[
+    list[Path],
+    typer.Argument(metavar="FILES", help=f"Recordings, or folders of them: {RECORDINGS}."),
 ]
 Recursive = Annotated[
     bool, option(INPUT, "Look into the folders of a folder, too.", "--recursive", "-r")
@@ -37,8 +40,8 @@ SegmentTable = Annotated[
     Path | None,
     option(
         INPUT,
-        "Segment table or labels to take, instead of segmenting anew; of several recordings a "
-        "folder, or a path with {name} in it.",
+        "Take segments from a table or labels; of several recordings from a folder, or a path "
+        "with {name}.",
     ),
 ]
 

@@ -21,13 +21,9 @@ if TYPE_CHECKING:
     from kineme.methods.constants import Constant
 
 SET = "--set"
-PRESET = option(
-    METHOD,
-    f"How to segment: {PRESETS}. `kineme presets` says what each is for.",
-    "--preset",
-    metavar="NAME",
-)
-PresetName = Annotated[str, PRESET]
+PresetName = Annotated[
+    str | None, option(METHOD, f"{PRESETS}; see `kineme presets`.", "--preset", metavar="NAME")
+]
 Constants = Annotated[
     list[str] | None,
     option(
@@ -38,13 +34,15 @@ Constants = Annotated[
         metavar="NAME=VALUE",
     ),
 ]
-DETAIL = option(
-    METHOD,
-    "Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as 0.5.",
-    "--detail",
-    metavar="NUMBER",
-)
-Detail = Annotated[float, DETAIL]
+Detail = Annotated[
+    float | None,
+    option(
+        METHOD,
+        "Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as 0.5.",
+        "--detail",
+        metavar="NUMBER",
+    ),
+]
 
 
 def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:

@@ -1,15 +1,13 @@
-"""What people say of a recording that its file does not: options shared by the commands.
+"""How a command reads recordings: what people say of them that their files do not.
 
-`with_reading_options` gives a command those of `OPTIONS`, which are the keywords
-of `kineme.read`.
+`BODY` and `READING` are the keywords of `kineme.read`; `kineme.cli.options.request.asks` gives
+them to a command.
 """
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
-from functools import wraps
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -21,33 +19,26 @@ from kineme.errors import ParameterError
 Skeleton = Annotated[Path | None, option(UNSAID, "ASF skeleton of an AMC file.", metavar="FILE")]
 Fps = Annotated[float | None, option(UNSAID, "Frames per second, in place of the file's.")]
 Unit = Annotated[
-    str | None, option(UNSAID, "Unit of lengths: m, cm, mm, inch, cmu, or the metres in one unit.")
+    str | None, option(UNSAID, "Unit: m, cm, mm, inch, cmu, or its metres, as 0.0254.")
 ]
 Up = Annotated[
     str | None, option(UNSAID, "Axis that points up: x, y, z, -x, -y, -z.", metavar="AXIS")
 ]
 Person = Annotated[
-    str | None,
-    option(
-        UNSAID,
-        "Which of several people in the file, by name or number.",
-        metavar="NAME",
-    ),
+    str | None, option(UNSAID, "Which of several people in it, by name or number.", metavar="NAME")
 ]
 Confidence = Annotated[
-    float | None,
-    option(UNSAID, "Leave out points that a pose estimator is less sure of, such as 0.5."),
+    float | None, option(UNSAID, "Leave out points of less confidence, such as 0.5.")
 ]
 Take = Annotated[
-    str | None,
-    option(UNSAID, "Which of several animations, by name or number.", metavar="NAME"),
+    str | None, option(UNSAID, "Which of several animations, by name or number.", metavar="NAME")
 ]
 Effectors = Annotated[
     str | None,
     option(
         UNSAID,
-        "Joints to take for left ankle, right ankle, head, left wrist, right wrist; or some, as in "
-        "left_wrist=NAME,head=NAME.",
+        "Joints at left and right ankle, head, left and right wrist; or some, as in "
+        "head=NAME,left_wrist=NAME.",
         metavar="NAME,NAME,…",
     ),
 ]
@@ -81,42 +72,11 @@ BODY: dict[str, Any] = {
     "take": Take,
 }
 """What `kineme.read` takes besides the path, for a motion."""
-OPTIONS: dict[str, Any] = {**BODY, "columns": Columns, "emg": Emg}
+READING: dict[str, Any] = {**BODY, "columns": Columns, "emg": Emg}
 """And for either kind of recording."""
 
 
-def with_reading_options(
-    command: Callable[..., None], options: Mapping[str, Any] = OPTIONS
-) -> Callable[..., None]:
-    """The command with these options; checked, they reach it as ``reading``."""
-    signature = inspect.signature(command, eval_str=True)
-    parameters = [p for p in signature.parameters.values() if p.name != "reading"]
-    added = [
-        inspect.Parameter(
-            name,
-            inspect.Parameter.KEYWORD_ONLY,
-            default=False if option is Emg else None,
-            annotation=option,
-        )
-        for name, option in options.items()
-    ]
-
-    @wraps(command)
-    def wrapped(**values: Any) -> None:
-        given = {name: values.pop(name) for name in options}
-        command(**values, reading=_checked(given))
-
-    wrapped.__signature__ = signature.replace(parameters=[*parameters, *added])  # type: ignore[attr-defined]
-    wrapped.__annotations__ = {p.name: p.annotation for p in (*parameters, *added)}
-    return wrapped
-
-
-def with_body_options(command: Callable[..., None]) -> Callable[..., None]:
-    """The command with those of them that bodies need."""
-    return with_reading_options(command, BODY)
-
-
-def _checked(given: dict[str, Any]) -> dict[str, Any]:
+def keywords_of(given: dict[str, Any]) -> dict[str, Any]:
     """Keywords for `kineme.read`, before any file is opened."""
     from kineme.formats import ReadOptions
 

@@ -1,16 +1,21 @@
-"""What is asked of each recording of a command: how to read it and how to segment it."""
+"""What is asked of each recording of a command: how to read it and how to segment it.
+
+A command is given the options of one or both by `asks`, the same for all commands.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import inspect
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from kineme.cli.options.method import constants_of
-from kineme.cli.options.reading import effector_names
+from kineme.cli.options.method import Constants, Detail, PresetName, constants_of
+from kineme.cli.options.reading import Effectors, Emg, effector_names, keywords_of
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segmentation.options import SegmentOptions
@@ -24,6 +29,41 @@ if TYPE_CHECKING:
 
 Stage = Callable[[str], None]
 EVERYBODY = "all"
+SEGMENTING: dict[str, Any] = {
+    "preset": PresetName,
+    "detail": Detail,
+    "constants": Constants,
+    "effectors": Effectors,
+}
+"""How a command segments."""
+
+
+def asks(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command these options besides its own; checked, they reach it as ``request``."""
+    added = [
+        inspect.Parameter(
+            name,
+            inspect.Parameter.KEYWORD_ONLY,
+            default=False if option is Emg else None,
+            annotation=option,
+        )
+        for name, option in options.items()
+    ]
+
+    def with_options(command: Callable[..., None]) -> Callable[..., None]:
+        signature = inspect.signature(command, eval_str=True)
+        parameters = [each for each in signature.parameters.values() if each.name != "request"]
+
+        @wraps(command)
+        def wrapped(**values: Any) -> None:
+            given = {name: values.pop(name) for name in options}
+            command(**values, request=Request.of(**given))
+
+        wrapped.__signature__ = signature.replace(parameters=[*parameters, *added])  # type: ignore[attr-defined]
+        wrapped.__annotations__ = {each.name: each.annotation for each in (*parameters, *added)}
+        return wrapped
+
+    return with_options
 
 
 def of_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
@@ -40,28 +80,34 @@ class Request:
     options: SegmentOptions
     reading: dict[str, Any]
     detail: float = DEFAULT_DETAIL
+    is_default: bool = True
+    """Whether nothing was said."""
 
     @classmethod
     def of(
         cls,
-        preset: str = DEFAULT,
+        *,
+        preset: str | None = None,
+        detail: float | None = None,
         constants: Sequence[str] | None = None,
-        reading: dict[str, Any] | None = None,
         effectors: str | None = None,
-        detail: float = DEFAULT_DETAIL,
+        **reading: Any,
     ) -> Request:
         """The options as they were typed; typer.BadParameter where one makes no sense."""
+        keywords = keywords_of(reading)
+        chosen = preset or DEFAULT
         try:
-            check_detail(detail)
+            check_detail(DEFAULT_DETAIL if detail is None else detail)
         except ParameterError as error:
             raise typer.BadParameter(str(error), param_hint="--detail") from error
         options = SegmentOptions(
-            preset=preset,
-            constants=constants_of([preset], constants or ()),
+            preset=chosen,
+            constants=constants_of([chosen], constants or ()),
             effectors=effector_names(effectors),
-            emg=bool((reading or {}).get("emg")),
+            emg=bool(keywords.get("emg")),
         )
-        return cls(options, reading or {}, detail)
+        is_default = not any((preset, detail, constants, effectors, keywords))
+        return cls(options, keywords, detail or DEFAULT_DETAIL, is_default=is_default)
 
     @property
     def effectors(self) -> Names | None:

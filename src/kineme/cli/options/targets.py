@@ -19,6 +19,7 @@ import typer
 
 from kineme._files import CORRECTED, ending_of
 from kineme.errors import ReadError, WriteError
+from kineme.labels.heads import columns
 
 NAME, PARENT = "{name}", "{parent}"
 PICTURES = (".png", ".pdf", ".svg")
@@ -53,12 +54,13 @@ def folders_for(option: str, given: Path, inputs: list[Path], *, single: bool) -
 
 
 def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -> list[Path]:
-    """The table of each recording: a file, by a pattern, or that of its name in a folder.
+    """The table of each recording: a file of all, by a pattern, or that of its name in a folder.
 
     In a folder that of this ``person`` in it, where there is one.
     """
     if not _is_folder(given):
-        return _one_each(option, given, inputs)
+        of_all = "recording" in columns(given)  # a table that says whose each row is
+        return [given] * len(inputs) if of_all else _one_each(option, given, inputs)
     if not given.exists() and not _FIELD.search(str(given)):
         raise ReadError(given, "there is no such file or folder")
     recordings, paths = set(inputs), _one_each(option, given / NAME, inputs)
