@@ -28,10 +28,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import forward_kinematics, local_translations
-
-Floats = NDArray[np.float64]
 
 NEAR_S = 0.035
 """Seconds of a clip that tell how it ends and begins."""

@@ -20,12 +20,9 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats, Masks
 from kineme.clips.loops import Carry, seam_sides
-
-Floats = NDArray[np.float64]
-Masks = NDArray[np.bool_]
 
 USUAL = 95.0
 """Per cent of the steps of a recording that are as large as its usual large ones, at most."""

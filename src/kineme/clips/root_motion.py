@@ -15,15 +15,13 @@ from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.clips.loops import Carry
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import heading
 from kineme.recordings import Motion
-
-Floats = NDArray[np.float64]
 
 STILL = 1e-9
 """Radians a round below which a path is a line."""

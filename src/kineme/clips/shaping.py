@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Masks
 from kineme.clips.loops import Carry, carry_of, loop, with_first_again
 from kineme.clips.quality import LoopQuality, distances, loop_quality, ranks, usual_steps
 from kineme.clips.root_motion import (
@@ -27,7 +27,6 @@ from kineme.recordings.arrays import spans_of
 from kineme.recordings.operations import cut
 from kineme.segments.table import Segment
 
-Masks = NDArray[np.bool_]
 Feet = Mapping[str, tuple[tuple[int, ...], Masks]]
 """By side: the points of a foot, and the frames in which it is planted."""
 

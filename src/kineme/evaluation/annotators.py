@@ -25,6 +25,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from kineme._arrays import Ints
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.evaluation.borders import border_score
@@ -32,7 +33,7 @@ from kineme.evaluation.comparison import Comparison, Spans, best_mapping, runs
 from kineme.evaluation.frames import cohen_kappa
 from kineme.evaluation.inputs import comparison, truth_of
 from kineme.evaluation.tables import finite
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Truth
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 from kineme.segments.segmentation import Segmentation
 
 By = Literal["names", "mapping"]

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._arrays import Floats
 from kineme._counts import counted, listed
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats.files import unique
@@ -27,7 +28,6 @@ from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_sub
 from kineme.formats.units import scale_of, up_axis, upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 
-Floats = NDArray[np.float64]
 Body = dict[str, tuple[int, ...]]
 Spans = tuple[tuple[int, int], ...]
 

@@ -13,13 +13,12 @@ from decimal import Decimal
 from math import ceil, floor
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.recordings import Note, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
 
-Floats = NDArray[np.float64]
 Body = Mapping[str, tuple[int, ...]]
 
 INCH = 0.0254

@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme._checks import as_indices, check_type
 from kineme._counts import counted
 from kineme.errors import ParameterError
@@ -25,8 +25,6 @@ from kineme.recordings.kinematics import local_translations
 from kineme.recordings.motion import check_motion
 from kineme.synthesis.feet import plant_feet
 from kineme.synthesis.graph import MotionGraph
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -20,15 +20,13 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.units import metres, up_rotation
 from kineme.recordings import Motion, Skeleton
-
-Floats = NDArray[np.float64]
 
 WIDTHS = {72: "SMPL", 156: "SMPL-H", 165: "SMPL-X"}
 

@@ -14,10 +14,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
+from kineme._arrays import Array
 from kineme.formats.arrays.amass import poses_to_motion
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import FileContent, unique
@@ -25,7 +25,6 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.recordings import Motion, Skeleton
 
-Array = np.ndarray[Any, np.dtype[Any]]
 Arrays = Mapping[str, Array]
 
 

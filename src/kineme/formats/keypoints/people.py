@@ -15,11 +15,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._counts import listed
 from kineme.errors import SeveralPeopleError
 from kineme.formats.files import FileContent
 
-Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
 
 PASSING = 0.1

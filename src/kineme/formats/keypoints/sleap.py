@@ -15,8 +15,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
@@ -25,8 +25,6 @@ from kineme.formats.keypoints.video import Person, Video, frame_numbers, video_t
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
-
-Floats = NDArray[np.float64]
 
 LIMIT = 0.2
 """SLEAP's own limit for peaks."""

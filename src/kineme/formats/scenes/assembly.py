@@ -22,16 +22,15 @@ from collections.abc import Callable, Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.files import MOST_EXPANSION, FileContent, unique
 from kineme.formats.scenes.characters import SceneNode
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks
 from kineme.recordings import Motion, Provenance, Skeleton
 
-Floats = NDArray[np.float64]
 Inheritance = Literal["RrSs", "RSrs", "Rrs"]
 
 STILL = 2e-6

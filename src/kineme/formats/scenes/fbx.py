@@ -13,8 +13,8 @@ See `kineme.formats.scenes.characters` for what counts as a character,
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -27,8 +27,6 @@ from kineme.formats.scenes.fbx_text import TEXT
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
-
-Floats = NDArray[np.float64]
 
 RATES = {
     1: 120.0, 2: 100.0, 3: 60.0, 4: 50.0, 5: 48.0, 6: 30.0, 7: 30.0, 8: 30 / 1.001, 9: 30 / 1.001,

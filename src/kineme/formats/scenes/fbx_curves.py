@@ -20,11 +20,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.fbx_nodes import FBXNode
 from kineme.formats.scenes.sampling import between
-
-Floats = NDArray[np.float64]
 
 TICKS = 46_186_158_000
 """In a second."""

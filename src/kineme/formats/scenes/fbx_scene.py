@@ -29,17 +29,15 @@ from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.assembly import Inheritance, Transform
 from kineme.formats.scenes.characters import SceneNode, is_end
 from kineme.formats.scenes.fbx_curves import Curve, CurveReader, Sampler
 from kineme.formats.scenes.fbx_nodes import FBXNode
 from kineme.formats.units import blocks
-
-Floats = NDArray[np.float64]
 
 BONES = frozenset({"LimbNode", "Limb", "Root", "Effector", "IKEffector", "FKEffector"})
 GEOMETRY = frozenset({"Mesh", "Camera", "CameraSwitcher", "Light", "Nurbs", "NurbsCurve", "Line"})

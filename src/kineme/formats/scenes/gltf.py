@@ -16,9 +16,9 @@ import re
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -35,8 +35,6 @@ from kineme.formats.scenes.gltf_writer import EXTRAS, write_animations, write_gl
 from kineme.formats.scenes.sampling import between, slerp
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
-
-Floats = NDArray[np.float64]
 
 USUAL_RATE = 30.0
 """Of files whose keys are not evenly spaced."""

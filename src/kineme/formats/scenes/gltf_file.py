@@ -19,12 +19,11 @@ from urllib.parse import unquote
 
 import numpy as np
 from msgspec import Struct, field
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._json import decoded
 from kineme.formats.files import FileContent, load
 
-Floats = NDArray[np.float64]
 Part = TypeVar("Part")
 
 MAGIC = b"glTF"

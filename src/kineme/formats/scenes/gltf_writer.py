@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
@@ -34,8 +35,6 @@ from kineme.formats.scenes.gltf_file import BYTES, CHUNK, HEADER, JSON, MAGIC
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import local_translations
-
-Floats = NDArray[np.float64]
 
 EXTRAS = "kineme"
 """The name of what kineme adds to the extras of a file."""

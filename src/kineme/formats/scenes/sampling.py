@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.formats.units import blocks
-
-Floats = NDArray[np.float64]
 
 
 def between(times: Floats, at: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:

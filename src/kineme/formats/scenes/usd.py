@@ -14,9 +14,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.errors import MissingDependencyError
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
@@ -32,8 +32,6 @@ from kineme.formats.scenes.characters import SceneNode, character_of, choose_tak
 from kineme.formats.scenes.usd_writer import END_SITES, write_usd
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
-
-Floats = NDArray[np.float64]
 
 CENTIMETRE = 0.01
 """Metres: the unit of stages that tell none."""

@@ -14,16 +14,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, WriteError
 from kineme.formats.files import spelled, unique
 from kineme.formats.gaps import warn_of_gaps
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
-
-Floats = NDArray[np.float64]
 
 END_SITES = "kineme:endSites"
 

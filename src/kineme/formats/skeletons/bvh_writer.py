@@ -16,12 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.errors import WriteError
 from kineme.formats.files import save, spelled, table
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
-
-Floats = NDArray[np.float64]
 
 UNIT = 0.01
 RIGID = 1e-9

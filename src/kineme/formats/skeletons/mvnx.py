@@ -16,9 +16,9 @@ from dataclasses import dataclass, field
 from xml.etree import ElementTree as ET
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme._counts import listed
 from kineme._xml import NoEntities
 from kineme.errors import SeveralPeopleError
@@ -27,8 +27,6 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.placing import place
 from kineme.recordings import Motion, Skeleton
-
-Floats = NDArray[np.float64]
 
 KINDS = ("position", "orientation")
 """What is read of a frame."""
