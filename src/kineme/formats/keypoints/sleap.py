@@ -11,7 +11,6 @@ for each animal in a frame.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -56,11 +55,6 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
     return video_to_motion(content, video, options)
 
 
-def is_sleap(names: Sequence[str]) -> bool:
-    """Whether columns of these names are SLEAP's."""
-    return "frame_idx" in names and any(name.endswith(".score") for name in names)
-
-
 def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
     """The motion of one animal in a table of SLEAP's."""
     names, content = list(table.names), table.content
@@ -100,4 +94,8 @@ def _arranged(
 
 
 FORMAT = Format("SLEAP", (".h5", ".hdf5"), lambda head: head.startswith(SIGNATURE), read_sleap)
-DIALECT = Dialect("SLEAP", lambda names, _: is_sleap(names), read_sleap_table)
+DIALECT = Dialect(
+    "SLEAP",
+    lambda names, _: "frame_idx" in names and any(name.endswith(".score") for name in names),
+    read_sleap_table,
+)

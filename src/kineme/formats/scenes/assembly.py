@@ -26,7 +26,7 @@ import numpy as np
 from kineme import _rotations as rot
 from kineme._arrays import Floats
 from kineme.formats.files import MOST_EXPANSION, FileContent, unique
-from kineme.formats.scenes.characters import SceneNode
+from kineme.formats.scenes.characters import SceneNode, carriers
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks
 from kineme.recordings import Motion, Provenance, Skeleton
@@ -104,7 +104,7 @@ def assemble(
     """
     number_of = {node: j for j, node in enumerate(joints)}
     parents = [number_of.get(nodes[node].parent, -1) for node in joints]
-    above = _above(nodes, joints[0])
+    above = carriers(nodes, joints[0])[::-1]  # topmost first
     found = _scaled(above, joints, parents, transform, n_frames, turn)
     if found is None:
         found = _multiplied(above, joints, parents, transform, n_frames, turn)
@@ -123,14 +123,6 @@ def assemble(
     names = tuple(unique(nodes[node].name for node in joints))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
     return place(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
-
-
-def _above(nodes: Sequence[SceneNode], node: int) -> list[int]:
-    """The nodes that carry this one, topmost first."""
-    found = []
-    while (node := nodes[node].parent) >= 0:
-        found.append(node)
-    return found[::-1]
 
 
 def _scaled(

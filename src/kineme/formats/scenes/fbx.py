@@ -19,7 +19,7 @@ from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames, quaternions
-from kineme.formats.scenes.characters import character_of, choose_take
+from kineme.formats.scenes.characters import character_of, choose_take, lively_takes
 from kineme.formats.scenes.fbx_curves import SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx
 from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
@@ -56,13 +56,9 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     version, root = parse_fbx(content)
     scene = FBXScene(content, root)
     moved = [scene.moved(take) for take in scene.takes]
-    lively = [
-        number
-        for number, models in enumerate(moved)
-        if models & scene.bones or (models and not scene.bones)
-    ]
+    animated = lively_takes(moved, scene.bones)
     names = unique(take.name for take in scene.takes)
-    number, notes = choose_take(content, names, lively, options.take)
+    number, notes = choose_take(content, names, animated, options.take)
     take, nodes = scene.takes[number], scene.nodes(moved[number])
     character = character_of(content, nodes, options.person)
     joints = [scene.models[j].number for j in character.joints]
@@ -80,7 +76,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         unit=options.unit or _unit(scene),
         turn=turn,
         provenance=content.provenance("FBX", [*notes, *rated, *turned])
-        .of_take(names[number], (names[each] for each in lively))
+        .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
     )
 

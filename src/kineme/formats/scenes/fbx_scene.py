@@ -287,7 +287,7 @@ class Pose:
                 layer = _euler(value, order)
                 if _replaces(properties):
                     layer = rot.multiply(rot.conjugate(turn), layer)
-                turn = rot.multiply(turn, _share_of(layer, weight))
+                turn = rot.multiply(turn, rot.exponential(weight * rot.logarithm(layer)))
         return _euler(angles, order) if turn is None else turn
 
     def _values(self, model: Model, what: str, usual: float) -> Floats:
@@ -346,15 +346,6 @@ class Pose:
 def _replaces(properties: Properties) -> bool:
     """Whether a layer takes the place of what is below it, to its share, and is not added."""
     return _choice(properties, "BlendMode", 3) == _PASS_THROUGH
-
-
-def _share_of(turn: Floats, weight: Floats | float) -> Floats:
-    """A rotation so large a share as far, along the shorter arc."""
-    turn = np.where(turn[..., :1] < 0, -turn, turn)
-    norm = np.linalg.norm(turn[..., 1:], axis=-1, keepdims=True)
-    angle = np.arctan2(norm, turn[..., :1]) * weight
-    axis = turn[..., 1:] / np.maximum(norm, 1e-300) + 0 * angle
-    return np.asarray(np.concatenate([np.cos(angle), np.sin(angle) * axis], axis=-1), np.float64)
 
 
 def _euler(angles: Floats, axes: str) -> Floats:
