@@ -154,21 +154,8 @@ def write_clips(
 ) -> list[Path]:
     """Write segments of several recordings as clips in one folder; for each clip its file.
 
-    Parameters
-    ----------
-    clips : iterable of (Motion or Signals, sequence of Segment)
-        Gone through once, so that one recording at a time needs memory.
-    folder : str or PathLike
-        To be made; one that is there must be empty.
-    loops, format, best, in_place, straight, mirror, close
-        As for `split`. Loops are ranked among those of their recording.
-
-    Raises
-    ------
-    ParameterError
-        Loops or a format of signals, no format of that suffix, or the best of what is no loop.
-    WriteError
-        The folder is not empty, or cannot be written.
+    They are gone through once, so that one recording at a time needs memory. The rest is as for
+    `split`; loops are ranked among those of their recording.
     """
     target, chosen = Path(folder), _format(format)
     shape = _shape(loops, best, in_place, straight, mirror, close)

@@ -66,14 +66,9 @@ class Evaluated:
 
 @dataclass(frozen=True)
 class FolderScores:
-    """What the methods scored on a folder.
+    """What each method scored on the recordings of a folder, in the order of the files.
 
-    Parameters
-    ----------
-    methods : Mapping of str to sequence of Evaluated
-        Per method one for each recording, in the order of the files.
-    mapping : {"recording", "folder"}
-        Whose mapping of clusters to classes it is.
+    Clusters were mapped to classes for each recording, or at once for the folder.
     """
 
     methods: Mapping[str, Sequence[Evaluated]]

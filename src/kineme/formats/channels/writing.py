@@ -46,18 +46,7 @@ def write_signals(
 ) -> None:
     """Leave signals in a file of their own format, a CSV, TSV or Parquet, whole or not at all.
 
-    Parameters
-    ----------
-    signals : Signals
-    path : str or PathLike
-        The suffix tells the format.
-    columns : sequence of str, optional
-        Write these alone, and the columns of times; by default all that the file has.
-
-    Raises
-    ------
-    WriteError
-        Another suffix, or a place that cannot be written.
+    Of columns that are given, these alone and those of times.
     """
     target, rows = Path(path), rows_of(signals)
     suffix = target.suffix.lower()

@@ -83,24 +83,11 @@ def assemble(
     turn: Floats,
     provenance: Provenance,
 ) -> Motion:
-    """The motion of a character.
+    """The motion of a character, whose joints are nodes, parents first.
 
-    Parameters
-    ----------
-    content : FileContent
-        Let go once all transforms are known.
-    nodes : sequence of SceneNode
-    joints : sequence of int
-        The character's nodes, parents first.
-    transform : callable
-        From the number of a node to its transform.
-    n_frames : int
-    fps : float
-    unit : str or float
-        Of the scene's lengths.
-    turn : ndarray of shape (4,)
-        The rotation of the scene's axes to those with y up.
-    provenance : Provenance
+    ``transform`` has the transform of a node by its number; ``unit`` is that of the scene's
+    lengths, ``turn`` the rotation of its axes to those with y up. The content is let go once all
+    transforms are known.
     """
     number_of = {node: j for j, node in enumerate(joints)}
     parents = [number_of.get(nodes[node].parent, -1) for node in joints]

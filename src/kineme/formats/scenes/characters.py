@@ -58,18 +58,9 @@ class SceneNode:
 
 @dataclass(frozen=True)
 class Character:
-    """A skeleton in a scene.
+    """A skeleton in a scene: its nodes, parents first, so that the root is the first one.
 
-    Parameters
-    ----------
-    joints : list of int
-        Nodes, parents first; the root is the first one.
-    notes : list of str
-        What was left out.
-    name : str
-        Who it is.
-    people : sequence of str
-        Those who could have been.
+    The notes say what was left out; the name, who it is of the people who could have been.
     """
 
     joints: list[int]
@@ -79,15 +70,7 @@ class Character:
 
 
 def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str | None) -> Character:
-    """The only skeleton that moves, or the one of the person wanted.
-
-    Raises
-    ------
-    ReadError
-        The scene has no skeleton.
-    SeveralPeopleError
-        It has several and none was chosen, or none of this name.
-    """
+    """The only skeleton that moves, or the one of the person wanted."""
     skeletons = _skeletons(nodes)
     if not skeletons:
         raise content.error(
@@ -127,19 +110,7 @@ def choose_take(
 ) -> tuple[int, list[str]]:
     """The number of the animation that is read, by name or number, and what to say of it.
 
-    Parameters
-    ----------
-    content : FileContent
-    names : sequence of str
-        Of all animations, each once.
-    lively : sequence of int
-        Those that move a skeleton: the first of them is read where none is wanted.
-    name : str, optional
-
-    Raises
-    ------
-    ReadError
-        None moves a skeleton, or none of this name is there.
+    Where none is wanted, it is the first of the lively ones, which move a skeleton.
     """
     if name is not None:
         number = _numbered(names, name)
@@ -177,12 +148,7 @@ def _numbered(names: Sequence[str], name: str) -> int | None:
 def bones_of(parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]) -> list[bool]:
     """Which nodes are joints: bones, what is between two of them, and free ends below.
 
-    Parameters
-    ----------
-    parents : sequence of int
-    bones : sequence of bool
-    free : sequence of bool
-        Whether a node carries no geometry.
+    A node is free if it carries no geometry.
     """
     joints = list(bones)
     above = [False] * len(parents)  # a bone is somewhere above

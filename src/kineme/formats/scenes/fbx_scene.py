@@ -55,15 +55,9 @@ Properties = dict[str, list[object]]
 
 @dataclass(frozen=True)
 class Take:
-    """An animation stack.
+    """An animation stack: the numbers of its layers, the base first, and ticks of both ends.
 
-    Parameters
-    ----------
-    name : str
-    layers : list of int
-        Their numbers, the base first.
-    start, stop : float
-        Ticks of the first and last frame; both 0 where the file does not say.
+    These are 0 where the file does not say.
     """
 
     name: str
@@ -84,14 +78,7 @@ class Model:
 
 
 class FBXScene:
-    """Models, takes and settings of a file.
-
-    Parameters
-    ----------
-    content : FileContent
-    root : FBXNode
-        Its nodes.
-    """
+    """Models, takes and settings of a file."""
 
     def __init__(self, content: FileContent, root: FBXNode) -> None:
         self.content = content
@@ -241,14 +228,7 @@ class FBXScene:
 
 
 class Pose:
-    """The transforms of models at the frames of a take.
-
-    Parameters
-    ----------
-    scene : FBXScene
-    take : Take
-    sampler : Sampler
-    """
+    """The transforms of models at the frames of a take."""
 
     def __init__(self, scene: FBXScene, take: Take, sampler: Sampler) -> None:
         self.scene, self.sampler = scene, sampler

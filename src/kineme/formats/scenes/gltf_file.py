@@ -136,17 +136,7 @@ class Tree(Struct, rename="camel"):
 
 
 class GLTFFile:
-    """What a file holds.
-
-    Parameters
-    ----------
-    content : FileContent
-
-    Raises
-    ------
-    ReadError
-        It is no glTF 2.0.
-    """
+    """What a file holds."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
@@ -168,13 +158,7 @@ class GLTFFile:
         return parts[number]
 
     def array(self, number: int) -> Floats:
-        """The numbers of an accessor, (elements, numbers of each).
-
-        Raises
-        ------
-        ReadError
-            It is not there, is longer than its buffer, or is packed in a way that is not read.
-        """
+        """The numbers of an accessor, (elements, numbers of each)."""
         accessor = self.part(self.tree.accessors, number, "accessor")
         code, width = COMPONENTS.get(accessor.component_type), WIDTHS.get(accessor.type)
         if code is None or width is None:

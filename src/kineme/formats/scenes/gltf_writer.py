@@ -57,19 +57,9 @@ def write_gltf(motion: Motion, path: Path) -> None:
 
 
 def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
-    """Leave motions of one skeleton in a file, each as an animation of its name.
+    """Leave motions of one skeleton, one at least, in a file, each as an animation of its name.
 
-    Parameters
-    ----------
-    motions : mapping of str to Motion
-        At least one.
-    path : Path
-        ``.glb``, or ``.gltf`` with its buffer in it.
-
-    Raises
-    ------
-    WriteError
-        A motion has no rotations, or another skeleton than the first.
+    A ``.gltf`` has its buffer in it.
     """
     first = next(iter(motions.values()))
     turns = {name: rotations_of(motion, path, "a glTF") for name, motion in motions.items()}

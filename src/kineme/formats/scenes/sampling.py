@@ -11,14 +11,8 @@ from kineme._arrays import Floats
 def between(times: Floats, at: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:
     """The key before each frame, and the share of the interval to the next that has passed.
 
-    Parameters
-    ----------
-    times : ndarray of shape (keys,)
-        Ascending, at least two.
-    at : ndarray of shape (frames,)
-        Before the first key and after the last one the shares are 0 and 1.
-    slack : float
-        By which a key may miss the frame that it was made for.
+    Before the first key and after the last one the shares are 0 and 1; by the slack a key may
+    miss the frame that it was made for.
     """
     found = np.searchsorted(times, at + slack, "right") - 1
     index = np.clip(found, 0, len(times) - 2)
