@@ -68,8 +68,11 @@ def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
         raise ReadError(path, "is not valid JSON, or is cut short", line=line) from error
     if fault := fault_of(found):
         raise ReadError(path, fault)
-    if shape is Any:
-        return found
+    return found if shape is Any else shaped(found, path, shape)
+
+
+def shaped(found: Any, path: AnyPath, shape: type[Shape]) -> Shape:
+    """What JSON holds, in a shape that msgspec knows; ReadError where it is of another one."""
     import msgspec  # which `import kineme` does without
 
     try:
