@@ -73,14 +73,22 @@ def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
 
 def shaped(found: Any, path: AnyPath, shape: type[Shape]) -> Shape:
     """What JSON holds, in a shape that msgspec knows; ReadError where it is of another one."""
+    try:
+        return converted(found, shape)
+    except ValueError as error:
+        raise ReadError(path, f"is not as it was written: {error}") from error
+
+
+def converted(found: Any, shape: type[Shape]) -> Shape:
+    """The same as `shaped`, with a ValueError that says in words what is of another shape."""
     import msgspec  # which `import kineme` does without
 
     try:
         return msgspec.convert(found, shape, str_keys=True)  # as JSON has them
     except msgspec.ValidationError as error:
-        raise ReadError(path, f"is not as it was written: {sentence(str(error))}") from error
+        raise ValueError(sentence(str(error))) from error
     except ValueError as error:  # half of a pair of surrogates for a name
-        raise ReadError(path, "is not as it was written: a name is no text") from error
+        raise ValueError("a name is no text") from error
 
 
 def sentence(problem: str, everything: str = "the whole of it") -> str:

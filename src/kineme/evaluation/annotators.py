@@ -32,7 +32,7 @@ from kineme.evaluation.borders import border_score
 from kineme.evaluation.comparison import Comparison, Spans, best_mapping, runs
 from kineme.evaluation.frames import cohen_kappa
 from kineme.evaluation.inputs import comparison, truth_of
-from kineme.evaluation.tables import finite
+from kineme.evaluation.tables import finite, plain
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 from kineme.segments.segmentation import Segmentation
 
@@ -153,11 +153,8 @@ class AnnotatorAgreement:
             "kineme": __version__,
             "annotators": self.annotators,
             "by": self.by,
-            "fleiss_kappa": finite(self.fleiss_kappa),
-            "pairs": [
-                {name: finite(value) for name, value in pair._asdict().items()}
-                for pair in self.pairs
-            ],
+            "fleiss_kappa": self.fleiss_kappa,
+            "pairs": [plain(pair._asdict()) for pair in self.pairs],
             "recordings": [
                 {
                     "recording": one.recording,
@@ -168,7 +165,7 @@ class AnnotatorAgreement:
                 for one in self.recordings
             ],
         }
-        return json.dumps(content, ensure_ascii=False)
+        return json.dumps(plain(content), ensure_ascii=False)
 
 
 def fleiss_kappa(counts: ArrayLike) -> float:

@@ -23,8 +23,9 @@ from typing import Any
 
 import numpy as np
 
+from kineme._checks import needed
 from kineme._files import atomic_write
-from kineme.errors import MissingDependencyError, ReadError, WriteError
+from kineme.errors import ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.reading import ChannelTable, text_channels
 from kineme.formats.delimited import as_text, dotted, named
@@ -162,10 +163,8 @@ class _ParquetRows:
     @classmethod
     def of_values(cls, signals: Signals) -> _ParquetRows:
         """Times and channels, null in gaps."""
-        try:
+        with needed("pyarrow", "tables"):
             import pyarrow as pa
-        except ImportError as error:
-            raise MissingDependencyError("pyarrow", "tables") from error
         missing = covered(signals.gaps, signals.n_frames)
         rate = {RATE: pa.array([signals.fps])} if signals.n_frames < 2 else {}
         columns = {**rate, "time": pa.array(signals.times)} | {

@@ -17,7 +17,7 @@ import numpy as np
 
 from kineme import _rotations as rot
 from kineme._arrays import Floats
-from kineme.errors import MissingDependencyError
+from kineme._checks import needed
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -44,10 +44,8 @@ _MOST_FRAMES = 1e12
 
 def read_usd(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of a skeleton in a USD file."""
-    try:
+    with needed("usd-core", "usd"):
         from pxr import Tf
-    except ImportError as error:
-        raise MissingDependencyError("usd-core", "usd") from error
     try:
         return _read(content, options)
     except Tf.ErrorException as error:

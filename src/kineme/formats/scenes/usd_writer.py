@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 
 from kineme._arrays import Floats
+from kineme._checks import needed
 from kineme._files import atomic_write
-from kineme.errors import MissingDependencyError, WriteError
+from kineme.errors import WriteError
 from kineme.formats.files import rotations_of, spelled, unique
 from kineme.formats.gaps import warn_of_gaps
 from kineme.recordings import Motion
@@ -29,10 +30,8 @@ END_SITES = "kineme:endSites"
 def write_usd(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in a USD file."""
     rotations = rotations_of(motion, path, "a USD")
-    try:
+    with needed("usd-core", "usd"):
         from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
-    except ImportError as error:
-        raise MissingDependencyError("usd-core", "usd") from error
     warn_of_gaps([motion], path)
     skeleton = motion.skeleton
     names = spelled(path, skeleton.names, str.strip)
