@@ -68,11 +68,8 @@ def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
         raise ReadError(path, "is not valid JSON, or is cut short", line=line) from error
     if fault := fault_of(found):
         raise ReadError(path, fault)
-    return found if shape is Any else shaped(found, path, shape)
-
-
-def shaped(found: Any, path: AnyPath, shape: type[Shape]) -> Shape:
-    """What JSON holds, in a shape that msgspec knows; ReadError where it is of another one."""
+    if shape is Any:
+        return found
     try:
         return converted(found, shape)
     except ValueError as error:
@@ -80,7 +77,7 @@ def shaped(found: Any, path: AnyPath, shape: type[Shape]) -> Shape:
 
 
 def converted(found: Any, shape: type[Shape]) -> Shape:
-    """The same as `shaped`, with a ValueError that says in words what is of another shape."""
+    """What JSON holds, in a shape that msgspec knows; ValueError in words where it has another."""
     import msgspec  # which `import kineme` does without
 
     try:

@@ -28,7 +28,7 @@ from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write, reading
-from kineme._json import loaded, shaped
+from kineme._json import converted, loaded
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import read_motion
 from kineme.recordings import Motion
@@ -115,14 +115,11 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
         raise ReadError(path, "is not a motion graph: make one with kineme graph FILES")
     if schema != SCHEMA:
         raise ReadError(path, f"has schema {schema!r}, but this version reads {SCHEMA!r}")
-    graph = shaped(data, path, MotionGraph)
-    for name, kind in (("sources", Source), ("nodes", Node), ("edges", Edge)):
-        needed = {field.name for field in fields(kind)}
-        if any(not needed <= row.keys() for row in data[name]):
-            raise ReadError(path, f"lacks a part of its {name}: build it anew with kineme graph")
-    for part, sound in _sound(graph):
-        if not sound:
-            raise ReadError(path, f"is damaged ({part!s:.120}): build it anew with kineme graph")
+    try:
+        graph = _graph(data)
+    except ValueError as error:
+        reason = f"is damaged ({error!s:.120}): build it anew with kineme graph"
+        raise ReadError(path, reason) from error
     return replace(graph, sources=tuple(_at_home(source, home) for source in graph.sources))
 
 
@@ -181,6 +178,25 @@ def _relative(path: str, folder: Path) -> str:
         return Path(os.path.relpath(path, folder)).as_posix()
     except ValueError:  # another drive
         return str(Path(path).absolute())
+
+
+def _graph(data: dict[str, Any]) -> MotionGraph:
+    """What a file holds; ValueError where parts are missing, or cannot be of its recordings."""
+    _check_complete(data, MotionGraph)
+    graph = converted(data, MotionGraph)
+    for name, kind in (("sources", Source), ("nodes", Node), ("edges", Edge)):
+        for row in data[name]:
+            _check_complete(row, kind)
+    for part, sound in _sound(graph):
+        if not sound:
+            raise ValueError(str(part))
+    return graph
+
+
+def _check_complete(row: dict[str, Any], kind: Any) -> None:
+    for field in fields(kind):
+        if field.name not in row:
+            raise ValueError(f"no {field.name!r}")
 
 
 def _at_home(source: Source, folder: Path) -> Source:
