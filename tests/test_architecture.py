@@ -114,6 +114,7 @@ ROOMS = {
 }
 # Helpers beside the rooms: what each may import; any room may import them.
 HELPERS = {
+    "_arrays": set(),
     "_checks": {"errors"},
     "_clock": {"_checks", "errors"},
     "_colors": set(),

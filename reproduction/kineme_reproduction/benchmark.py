@@ -25,6 +25,7 @@ from typing import Any, Literal, TypedDict
 
 import numpy as np
 
+from kineme._arrays import Ints
 from kineme._json import loaded
 from kineme.errors import ReadError
 from kineme.evaluation.comparison import Comparison
@@ -32,7 +33,7 @@ from kineme.evaluation.frames import one_to_one_accuracy
 from kineme.evaluation.published import strict_and_tolerant
 from kineme.evaluation.recordings import check_method, segment_by
 from kineme.evaluation.score import evaluate_segmentation
-from kineme.evaluation.truth import TRANSITION, Ints, Labelling, Truth
+from kineme.evaluation.truth import TRANSITION, Labelling, Truth
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
 from kineme.segments.segmentation import Segmentation

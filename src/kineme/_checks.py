@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
 from numbers import Real
 from operator import index
 from os import PathLike
@@ -12,10 +13,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme.errors import MotionError, ParameterError
+from kineme.errors import MissingDependencyError, MotionError, ParameterError
 
 MOST_FRAMES_MORE = 1000
 """Frames at a new rate for one of the old, at most; beyond that the old one is wrong."""
+
+
+@contextmanager
+def needed(package: str, extra: str) -> Iterator[None]:
+    """MissingDependencyError where the imports in it fail; the extra installs the package."""
+    try:
+        yield
+    except ImportError as error:
+        raise MissingDependencyError(package, extra) from error
 
 
 def check_rates(old: float, new: float) -> None:

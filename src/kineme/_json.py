@@ -70,14 +70,22 @@ def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
         raise ReadError(path, fault)
     if shape is Any:
         return found
+    try:
+        return converted(found, shape)
+    except ValueError as error:
+        raise ReadError(path, f"is not as it was written: {error}") from error
+
+
+def converted(found: Any, shape: type[Shape]) -> Shape:
+    """What JSON holds, in a shape that msgspec knows; ValueError in words where it has another."""
     import msgspec  # which `import kineme` does without
 
     try:
         return msgspec.convert(found, shape, str_keys=True)  # as JSON has them
     except msgspec.ValidationError as error:
-        raise ReadError(path, f"is not as it was written: {sentence(str(error))}") from error
+        raise ValueError(sentence(str(error))) from error
     except ValueError as error:  # half of a pair of surrogates for a name
-        raise ReadError(path, "is not as it was written: a name is no text") from error
+        raise ValueError("a name is no text") from error
 
 
 def sentence(problem: str, everything: str = "the whole of it") -> str:

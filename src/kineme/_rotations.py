@@ -10,7 +10,7 @@ fastest.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float64]
 
@@ -93,6 +93,33 @@ def to_euler_zyx(q: Floats) -> Floats:
         cos * (1 - 2 * (x * x + z * z)) - sin * 2 * (x * y - w * z),
     )
     return join(about_z, about_y, about_x)
+
+
+def about_y(angle: ArrayLike) -> Floats:
+    """Rotations about the vertical, by angles in radians."""
+    half = np.asarray(angle, np.float64) / 2
+    still = np.zeros_like(half)
+    return join(np.cos(half), still, np.sin(half), still)
+
+
+def logarithm(q: Floats) -> Floats:
+    """Rotations as vectors: axis times radians, along the shorter arc."""
+    q = np.where(q[..., :1] < 0, -q, q)
+    norm = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
+    angle = 2 * np.arctan2(norm, q[..., :1])
+    vectors: Floats = q[..., 1:] * np.where(norm > 0, angle / np.maximum(norm, 1e-300), 2.0)
+    return vectors
+
+
+def exponential(vectors: Floats) -> Floats:
+    """The inverse of `logarithm`."""
+    half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2
+    return np.concatenate([np.cos(half), vectors * np.sinc(half / np.pi) / 2], axis=-1)
+
+
+def between(a: Floats, b: Floats, share: Floats) -> Floats:
+    """So large a share of the way from rotations ``a`` to ``b``, along the shorter arc."""
+    return multiply(a, exponential(share * logarithm(multiply(conjugate(a), b))))
 
 
 def normalized(q: Floats) -> Floats:

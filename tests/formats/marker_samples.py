@@ -7,26 +7,6 @@ from typing import Any
 import numpy as np
 
 INTEL, DEC, MIPS = 84, 85, 86
-PLUG_IN_GAIT = [
-    "LASI",
-    "RASI",
-    "LPSI",
-    "RPSI",
-    "LANK",
-    "RANK",
-    "LFHD",
-    "RFHD",
-    "LBHD",
-    "RBHD",
-    "LWRA",
-    "LWRB",
-    "RWRA",
-    "RWRB",
-    "C7",
-    "T10",
-    "STRN",
-    "LKNE",
-]
 _AT = {
     "LASI": (0.1, 1.0, 0.1),
     "RASI": (-0.1, 1.0, 0.1),
@@ -47,12 +27,13 @@ _AT = {
     "STRN": (0, 1.3, 0.1),
     "LKNE": (0.1, 0.5, 0.05),
 }
+PLUG_IN_GAIT = [*_AT]
 
 
 def walking(frames: int = 60, fps: float = 100.0) -> np.ndarray:
     """(frames, markers of `PLUG_IN_GAIT`, 3): metres, y up, facing z, moving ahead."""
     t = np.arange(frames)[:, None] / fps
-    points = np.repeat(np.array([_AT[name] for name in PLUG_IN_GAIT])[None], frames, axis=0)
+    points = np.repeat(np.array([*_AT.values()])[None], frames, axis=0)
     phase = np.array([(-1) ** name.startswith("R") for name in PLUG_IN_GAIT])
     swing = np.array([0.3 * (name[1:] in ("ANK", "WRA", "WRB")) for name in PLUG_IN_GAIT])
     points[:, :, 2] += t + swing * phase * np.sin(2 * np.pi * t)

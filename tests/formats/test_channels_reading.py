@@ -424,18 +424,6 @@ def test_a_body_in_a_mat_file_is_told_from_sensors(tmp_path) -> None:
     assert isinstance(read(tmp_path / "body.mat", columns=["hip_1"]), Signals)
 
 
-@given(st.binary(max_size=200), st.sampled_from([".csv", ".txt", ".mot", ".parquet", ".c3d"]))
-@settings(max_examples=60)
-def test_anything_else_is_one_clear_error(tmp_path_factory, data, suffix) -> None:
-    path = tmp_path_factory.getbasetemp() / f"fuzz{suffix}"
-    path.write_bytes(data)
-    try:
-        with warnings.catch_warnings(action="ignore", category=KinemeWarning):
-            read(path, fps=50)
-    except FileError as error:
-        assert str(path) in str(error)
-
-
 @given(st.text(alphabet="ab,;\t\n 0123456789.-#\"'xyz", max_size=60))
 @settings(max_examples=60)
 def test_odd_tables_are_read_or_refused(tmp_path_factory, text) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import tempfile
-import warnings
 import zipfile
 from pathlib import Path
 
@@ -16,7 +15,7 @@ from hypothesis import strategies as st
 from marker_samples import PLUG_IN_GAIT, walking
 
 import kineme
-from kineme.errors import KinemeError, KinemeWarning, ReadError
+from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read_motion
 from kineme.formats.arrays.amass import smpl_skeleton
 from kineme.formats.marker_sets import TABLE, find_body, plain
@@ -413,70 +412,6 @@ def test_each_line_of_the_marker_table_can_be_reached() -> None:
         for i, line in enumerate(lines):
             wanted = set(line.split())
             assert not any(set(before.split()) <= wanted for before in lines[:i]), line
-
-
-def spoilt(draw, sound: bytes) -> bytes:
-    data = bytearray(sound)
-    for _ in range(draw(st.integers(1, 4))):
-        start = draw(st.integers(0, len(data)))
-        stop = min(len(data), start + draw(st.integers(0, 30)))
-        text = st.sampled_from([b"nan", b"1e999", b"1e308", b",", b"\t", b"\n", b'"', b"-", b"\0"])
-        data[start:stop] = draw(st.one_of(st.binary(max_size=6), text, st.just(b"")))
-    return bytes(data[: draw(st.one_of(st.just(len(data)), st.integers(0, len(data))))])
-
-
-def _npz(compressed: bool, **arrays) -> bytes:
-    file = io.BytesIO()
-    (np.savez_compressed if compressed else np.savez)(file, **arrays)
-    return file.getvalue()
-
-
-def _npy() -> bytes:
-    file = io.BytesIO()
-    np.save(file, body(4))
-    return file.getvalue()
-
-
-SOUND = {
-    "a.csv": table(body(4), time=TIMES).encode(),
-    "b.csv": b"Trajectories\n100\n,,A,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2,3\n2,0,1,2,4\n",
-    "a.trc": TRC.encode(),
-    "a.npy": _npy(),
-    "a.npz": _npz(False, positions=body(4), fps=30.0, names=np.array(JOINTS)),
-    "b.npz": _npz(True, poses=np.zeros((3, 72)), trans=np.zeros((3, 3)), fps=30.0),
-    "a.mot": b"Coordinates\nendheader\ntime a b\n0 1 2\n",
-}
-
-
-@settings(max_examples=60)
-@given(st.data())
-def test_nothing_raises_anything_else(data: st.DataObject) -> None:
-    name = data.draw(st.sampled_from(sorted(SOUND)))
-    content = spoilt(data.draw, SOUND[name])
-    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
-        warnings.simplefilter("error")
-        warnings.simplefilter("ignore", KinemeWarning)
-        try:
-            assert read(Path(folder), name, content, fps=30).n_frames > 0
-        except KinemeError as error:
-            assert "\n" not in str(error)
-
-
-@settings(max_examples=60)
-@given(st.data())
-def test_damaged_parquet(data: st.DataObject) -> None:
-    pa = pytest.importorskip("pyarrow")
-    from pyarrow import parquet
-
-    file = io.BytesIO()
-    parquet.write_table(pa.table({"a_x": [1.0], "a_y": [1.0], "a_z": [1.0]}), file)
-    content = spoilt(data.draw, file.getvalue())
-    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
-        warnings.simplefilter("ignore", KinemeWarning)
-        try:
-            read(Path(folder), "a.parquet", content, fps=30)
-        except KinemeError as error:
-            assert "\n" not in str(error)
 
 
 @pytest.mark.parametrize("name", ["subject01_walk.trc", "markers.trc"])

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import csv
 import json
-from contextlib import suppress
 from pathlib import Path
 
 import pandas as pd
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from pyarrow import parquet
 
@@ -202,22 +201,6 @@ def test_a_foreign_file_is_one_read_error(tmp_path: Path, suffix: str, content: 
         read_segments(path)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize("suffix", SUFFIXES)
-@settings(max_examples=60)
-@given(data=st.data())
-def test_a_damaged_file_is_read_or_refused(folder: Path, suffix: str, data: st.DataObject) -> None:
-    path = folder / f"damaged{suffix}"
-    write_segments(data.draw(segmentations()), path)
-    content = bytearray(path.read_bytes())
-    for _ in range(data.draw(st.integers(1, 3))):
-        at = data.draw(st.integers(0, len(content) - 1))
-        content[at : at + data.draw(st.integers(0, 40))] = data.draw(st.binary(max_size=4))
-        content = content or bytearray(b"\0")
-    path.write_bytes(content)
-    with suppress(ReadError):
-        read_segments(path)
 
 
 @pytest.mark.parametrize(

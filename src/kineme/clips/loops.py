@@ -28,10 +28,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import forward_kinematics, local_translations
-
-Floats = NDArray[np.float64]
 
 NEAR_S = 0.035
 """Seconds of a clip that tell how it ends and begins."""
@@ -56,7 +55,7 @@ class Carry:
     @property
     def rotation(self) -> Floats:
         """The turn as a quaternion."""
-        return np.array([cos(self.turn / 2), 0.0, sin(self.turn / 2), 0.0])
+        return rot.about_y(self.turn)
 
     @property
     def shift(self) -> Floats:
@@ -146,16 +145,16 @@ def _closed_rotations(
 ) -> Floats:
     """Each rotation turned by what is added to it, in its own frame."""
     first, last = rotations[0], rotations[-1]
-    before, _ = seam_sides(_logarithm(rot.multiply(rot.conjugate(last), rotations)), fps)
-    _, after = seam_sides(_logarithm(rot.multiply(rot.conjugate(first), rotations)), fps)
+    before, _ = seam_sides(rot.logarithm(rot.multiply(rot.conjugate(last), rotations)), fps)
+    _, after = seam_sides(rot.logarithm(rot.multiply(rot.conjugate(first), rotations)), fps)
     ahead = np.array(first)
     ahead[roots] = rot.multiply(carry.rotation, ahead[roots])
-    left = rot.multiply(last, _exponential(before[0]))
-    right = rot.multiply(ahead, _exponential(after[0]))
+    left = rot.multiply(last, rot.exponential(before[0]))
+    right = rot.multiply(ahead, rot.exponential(after[0]))
     gaps = after - before
-    gaps[0] = _logarithm(rot.multiply(rot.conjugate(left), right))
+    gaps[0] = rot.logarithm(rot.multiply(rot.conjugate(left), right))
     added = np.tensordot(_shares(len(rotations), fps), gaps, axes=1)
-    return rot.normalized(rot.multiply(rotations, _exponential(added)))
+    return rot.normalized(rot.multiply(rotations, rot.exponential(added)))
 
 
 def _closed_places(places: Floats, fps: float, carry: Carry, free: NDArray[np.bool_]) -> Floats:
@@ -170,7 +169,7 @@ def _closed_places(places: Floats, fps: float, carry: Carry, free: NDArray[np.bo
     added = np.tensordot(shares, after - before, axes=1)
     turns = np.zeros((len(places), 1, 3))
     turns[:, 0, 1] = carry.turn * (shares[:, 0] - 0.5)
-    added[:, free] = rot.rotate(_exponential(turns), added[:, free])
+    added[:, free] = rot.rotate(rot.exponential(turns), added[:, free])
     closed: Floats = places + added
     return closed
 
@@ -193,18 +192,3 @@ def _shares(n: int, fps: float) -> Floats:
         ],
         axis=1,
     )
-
-
-def _logarithm(q: Floats) -> Floats:
-    """Turns as vectors: axis times radians, along the shorter arc."""
-    q = np.where(q[..., :1] < 0, -q, q)
-    norm = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
-    angle = 2 * np.arctan2(norm, q[..., :1])
-    vectors: Floats = q[..., 1:] * np.where(norm > 0, angle / np.maximum(norm, 1e-300), 2.0)
-    return vectors
-
-
-def _exponential(vectors: Floats) -> Floats:
-    """The inverse of `_logarithm`."""
-    half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2
-    return np.concatenate([np.cos(half), vectors * np.sinc(half / np.pi) / 2], axis=-1)

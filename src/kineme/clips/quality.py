@@ -20,12 +20,9 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats, Masks
 from kineme.clips.loops import Carry, seam_sides
-
-Floats = NDArray[np.float64]
-Masks = NDArray[np.bool_]
 
 USUAL = 95.0
 """Per cent of the steps of a recording that are as large as its usual large ones, at most."""
@@ -90,22 +87,11 @@ def loop_quality(
     feet: Sequence[tuple[Sequence[int], Masks]] = (),
     unlike: float = math.nan,
 ) -> LoopQuality:
-    """The quality of a loop, from positions alone.
+    """The quality of a loop, from positions of the clip and of the loop alone, metres with y up.
 
-    Parameters
-    ----------
-    before, after : (frames, joints, 3) array
-        Positions of the clip and of the loop, metres, y up; two frames at least.
-    carry : Carry
-        What carries one round to the next.
-    fps : float
-        Frames per second.
-    usual : (float, float)
-        `usual_steps` of the recording.
-    feet : sequence of (joints, (frames,) array of bool)
-        Points of each foot, and when it is planted.
-    unlike : float
-        As `distances` has it.
+    ``carry`` takes one round to the next; ``usual`` are the `usual_steps` of the recording;
+    ``feet`` has the points of each foot and when it is planted; ``unlike`` is as `distances` has
+    it.
     """
     end, start = seam_sides(before, fps)
     turned = Carry(carry.turn, 0.0, 0.0)

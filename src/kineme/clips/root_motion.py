@@ -15,15 +15,13 @@ from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.clips.loops import Carry
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import heading
 from kineme.recordings import Motion
-
-Floats = NDArray[np.float64]
 
 STILL = 1e-9
 """Radians a round below which a path is a line."""
@@ -97,8 +95,7 @@ def _on_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
 
 def _turned(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> Motion:
     """Each frame turned about the vertical through its center, which goes to its target."""
-    quaternions = np.zeros((motion.n_frames, 1, 4))
-    quaternions[:, 0, 0], quaternions[:, 0, 2] = np.cos(turns / 2), np.sin(turns / 2)
+    quaternions = rot.about_y(turns)[:, None]
     centers, targets = (np.broadcast_to(each, (motion.n_frames, 3)) for each in (centers, targets))
     positions = rot.rotate(quaternions, motion.positions - centers[:, None]) + targets[:, None]
     rotations = motion.rotations

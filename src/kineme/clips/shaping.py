@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Masks
+from kineme._checks import check_flag, is_number
 from kineme.clips.loops import Carry, carry_of, loop, with_first_again
 from kineme.clips.quality import LoopQuality, distances, loop_quality, ranks, usual_steps
 from kineme.clips.root_motion import (
@@ -20,14 +21,13 @@ from kineme.clips.root_motion import (
 )
 from kineme.cycles.contacts import stands_from_positions
 from kineme.cycles.landmarks import SIDES, landmarks
-from kineme.errors import EndEffectorError, MotionError
+from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import PARTS, body_frame, end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.arrays import spans_of
 from kineme.recordings.operations import cut
 from kineme.segments.table import Segment
 
-Masks = NDArray[np.bool_]
 Feet = Mapping[str, tuple[tuple[int, ...], Masks]]
 """By side: the points of a foot, and the frames in which it is planted."""
 
@@ -58,6 +58,18 @@ class Shape:
     straight: bool = False
     mirror: bool = False
     close: bool = False
+
+    def __post_init__(self) -> None:
+        for name in ("loops", "in_place", "straight", "mirror", "close"):
+            check_flag(getattr(self, name), name)
+        best = self.best
+        if best is not None:
+            if not is_number(best) or best != int(best) or best < 1:
+                raise ParameterError(f"best is {best!r:.60}: give a number of loops, 1 at least")
+            if not self.loops:
+                raise ParameterError("best is of loops only: ask for loops (--loop), too")
+        if self.close and not self.loops:
+            raise ParameterError("only loops are closed: ask for loops (--loop), too")
 
     @property
     def changes(self) -> tuple[str, ...]:

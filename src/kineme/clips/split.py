@@ -32,7 +32,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, get_args
 
-from kineme._checks import check_flag, is_number, is_one_of
+from kineme._checks import is_number, is_one_of
 from kineme._files import atomic_folder
 from kineme.clips.manifest import Clip, write_manifests
 from kineme.clips.names import file_name, safe_name, unlike
@@ -154,24 +154,11 @@ def write_clips(
 ) -> list[Path]:
     """Write segments of several recordings as clips in one folder; for each clip its file.
 
-    Parameters
-    ----------
-    clips : iterable of (Motion or Signals, sequence of Segment)
-        Gone through once, so that one recording at a time needs memory.
-    folder : str or PathLike
-        To be made; one that is there must be empty.
-    loops, format, best, in_place, straight, mirror, close
-        As for `split`. Loops are ranked among those of their recording.
-
-    Raises
-    ------
-    ParameterError
-        Loops or a format of signals, no format of that suffix, or the best of what is no loop.
-    WriteError
-        The folder is not empty, or cannot be written.
+    They are gone through once, so that one recording at a time needs memory. The rest is as for
+    `split`; loops are ranked among those of their recording.
     """
     target, chosen = Path(folder), _format(format)
-    shape = _shape(loops, best, in_place, straight, mirror, close)
+    shape = Shape(loops, best, in_place, straight, mirror, close)
     entries: list[Clip] = []
     several = chosen is not None and chosen.write_animations is not None
     with atomic_folder(target) as draft:
@@ -195,30 +182,6 @@ def write_clips(
                 entries += _write_files(run, made, suffix)
         write_manifests(entries, draft, loops=loops, animations=several)
     return [target / clip.file for clip in entries]
-
-
-def _shape(
-    loops: bool,
-    best: int | None,
-    in_place: bool,
-    straight: bool,
-    mirror: bool,
-    close: bool,
-) -> Shape:
-    """What is to be done to clips, checked."""
-    flags = (loops, in_place, straight, mirror, close)
-    for name, value in zip(
-        ("loops", "in_place", "straight", "mirror", "close"), flags, strict=True
-    ):
-        check_flag(value, name)
-    if best is not None:
-        if not is_number(best) or best != int(best) or best < 1:
-            raise ParameterError(f"best is {best!r:.60}: give a number of loops, 1 at least")
-        if not loops:
-            raise ParameterError("best is of loops only: ask for loops (--loop), too")
-    if close and not loops:
-        raise ParameterError("only loops are closed: ask for loops (--loop), too")
-    return Shape(loops, best, in_place, straight, mirror, close)
 
 
 def _refuse_poses(shape: Shape, format: str | None) -> None:  # noqa: A002

@@ -32,17 +32,8 @@ def labels_of_annotators(
 ) -> AnnotatorLabels:
     """The labels of the recordings for which two people or more have some.
 
-    Parameters
-    ----------
-    sources : mapping of str to mapping of Path to LabelSource
-        By annotator and recording, see `kineme.labels.collections.labels_of`.
-    extent : callable
-        What tells how long a recording is; by default it is read.
-
-    Returns
-    -------
-    AnnotatorLabels
-        Recordings by their names, or by their paths where names come again.
+    The sources are by annotator and recording, see `kineme.labels.collections.labels_of`; the
+    labels by the names of recordings, or by their paths where names come again.
     """
     paths = list(dict.fromkeys(path for places in sources.values() for path in places))
     names = [path.name for path in paths]

@@ -25,14 +25,15 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from kineme._arrays import Ints
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.evaluation.borders import border_score
 from kineme.evaluation.comparison import Comparison, Spans, best_mapping, runs
 from kineme.evaluation.frames import cohen_kappa
 from kineme.evaluation.inputs import comparison, truth_of
-from kineme.evaluation.tables import finite
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Truth
+from kineme.evaluation.tables import finite, plain
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 from kineme.segments.segmentation import Segmentation
 
 By = Literal["names", "mapping"]
@@ -152,11 +153,8 @@ class AnnotatorAgreement:
             "kineme": __version__,
             "annotators": self.annotators,
             "by": self.by,
-            "fleiss_kappa": finite(self.fleiss_kappa),
-            "pairs": [
-                {name: finite(value) for name, value in pair._asdict().items()}
-                for pair in self.pairs
-            ],
+            "fleiss_kappa": self.fleiss_kappa,
+            "pairs": [plain(pair._asdict()) for pair in self.pairs],
             "recordings": [
                 {
                     "recording": one.recording,
@@ -167,7 +165,7 @@ class AnnotatorAgreement:
                 for one in self.recordings
             ],
         }
-        return json.dumps(content, ensure_ascii=False)
+        return json.dumps(plain(content), ensure_ascii=False)
 
 
 def fleiss_kappa(counts: ArrayLike) -> float:

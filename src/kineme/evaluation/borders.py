@@ -15,13 +15,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats, Ints
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.score import Ratio, Score, one_of
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Labelling
-
-Floats = NDArray[np.float64]
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 
 SHORT_TRANSITION_S = 1.0
 REPETITION_TOLERANCE_S = 0.5

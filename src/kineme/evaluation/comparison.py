@@ -28,10 +28,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import linear_sum_assignment
 
+from kineme._arrays import Ints
 from kineme.errors import ParameterError
 from kineme.evaluation.label_truth import labelling_of as labelling_of  # noqa: PLC0414 (others have it from here)
 from kineme.evaluation.label_truth import truth_of, with_repetitions
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Labelling, Truth
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling, Truth
 from kineme.labels.spans import text_of
 from kineme.segments.segmentation import Segmentation
 

@@ -9,7 +9,6 @@ by itself. A recording that cannot be read, segmented or compared costs itself o
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -20,6 +19,7 @@ from kineme.errors import EndEffectorError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
 from kineme.evaluation.recordings import Answer, Job, Reading, Sides, answers_to, check_method
 from kineme.evaluation.score import Ratio, over_all, results_of, scores, value_of
+from kineme.evaluation.tables import plain
 from kineme.labels.collections import LabelSource
 from kineme.recordings.motion import Motion
 from kineme.segments.editing.rows import renumbered
@@ -66,14 +66,9 @@ class Evaluated:
 
 @dataclass(frozen=True)
 class FolderScores:
-    """What the methods scored on a folder.
+    """What each method scored on the recordings of a folder, in the order of the files.
 
-    Parameters
-    ----------
-    methods : Mapping of str to sequence of Evaluated
-        Per method one for each recording, in the order of the files.
-    mapping : {"recording", "folder"}
-        Whose mapping of clusters to classes it is.
+    Clusters were mapped to classes for each recording, or at once for the folder.
     """
 
     methods: Mapping[str, Sequence[Evaluated]]
@@ -103,13 +98,13 @@ class FolderScores:
         """Everything as one JSON object; scores that are not defined are null."""
         methods = {
             method: {
-                "scores": _plain(self.over_all(method)),
+                "scores": plain(self.over_all(method)),
                 "recordings": [
                     {"recording": one.recording, "error": one.error}
                     if one.error
                     else {
                         "recording": one.recording,
-                        "scores": _plain(one.scores),
+                        "scores": plain(one.scores),
                         "seconds": one.seconds,
                         "notes": list(one.notes),
                     }
@@ -225,10 +220,6 @@ def _scored(
             Evaluated(job.path.name, answer.seconds, answer.length_s, results_of(one), answer.notes)
         )
     return found
-
-
-def _plain(values: Mapping[str, float]) -> dict[str, float | None]:
-    return {name: value if math.isfinite(value) else None for name, value in values.items()}
 
 
 def _joined(

@@ -15,9 +15,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Ints
 from kineme.evaluation.comparison import Comparison, contingency
 from kineme.evaluation.score import Score, one_of
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Truth
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 
 
 def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:

@@ -69,19 +69,19 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
         if suffix == ".json":
             file.write(f"{records_json(records)}\n")
         else:
-            plain = _plain(records)
-            names = list(dict.fromkeys(name for record in plain for name in record))
+            rows = [plain(record) for record in records]
+            names = list(dict.fromkeys(name for record in rows for name in record))
             table = csv.DictWriter(file, names, lineterminator="\n")
             table.writeheader()
             table.writerows(
                 {k: as_text(v) if isinstance(v, str) else v for k, v in record.items()}
-                for record in plain
+                for record in rows
             )
 
 
 def records_json(records: Sequence[Mapping[str, Any]]) -> str:
     """Records as one JSON object, with the version."""
-    content = {"kineme": __version__, "scores": _plain(records)}
+    content = {"kineme": __version__, "scores": [plain(record) for record in records]}
     return json.dumps(content, indent=1, ensure_ascii=False)
 
 
@@ -107,5 +107,6 @@ def finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _plain(records: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    return [{name: finite(value) for name, value in record.items()} for record in records]
+def plain(record: Mapping[str, Any]) -> dict[str, Any]:
+    """The record with None in place of numbers that cannot be had."""
+    return {name: finite(value) for name, value in record.items()}

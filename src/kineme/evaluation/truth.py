@@ -17,10 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._arrays import Ints
 from kineme._checks import as_texts
 from kineme.errors import ParameterError
 
-Ints = NDArray[np.int64]
 Texts = NDArray[np.object_]
 
 TRANSITION = "transition"

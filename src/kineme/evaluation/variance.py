@@ -19,17 +19,17 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.spatial.distance import cdist
 
+from kineme._arrays import Floats, Ints
 from kineme.errors import ParameterError
 from kineme.evaluation._kernels import warped_cost
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.score import Score, one_of
-from kineme.evaluation.truth import TRANSITION, Ints, Labelling
+from kineme.evaluation.truth import TRANSITION, Labelling
 from kineme.features.point_clouds import cloud_distances
 
-Floats = NDArray[np.float64]
 Distances = Callable[[slice, slice], Floats]
 
 WINDOW_S = 1 / 3

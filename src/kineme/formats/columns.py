@@ -23,8 +23,9 @@ import re
 from collections.abc import Iterable, Mapping
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats
 from kineme._counts import counted
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
@@ -35,7 +36,6 @@ from kineme.formats.units import metres
 from kineme.recordings import Motion, Note
 from kineme.recordings.coordinates import COORDINATE, axes_by_point, beginnings, is_body
 
-Floats = NDArray[np.float64]
 Joints = Mapping[str, Mapping[str, str]]
 """For each joint the columns of its axes."""
 

@@ -177,17 +177,8 @@ class DelimitedText:
     def numbers(self, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
         """(rows, columns): cells as numbers, NaN where empty, and dates as seconds since 1970.
 
-        A last line that breaks off is left out with a warning.
-
-        Parameters
-        ----------
-        columns : sequence of int, optional
-            These alone, all by default; the others may hold anything.
-
-        Raises
-        ------
-        ReadError
-            A cell is not a number, or a line is too short or too long.
+        Of columns that are given these alone; the others may hold anything. A last line that breaks
+        off is left out with a warning.
         """
         content, width, first = self.content, len(self.names), self.below + 1
         chosen = range(width) if columns is None else columns

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from kineme._checks import is_text
 from kineme._files import atomic_write, refuse_pipe
 from kineme.errors import KinemeWarning, ReadError, WriteError
-from kineme.recordings import Note, Provenance
+from kineme.recordings import Motion, Note, Provenance
 
 MOST_EXPANSION = 100
 """Times its own size that a file may take in memory; honest ones take one to forty times it."""
@@ -170,6 +170,16 @@ def spelled(path: Path, names: Sequence[str], spelling: Callable[[str], str]) ->
         more = f", and {len(changed) - 1} more" if len(changed) > 1 else ""
         warn(f"{path.name}: the name {name!r:.60} is written as {new!r:.60}{more}")
     return spellings
+
+
+def rotations_of(motion: Motion, path: Path, what: str) -> NDArray[np.float64]:
+    """The rotations of a motion that is to be written; WriteError where it has none."""
+    if motion.rotations is None:
+        raise WriteError(
+            path,
+            f"{what} needs rotations, and this motion has positions only: write .trc, .csv or .npz",
+        )
+    return motion.rotations
 
 
 def in_a_cell(name: str) -> str:

@@ -19,15 +19,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._arrays import Floats
 from kineme._counts import counted, listed
-from kineme.errors import ReadError, SeveralPeopleError
+from kineme.errors import ReadError
 from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
+from kineme.formats.persons import chosen_person
 from kineme.formats.units import scale_of, up_axis, upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 
-Floats = NDArray[np.float64]
 Body = dict[str, tuple[int, ...]]
 Spans = tuple[tuple[int, int], ...]
 
@@ -113,10 +114,7 @@ def _subjects_note(path: str, subjects: list[str], person: str | None) -> Note:
     if person is None:
         sentence = f"{len(subjects)} subjects: the body is that of {subjects[0]!r}"
         return Note(f"{sentence}; person= (--person) takes another", "warning")
-    if person not in subjects:
-        reason = f"there is no person {person!r}: choose from {', '.join(subjects)}"
-        raise SeveralPeopleError(path, reason, subjects)
-    return Note(f"person {person} of {len(subjects)}")
+    return Note(f"person {chosen_person(path, subjects, person)} of {len(subjects)}")
 
 
 def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:

@@ -27,13 +27,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._arrays import Floats
 from kineme._clock import Clock
 from kineme._counts import counted, listed
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S
 from kineme.recordings.arrays import spans_of
-
-Floats = NDArray[np.float64]
 
 UNEVEN = 0.1
 """Share of a period by which times may differ from even ones."""

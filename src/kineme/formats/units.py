@@ -13,13 +13,12 @@ from decimal import Decimal
 from math import ceil, floor
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.recordings import Note, Skeleton
-from kineme.recordings.kinematics import forward_kinematics
+from kineme.recordings.kinematics import at_rest
 
-Floats = NDArray[np.float64]
 Body = Mapping[str, tuple[int, ...]]
 
 INCH = 0.0254
@@ -131,9 +130,7 @@ def infer_up(skeleton: Skeleton, positions: Floats) -> str:
     feet = [i for i, name in enumerate(skeleton.names) if _FOOT.search(name)]
     if not head or not feet:
         return "y"
-    standing = np.broadcast_to(rot.IDENTITY, (1, skeleton.n_joints, 4))
-    at_rest = forward_kinematics(skeleton, standing)
-    axis = _axis_of(at_rest, feet, head, 0.9)
+    axis = _axis_of(at_rest(skeleton)[None], feet, head, 0.9)
     return axis if axis and axis == _axis_of(positions, feet, head, 0.7) else "y"
 
 

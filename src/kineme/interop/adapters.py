@@ -22,7 +22,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme.errors import MissingDependencyError, ParameterError
+from kineme._checks import needed
+from kineme.errors import ParameterError
 from kineme.labels.spans import meaning, one_line, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
@@ -110,10 +111,8 @@ def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.Da
     >>> to_sktime(truth)["labels"][0]
     'walk'
     """
-    try:
+    with needed("pandas", "tables"):
         import pandas as pd
-    except ImportError as error:
-        raise MissingDependencyError("pandas", "tables") from error
     rows = segmentation.level(level)
     spans = pd.IntervalIndex.from_arrays(rows.start_frame, rows.stop_frame, closed="left")
     return pd.DataFrame({"ilocs": spans, "labels": list(map(text_of, rows))})

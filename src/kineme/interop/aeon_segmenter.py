@@ -11,16 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.errors import MissingDependencyError
+from kineme._checks import needed
 from kineme.interop.adapters import to_aeon
 from kineme.methods.presets import DEFAULT
 from kineme.segmentation.estimator import Segmenter
 from kineme.segments.table import Level
 
-try:
+with needed("aeon", "segmenters"):
     from aeon.segmentation.base import BaseSegmenter
-except ImportError as error:
-    raise MissingDependencyError("aeon", "segmenters") from error
 
 
 class KinemeSegmenter(BaseSegmenter):  # type: ignore[misc]

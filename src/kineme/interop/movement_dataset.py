@@ -21,7 +21,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.errors import MissingDependencyError, ParameterError, ReadError
+from kineme._checks import needed
+from kineme.errors import ParameterError, ReadError
 from kineme.formats.columns import LIMIT
 from kineme.formats.files import FileContent, warn
 from kineme.formats.gaps import covered, split_at
@@ -66,10 +67,8 @@ def to_movement(
     >>> dict(to_movement(motion).sizes)
     {'time': 2898, 'space': 3, 'keypoints': 26, 'individuals': 1}
     """
-    try:
+    with needed("xarray", "xarray"):
         import xarray as xr
-    except ImportError as error:
-        raise MissingDependencyError("xarray", "xarray") from error
     missing = covered(motion.gaps, motion.n_frames)
     positions = np.where(missing[:, None, None], np.nan, motion.positions)
     confidence = np.repeat(1.0 - missing[:, None], motion.skeleton.n_joints, axis=1)

@@ -18,9 +18,10 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
+from kineme._checks import needed
 from kineme._colors import cluster_color
 from kineme._files import atomic_write
-from kineme.errors import MissingDependencyError, ParameterError
+from kineme.errors import ParameterError
 from kineme.formats.gaps import covered
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion
@@ -62,10 +63,8 @@ def write_rerun(
     >>> motion = kineme.read(kineme.bundled_recording())
     >>> write_rerun(motion, kineme.segment(motion), "walk.rrd")  # doctest: +SKIP
     """
-    try:
+    with needed("rerun-sdk", "rerun"):
         import rerun as rr
-    except ImportError as error:
-        raise MissingDependencyError("rerun-sdk", "rerun") from error
     if segmentation is not None and segmentation.n_frames != motion.n_frames:
         raise ParameterError(
             f"the segments are of {segmentation.n_frames} frames, the motion has {motion.n_frames}"

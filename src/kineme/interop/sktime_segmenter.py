@@ -8,16 +8,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from kineme.errors import MissingDependencyError
+from kineme._checks import needed
 from kineme.interop.adapters import to_sktime
 from kineme.methods.presets import DEFAULT
 from kineme.segmentation.estimator import Segmenter
 from kineme.segments.table import Level
 
-try:
+with needed("sktime", "segmenters"):
     from sktime.detection.base import BaseDetector
-except ImportError as error:
-    raise MissingDependencyError("sktime", "segmenters") from error
 
 if TYPE_CHECKING:
     import pandas as pd

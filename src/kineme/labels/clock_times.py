@@ -13,12 +13,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats
 from kineme._clock import Clock
 from kineme.labels.spans import Labels, Span
-
-Floats = NDArray[np.float64]
 
 NAMED = 4
 """Labels that a note names before it only counts."""

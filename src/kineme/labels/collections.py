@@ -48,15 +48,7 @@ class Extent(NamedTuple):
 
 @dataclass(frozen=True)
 class LabelSource:
-    """Where the labels of one recording are.
-
-    Parameters
-    ----------
-    path : Path
-        The file that holds them.
-    labels : Labels, optional
-        Those of the recording, where the file is a table of many.
-    """
+    """The file that holds the labels of a recording; its labels, where that is a table of many."""
 
     path: Path
     labels: Labels | None = None

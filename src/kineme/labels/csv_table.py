@@ -21,7 +21,7 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -63,13 +63,14 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     with atomic_write(beside) as head_draft, atomic_write(path) as draft:
         head_draft.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8")
         with draft.open("w", encoding="utf-8", newline="") as file:
-            names, rows = [*COLUMNS], map(_cells, segmentation)
+            names = [*COLUMNS]
+            rows: Iterable[list[Any]] = map(_cells, segmentation)
             if times := segmentation.start_times():
                 names.append(START_TIME)
-                rows = map(_with_text, rows, times)
+                rows = ([*cells, time] for cells, time in zip(rows, times, strict=True))
             if any(comments := in_rows(segmentation)):
                 names.append(COMMENT)
-                rows = map(_with_text, rows, comments)
+                rows = ([*cells, text] for cells, text in zip(rows, comments, strict=True))
             write_rows(file, names, rows)
 
 
@@ -234,10 +235,6 @@ def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
 
 def _cells(row: Segment) -> list[Any]:
     return ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in astuple(row)]
-
-
-def _with_text(cells: list[Any], text: str) -> list[Any]:
-    return [*cells, text]
 
 
 def _recognises(path: Path) -> bool:

@@ -42,27 +42,8 @@ def differences(
 ) -> tuple[str, ...]:
     """What to say of a table and its side file that were not written together.
 
-    Parameters
-    ----------
-    path, beside : Path
-        The table and its side file.
-    side : mapping
-        What the side file holds; older ones have no digest, and are believed.
-    found : str
-        The `digest` of the table.
-    head_rate, row_rate : float or None
-        The frame rate in the side file, and that which follows from frames and seconds of the
-        table.
-
-    Returns
-    -------
-    tuple of str
-        Empty where they belong together.
-
-    Raises
-    ------
-    ReadError
-        They tell different frame rates.
+    ``found`` is the `digest` of the table; side files that are older than it have none, and are
+    believed. The rates are those in the side file and of frames and seconds in the table.
     """
     if KEY not in side:
         return ()

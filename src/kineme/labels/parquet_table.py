@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from kineme._checks import needed
 from kineme._files import atomic_write
-from kineme.errors import MissingDependencyError, ReadError
+from kineme.errors import ReadError
 from kineme.formats.channels.parquet import parquet_columns, parquet_file
 from kineme.formats.files import load
 from kineme.labels.heads import tail
@@ -67,11 +68,9 @@ def read(path: Path) -> Segmentation:
 
 
 def _pyarrow() -> tuple[Any, Any]:
-    try:
+    with needed("pyarrow", "tables"):
         import pyarrow as pa
         from pyarrow import parquet
-    except ImportError as error:
-        raise MissingDependencyError("pyarrow", "tables") from error
     return pa, parquet
 
 

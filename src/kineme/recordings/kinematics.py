@@ -71,6 +71,13 @@ def forward_kinematics(
     return positions.transpose(2, 0, 1)
 
 
+def at_rest(skeleton: Skeleton) -> Floats:
+    """Where the joints are (joints, 3) where none is turned, the root at its offset."""
+    standing = np.broadcast_to(rot.IDENTITY, (1, skeleton.n_joints, 4))
+    (places,) = forward_kinematics(skeleton, standing)
+    return np.asarray(places)
+
+
 def world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> Floats:
     """How each joint is turned in the world (frames, joints, 4); end sites take their parent's.
 

@@ -14,7 +14,7 @@ from typing import Any, Self
 
 import msgspec
 
-from kineme._json import sentence
+from kineme._json import converted
 from kineme.errors import ParameterError
 from kineme.segments.table import Level
 
@@ -67,12 +67,9 @@ class Annotation:
             It is of another shape.
         """
         try:
-            return msgspec.convert(content, cls, str_keys=True)
-        except msgspec.ValidationError as error:
-            reason = sentence(str(error))
-            raise ParameterError(f"the annotation is not as kineme writes it: {reason}") from error
-        except ValueError as error:  # half of a pair of surrogates for a name
-            raise ParameterError("the annotation has a name that is no text") from error
+            return converted(content, cls)
+        except ValueError as error:
+            raise ParameterError(f"the annotation is not as kineme writes it: {error}") from error
 
     def to_json(self) -> dict[str, Any]:
         """What a file holds of it: the parts that there are, empty where there is none."""

@@ -6,11 +6,10 @@ import json
 from collections.abc import Mapping
 from typing import Any, TypedDict
 
-import msgspec
 import numpy as np
 
 from kineme._checks import is_number
-from kineme._json import fault_of, sentence
+from kineme._json import converted, fault_of
 from kineme.errors import ParameterError
 from kineme.segments.table import Level, SegmentTable
 
@@ -112,10 +111,7 @@ def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(provenance.get("input"), str):
         provenance["input"] = {"path": provenance["input"]}
     try:
-        msgspec.convert(provenance, Provenance)
-    except msgspec.ValidationError as error:
-        reason = sentence(str(error))
-        raise ParameterError(f"the provenance is not as kineme writes it: {reason}") from error
-    except ValueError as error:  # half of a pair of surrogates for a name
-        raise ParameterError("the provenance has a name that is no text") from error
+        converted(provenance, Provenance)
+    except ValueError as error:
+        raise ParameterError(f"the provenance is not as kineme writes it: {error}") from error
     return provenance

@@ -32,8 +32,9 @@ from typing import (
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import needed
 from kineme._counts import counted
-from kineme.errors import MissingDependencyError, ParameterError
+from kineme.errors import ParameterError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -248,10 +249,8 @@ class SegmentTable:
         >>> float(frame.groupby("label").duration_s.sum().round(2)["walk"])
         9.78
         """
-        try:
+        with needed("pandas", "tables"):
             import pandas as pd
-        except ImportError as error:
-            raise MissingDependencyError("pandas", "tables") from error
         frame = pd.DataFrame(self.columns())
         frame.insert([*COLUMNS].index("stop_s") + 1, "duration_s", self.duration_s)
         return frame

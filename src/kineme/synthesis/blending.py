@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme._checks import as_indices, check_type
 from kineme._counts import counted
 from kineme.errors import ParameterError
@@ -25,8 +25,6 @@ from kineme.recordings.kinematics import local_translations
 from kineme.recordings.motion import check_motion
 from kineme.synthesis.feet import plant_feet
 from kineme.synthesis.graph import MotionGraph
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -185,7 +183,7 @@ def _joined(
         after, after_shift = placed(b, b.start - n, b.start + n)
         w = ((np.arange(2 * n) + 0.5) / max(2 * n, 1))[:, None, None]
         w = w * w * (3 - 2 * w)
-        rotations[t - n : t + n] = _between(before, after, w)
+        rotations[t - n : t + n] = rot.between(before, after, w)
         translations[t - n : t + n] = (1 - w) * before_shift + w * after_shift
     return rotations, translations
 
@@ -194,19 +192,9 @@ def _placed_motion(
     motion: Motion, rotations: Floats, shifts: Floats, at: Placement
 ) -> tuple[Floats, Floats]:
     roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
-    about_y = np.array([np.cos(at.angle / 2), 0.0, np.sin(at.angle / 2), 0.0])
+    about_y = rot.about_y(at.angle)
     rotations, shifts = rotations.copy(), shifts.copy()
     rotations[:, roots] = rot.multiply(about_y, rotations[:, roots])
     shifts[:, roots] = rot.rotate(about_y, shifts[:, roots])
     shifts[:, roots] += [at.shift.real, 0, at.shift.imag]
     return rotations, shifts
-
-
-def _between(a: Floats, b: Floats, weights: Floats) -> Floats:
-    """Rotations from a to b along the shorter arc, by weight."""
-    from scipy.spatial.transform import Rotation
-
-    arcs = rot.multiply(rot.conjugate(a), b).reshape(-1, 4)
-    vectors = Rotation.from_quat(np.roll(arcs, -1, -1)).as_rotvec().reshape(*a.shape[:-1], 3)
-    turns = Rotation.from_rotvec((weights * vectors).reshape(-1, 3)).as_quat()
-    return rot.multiply(a, np.roll(turns, 1, -1).reshape(a.shape))

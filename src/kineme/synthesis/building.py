@@ -15,7 +15,6 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme._checks import check_type, is_number
 from kineme.errors import ParameterError
@@ -26,8 +25,6 @@ from kineme.segments.segmentation import Segmentation
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 from kineme.synthesis.jumps import jumps
 from kineme.transfer.sharing import share_clusters
-
-Floats = NDArray[np.float64]
 
 THRESHOLD = 0.08
 """Metres, root mean square over the joints. On three takes of subject 86 and the bundled

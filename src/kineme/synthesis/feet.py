@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.errors import EndEffectorError
 from kineme.features import end_effectors
 from kineme.features.feet import low_and_slow
@@ -24,7 +24,6 @@ from kineme.recordings.kinematics import (
     world_rotations,
 )
 
-Floats = NDArray[np.float64]
 Spans = list[tuple[int, int]]
 
 HEIGHT = 0.06

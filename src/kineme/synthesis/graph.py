@@ -19,11 +19,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Ints
 from kineme.errors import ParameterError
-
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True)

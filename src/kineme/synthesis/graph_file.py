@@ -21,14 +21,14 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable
-from dataclasses import asdict, replace
+from collections.abc import Iterator
+from dataclasses import asdict, fields, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write, reading
-from kineme._json import loaded
+from kineme._json import converted, loaded
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import read_motion
 from kineme.recordings import Motion
@@ -37,9 +37,8 @@ from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 SCHEMA = "kineme.motion-graph/1"
 OPTIONS = ("skeleton", "fps", "unit", "up")
 
-_MOST = 1e9  # metres, seconds, frames per second
-
-Json = dict[str, Any]
+_MOST = 1e9  # metres, radians
+_FASTEST = 1e6  # frames per second; also metres and seconds
 
 
 def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
@@ -109,6 +108,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     >>> len(read_graph("moves.json").edges)
     2
     """
+    home = Path(path).absolute().parent
     data = loaded(Path(path))
     schema = data.get("schema") if isinstance(data, dict) else None
     if not str(schema).startswith("kineme.motion-graph/"):
@@ -116,12 +116,11 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     if schema != SCHEMA:
         raise ReadError(path, f"has schema {schema!r}, but this version reads {SCHEMA!r}")
     try:
-        return _graph(data, Path(path).absolute().parent)
-    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
-        what = f"no {error}" if isinstance(error, KeyError) else str(error)
-        raise ReadError(
-            path, f"is damaged ({what:.120}): build it anew with kineme graph"
-        ) from error
+        graph = _graph(data)
+    except ValueError as error:
+        reason = f"is damaged ({error!s:.120}): build it anew with kineme graph"
+        raise ReadError(path, reason) from error
+    return replace(graph, sources=tuple(_at_home(source, home) for source in graph.sources))
 
 
 def load_sources(graph: MotionGraph) -> list[Motion]:
@@ -165,7 +164,7 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     return motions
 
 
-def _source_cells(source: Source, folder: Path) -> Json:
+def _source_cells(source: Source, folder: Path) -> dict[str, Any]:
     if source.path is None or source.sha256 is None:
         raise ParameterError("a graph can be written if its motions were read from files")
     options = dict(source.options)
@@ -181,66 +180,49 @@ def _relative(path: str, folder: Path) -> str:
         return str(Path(path).absolute())
 
 
-def _graph(data: Json, folder: Path) -> MotionGraph:
-    sources = tuple(_source(row, folder) for row in data["sources"])
-    nodes = tuple(_node(row, sources) for row in data["nodes"])
-    edges = tuple(_edge(row, nodes) for row in data["edges"])
-    fps, threshold, window = (
-        _checked(data, name, _number, lambda x: 0 < x < 1e6)
-        for name in ("fps", "threshold", "window")
-    )
-    return MotionGraph(sources, nodes, edges, fps, threshold, window)
+def _graph(data: dict[str, Any]) -> MotionGraph:
+    """What a file holds; ValueError where parts are missing, or cannot be of its recordings."""
+    _check_complete(data, MotionGraph)
+    graph = converted(data, MotionGraph)
+    for name, kind in (("sources", Source), ("nodes", Node), ("edges", Edge)):
+        for row in data[name]:
+            _check_complete(row, kind)
+    for part, sound in _sound(graph):
+        if not sound:
+            raise ValueError(str(part))
+    return graph
 
 
-def _source(row: Json, folder: Path) -> Source:
-    options = {name: value for name, value in row["options"].items() if name in OPTIONS}
+def _check_complete(row: dict[str, Any], kind: Any) -> None:
+    for field in fields(kind):
+        if field.name not in row:
+            raise ValueError(f"no {field.name!r}")
+
+
+def _at_home(source: Source, folder: Path) -> Source:
+    """A source whose paths, in the file relative to its folder, are found from anywhere."""
+    options = {name: value for name, value in source.options.items() if name in OPTIONS}
     if "skeleton" in options:
         options["skeleton"] = str(folder / options["skeleton"])
-    frames = _checked(row, "n_frames", int, lambda n: n > 0)
-    return Source(str(folder / row["path"]), str(row["sha256"]), frames, options)
+    return replace(source, path=str(folder / str(source.path)), options=options)
 
 
-def _node(row: Json, sources: tuple[Source, ...]) -> Node:
-    source = _checked(row, "source", int, lambda s: 0 <= s < len(sources))
-    stop = _checked(row, "stop", int, lambda n: n <= sources[source].n_frames)
-    start = _checked(row, "start", int, lambda n: 0 <= n < stop)
-    return Node(source, start, stop, _checked(row, "cluster", int, lambda c: c >= -1),
-                _checked(row, "label", str, lambda _: True))  # fmt: skip
-
-
-def _edge(row: Json, nodes: tuple[Node, ...]) -> Edge:
-    tail, head = (
-        _checked(row, end, int, lambda n: 0 <= n < len(nodes)) for end in ("tail", "head")
-    )
-    from_node, to_node = nodes[tail], nodes[head]
-    x, z = (_number(value) for value in row["shift"])
-    return Edge(
-        tail,
-        head,
-        _checked(row, "leave", int, lambda n: _middle(from_node) < n),
-        _checked(row, "enter", int, lambda n: 0 <= n <= _middle(to_node)),
-        _checked(row, "distance", _number, lambda d: d >= 0),
-        _checked(row, "angle", _number, lambda _: True),
-        (x, z),
-        _checked(row, "jump", bool, lambda _: True),
-    )
-
-
-def _middle(node: Node) -> float:
-    return (node.start + node.stop) / 2
-
-
-def _checked(row: Json, name: str, kind: Callable[[Any], Any], fits: Callable[[Any], bool]) -> Any:
-    value = row[name]
-    if isinstance(kind, type) and type(value) is not kind:
-        raise ValueError(f"{name} is {value!r:.40}")
-    value = kind(value)
-    if not fits(value):
-        raise ValueError(f"{name} is {value!r:.40}")
-    return value
-
-
-def _number(value: Any) -> float:
-    if type(value) not in (int, float) or not -_MOST < value < _MOST:
-        raise ValueError(f"{value!r:.40} is no number")
-    return float(value)
+def _sound(graph: MotionGraph) -> Iterator[tuple[object, bool]]:
+    """Every part of a graph, and whether it can be of its recordings."""
+    for name in ("fps", "threshold", "window"):
+        value = getattr(graph, name)
+        yield f"{name} is {value}", 0 < value < _FASTEST
+    for source in graph.sources:
+        names = (source.path, source.sha256, source.options.get("skeleton", ""))
+        yield source, source.n_frames > 0 and all(isinstance(name, str) for name in names)
+    frames = [source.n_frames for source in graph.sources]
+    for node in graph.nodes:
+        placed = node.source in range(len(frames)) and node.cluster >= -1
+        yield node, placed and 0 <= node.start < node.stop <= frames[node.source]
+    middles = [(node.start + node.stop) / 2 for node in graph.nodes]
+    nodes = range(len(middles))
+    for edge in graph.edges:
+        placed = edge.tail in nodes and edge.head in nodes and 0 <= edge.distance < _MOST
+        moved = placed and max(map(abs, (edge.angle, *edge.shift))) < _MOST
+        left = moved and middles[edge.tail] < edge.leave
+        yield edge, left and 0 <= edge.enter <= middles[edge.head]

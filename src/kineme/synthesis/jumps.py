@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Ints
 from kineme.features.point_clouds import fit_clouds
 from kineme.graph import neighbor_graph
 from kineme.methods.kineme.preset import KINEME
@@ -19,8 +20,6 @@ from kineme.recordings import Motion
 from kineme.recordings.operations import resample
 from kineme.segmentation.bodies import motion_features
 from kineme.synthesis.graph import Edge, Node
-
-Ints = NDArray[np.int64]
 
 RADIUS = 0.25
 """Body sizes, in the features of the preset."""

@@ -14,10 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.errors import ParameterError
 from kineme.synthesis.graph import MotionGraph
-
-Floats = NDArray[np.float64]
 
 EDGE_COST = 1e-3
 """Metres that every edge costs besides its distance: of equal routes the shorter is taken."""

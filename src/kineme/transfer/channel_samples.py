@@ -12,14 +12,10 @@ from dataclasses import dataclass
 from hashlib import sha256
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Float32s, Floats, Ints
 from kineme.errors import ParameterError
 from kineme.recordings import Signals
-
-Floats = NDArray[np.float64]
-Float32s = NDArray[np.float32]
-Ints = NDArray[np.int64]
 
 RATE = 5.0
 """Samples per second."""

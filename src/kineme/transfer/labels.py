@@ -19,13 +19,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable
 from kineme.transfer.features import FPS, working_frames
 from kineme.transfer.knowledge import KnowledgeBase
-from kineme.transfer.matching import THRESHOLD, Floats, Primitives, label_costs, same_movements
+from kineme.transfer.matching import THRESHOLD, Primitives, label_costs, same_movements
 from kineme.transfer.unsegmented import found_by_search, segmented_as_found
 
 REACH = 2.0

@@ -22,11 +22,9 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from kineme._arrays import Floats, Ints
 from kineme._threads import map_threads
 from kineme.matching.subsequences import warped
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 # Which primitive, in which run of the other side, at what cost.
 Matches = tuple[Ints, Ints, Floats]

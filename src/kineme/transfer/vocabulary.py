@@ -12,14 +12,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 from threadpoolctl import threadpool_limits
 
+from kineme._arrays import Float32s, Floats
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.channel_samples import ChannelSamples, Float32s, by_content, in_common_units
-
-Floats = NDArray[np.float64]
+from kineme.transfer.channel_samples import ChannelSamples, by_content, in_common_units
 
 STARTS = 5
 MOST = 100_000

@@ -16,19 +16,17 @@ Movement", 4th ed. 2009, figure 4.1.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.units import metres, up_rotation
 from kineme.recordings import Motion, Skeleton
-
-Floats = NDArray[np.float64]
 
 WIDTHS = {72: "SMPL", 156: "SMPL-H", 165: "SMPL-X"}
 
@@ -58,6 +56,7 @@ _JOINTS: tuple[tuple[str, str | None, tuple[float, float, float]], ...] = (
     ("right_wrist", "right_elbow", (-0.248, 0, 0)),
     ("head_end", "head", (0, 0.18, 0)),
 )
+_RATES = ("mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate")
 _N_TURNING = len(_JOINTS) - 1
 
 
@@ -79,7 +78,7 @@ def poses_to_motion(
     vectors = poses[:, : 3 * _N_TURNING].reshape(len(poses), _N_TURNING, 3)
     rotations = np.zeros((len(poses), len(_JOINTS), 4))
     rotations[:, -1] = rot.IDENTITY
-    rotations[:, :-1] = _from_vectors(vectors)
+    rotations[:, :-1] = rot.exponential(vectors)
     turn = up_rotation(options.up or "z")
     rotations[:, 0] = rot.multiply(turn, rotations[:, 0])
     path = rot.rotate(turn, path * metres(options.unit or "m"))
@@ -90,7 +89,7 @@ def poses_to_motion(
     return Motion.from_rotations(
         smpl_skeleton(),
         rotations,
-        options.fps or _rate(content, arrays),
+        options.fps or rate_in(content, arrays, _RATES),
         path,
         provenance=content.provenance("AMASS", notes),
     )
@@ -102,13 +101,6 @@ def smpl_skeleton() -> Skeleton:
     parents = tuple(-1 if parent is None else names.index(parent) for _, parent, _ in _JOINTS)
     offsets = np.array([offset for _, _, offset in _JOINTS])
     return Skeleton(names, parents, offsets, frozenset({len(names) - 1}))
-
-
-def _from_vectors(vectors: Floats) -> Floats:
-    """Quaternions of rotation vectors: axis times angle in radians."""
-    angle = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    quaternions = np.concatenate([np.cos(angle / 2), vectors / 2 * np.sinc(angle / 2 / np.pi)], -1)
-    return np.asarray(quaternions / np.linalg.norm(quaternions, axis=-1, keepdims=True))
 
 
 def _checked(content: FileContent, arrays: Mapping[str, Any], name: str) -> Floats:
@@ -123,10 +115,11 @@ def _checked(content: FileContent, arrays: Mapping[str, Any], name: str) -> Floa
     return values
 
 
-def _rate(content: FileContent, arrays: Mapping[str, Any]) -> float:
-    for name in ("mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate"):
+def rate_in(content: FileContent, arrays: Mapping[str, Any], names: Sequence[str]) -> float:
+    """The frame rate under the first of the names that has one."""
+    for name in names:
         if name in arrays and arrays[name].size == 1 and arrays[name].dtype.kind in "iuf":
             rate = float(arrays[name].item())
             if np.isfinite(rate) and rate > 0:
                 return rate
-    raise content.error("no 'mocap_frame_rate' in it: give fps= (--fps)")
+    raise content.error(f"no {names[0]!r} in it: give fps= (--fps)")

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from kineme._checks import needed
 from kineme._files import short
-from kineme.errors import MissingDependencyError
 from kineme.formats.files import FileContent
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -29,10 +29,8 @@ _DAMAGE = (
 
 def parse_hdf5(content: FileContent) -> dict[str, Any]:
     """The contents of an HDF5 file by name; ReadError where it is none or damaged."""
-    try:
+    with needed("h5py", "hdf5"):
         import h5py
-    except ImportError as error:
-        raise MissingDependencyError("h5py", "hdf5") from error
     try:
         with h5py.File(io.BytesIO(content.data), "r") as file:
             return _Reader(content, file).group(file, 0)

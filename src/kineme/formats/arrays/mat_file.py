@@ -22,9 +22,9 @@ from typing import Any
 
 import numpy as np
 
+from kineme._arrays import Array
 from kineme.formats.files import FileContent
 
-Array = np.ndarray[Any, np.dtype[Any]]
 Bytes = memoryview
 Value = Any
 """An array of numbers, a text, a list of cells, or a dict of fields."""

@@ -14,19 +14,20 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
-from kineme.formats.arrays.amass import poses_to_motion
+from kineme._arrays import Array
+from kineme.formats.arrays.amass import poses_to_motion, rate_in
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.recordings import Motion, Skeleton
 
-Array = np.ndarray[Any, np.dtype[Any]]
 Arrays = Mapping[str, Array]
+
+_RATES = ("fps", "framerate", "frame_rate", "FrameRate", "rate")
 
 
 def arrays_to_motion(
@@ -51,7 +52,7 @@ def positions_to_motion(
     positions = _numbers(content, arrays, "positions")
     if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
         raise content.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
-    fps = options.fps or _rate(content, arrays)
+    fps = options.fps or rate_in(content, arrays, _RATES)
     complete = "parents" in arrays and "names" in arrays  # in metres with y up
     if complete and options.unit in (None, "m", 1) and options.up in (None, "y"):
         return _as_written(content, name, arrays, positions, fps)
@@ -88,15 +89,6 @@ def _as_written(
     rotations = _numbers(content, arrays, "rotations") if "rotations" in arrays else None
     spans = tuple(zip(gaps[::2], gaps[1::2], strict=False))
     return Motion(skeleton, positions, fps, rotations, content.provenance(name, []), spans)
-
-
-def _rate(content: FileContent, arrays: Arrays) -> float:
-    for name in ("fps", "framerate", "frame_rate", "FrameRate", "rate"):
-        if name in arrays and arrays[name].size == 1:
-            rate = float(_numbers(content, arrays, name).item())
-            if np.isfinite(rate) and rate > 0:
-                return rate
-    raise content.error("no 'fps' in it: give fps= (--fps)")
 
 
 def _integers(content: FileContent, arrays: Arrays, name: str) -> list[int]:

@@ -22,12 +22,9 @@ from warnings import catch_warnings
 import numpy as np
 from numpy.lib import format as npy_format
 
+from kineme._arrays import Array
 from kineme._files import atomic_write, short
-from kineme.formats.arrays.named_arrays import (
-    Array,
-    arrays_to_motion,
-    positions_to_motion,
-)
+from kineme.formats.arrays.named_arrays import arrays_to_motion, positions_to_motion
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import FileContent, spelled
 from kineme.formats.options import ReadOptions

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from kineme._checks import needed
 from kineme._files import short
-from kineme.errors import MissingDependencyError, ReadError
+from kineme.errors import ReadError
 from kineme.formats.channels.reading import (
     ChannelTable,
     asked_for,
@@ -22,11 +23,9 @@ from kineme.formats.timing import is_timing
 
 def parquet_file(content: FileContent) -> Any:
     """A `pyarrow.parquet.ParquetFile`, opened but not read; ReadError where it is damaged."""
-    try:
+    with needed("pyarrow", "tables"):
         import pyarrow as pa
         from pyarrow import parquet
-    except ImportError as error:
-        raise MissingDependencyError("pyarrow", "tables") from error
     try:
         file = parquet.ParquetFile(pa.BufferReader(content.data))
     except (pa.ArrowException, OSError) as error:

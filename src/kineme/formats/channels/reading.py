@@ -25,8 +25,9 @@ from fnmatch import fnmatchcase
 from itertools import islice
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats
 from kineme._counts import counted
 from kineme._interpolation import bridge_line
 from kineme.formats.delimited import NAMELESS, DelimitedText
@@ -35,8 +36,6 @@ from kineme.formats.gaps import LONGEST_S, covered
 from kineme.formats.timing import NO_TIMES, Timing, clock_name, table_timing
 from kineme.recordings import Signals
 from kineme.recordings.arrays import spans_of
-
-Floats = NDArray[np.float64]
 
 COUNTERS = frozenset(
     {"frame", "frames", "frame#", "index", "idx", "sample", "row", "id", "unnamed: 0"}

@@ -23,8 +23,9 @@ from typing import Any
 
 import numpy as np
 
+from kineme._checks import needed
 from kineme._files import atomic_write
-from kineme.errors import MissingDependencyError, ReadError, WriteError
+from kineme.errors import ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.reading import ChannelTable, text_channels
 from kineme.formats.delimited import as_text, dotted, named
@@ -46,18 +47,7 @@ def write_signals(
 ) -> None:
     """Leave signals in a file of their own format, a CSV, TSV or Parquet, whole or not at all.
 
-    Parameters
-    ----------
-    signals : Signals
-    path : str or PathLike
-        The suffix tells the format.
-    columns : sequence of str, optional
-        Write these alone, and the columns of times; by default all that the file has.
-
-    Raises
-    ------
-    WriteError
-        Another suffix, or a place that cannot be written.
+    Of columns that are given, these alone and those of times.
     """
     target, rows = Path(path), rows_of(signals)
     suffix = target.suffix.lower()
@@ -173,10 +163,8 @@ class _ParquetRows:
     @classmethod
     def of_values(cls, signals: Signals) -> _ParquetRows:
         """Times and channels, null in gaps."""
-        try:
+        with needed("pyarrow", "tables"):
             import pyarrow as pa
-        except ImportError as error:
-            raise MissingDependencyError("pyarrow", "tables") from error
         missing = covered(signals.gaps, signals.n_frames)
         rate = {RATE: pa.array([signals.fps])} if signals.n_frames < 2 else {}
         columns = {**rate, "time": pa.array(signals.times)} | {

@@ -8,23 +8,16 @@ individuals ``person`` names one. There is no frame rate in the file: ``fps`` gi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
-from kineme.errors import SeveralPeopleError
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.delimited import DelimitedText, cells_of
 from kineme.formats.dialects import Dialect
-from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
+from kineme.formats.persons import chosen_person
 from kineme.recordings import Motion
 
 LIKELY = 0.6
-
-
-def is_deeplabcut(names: Sequence[str]) -> bool:
-    """Whether the first row of names is that of DeepLabCut."""
-    return len(names) > 1 and names[0].lower() == "scorer"
 
 
 def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
@@ -41,7 +34,8 @@ def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
     individuals = labels.get("individuals", [""] * len(parts))
     if len({len(parts), len(coords), len(individuals)}) > 1:
         raise content.error("the rows of names differ in length", line)
-    individual = _individual(content, list(dict.fromkeys(individuals)), options.person)
+    several = list(dict.fromkeys(individuals))
+    individual = chosen_person(content.path, several, options.person, "individuals")
     names = ["frame", *(f"{part}_{coord}" for part, coord in zip(parts, coords, strict=True))]
     values = replace(table, names=names, below=table.head + len(labels)).numbers()[:, 1:]
     columns = {
@@ -50,24 +44,13 @@ def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
         if owner == individual
     }
     motion = columns_to_motion(content, "DeepLabCut", columns, options, limit=LIKELY)
-    provenance = motion.provenance.of_person(individual, dict.fromkeys(individuals))
+    provenance = motion.provenance.of_person(individual, several)
     return replace(motion, provenance=provenance)
 
 
-def _individual(content: FileContent, individuals: list[str], person: str | None) -> str:
-    """The individual to read."""
-    if person in individuals:
-        return person
-    shown = ", ".join(individuals[:8])
-    if person is not None:
-        reason = f"there is no person {person!r}: choose from {shown}"
-        raise SeveralPeopleError(content.path, reason, individuals)
-    if len(individuals) > 1:
-        reason = f"{len(individuals)} individuals are in it: choose one with person= (--person), "
-        raise SeveralPeopleError(content.path, f"{reason}of {shown}", individuals)
-    return individuals[0]
-
-
 DIALECT = Dialect(
-    "DeepLabCut", lambda names, _: is_deeplabcut(names), read_deeplabcut, channels=False
+    "DeepLabCut",
+    lambda names, _: len(names) > 1 and names[0].lower() == "scorer",
+    read_deeplabcut,
+    channels=False,
 )

@@ -27,15 +27,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme._checks import is_number
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import Person, Video, by_number, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
-
-Floats = NDArray[np.float64]
 
 LIMIT = 0.5
 

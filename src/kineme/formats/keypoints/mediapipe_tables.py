@@ -37,11 +37,6 @@ _LANDMARK = re.compile(
 _PLACES = {plain(name): i for i, name in enumerate(NAMES)}
 
 
-def is_landmarks(names: Sequence[str]) -> bool:
-    """Whether columns of these names are MediaPipe's, a row for each frame."""
-    return len(_landmark_columns(names)) >= 2 * len(NAMES)
-
-
 def is_long(names: Sequence[str]) -> bool:
     """Whether columns of these names are landmarks, a row for each of them."""
     lower = [name.lower() for name in names]
@@ -147,5 +142,9 @@ def _column_of(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:
     return next((i for i, name in enumerate(names) if pattern.fullmatch(name.strip())), None)
 
 
-WIDE = Dialect("MediaPipe", lambda names, _: is_landmarks(names), read_landmarks)
+WIDE = Dialect(
+    "MediaPipe",
+    lambda names, _: len(_landmark_columns(names)) >= 2 * len(NAMES),
+    read_landmarks,
+)
 LONG = Dialect("MediaPipe, a row per landmark", lambda names, _: is_long(names), read_long)

@@ -15,11 +15,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._counts import listed
-from kineme.errors import SeveralPeopleError
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent
+from kineme.formats.persons import chosen_person
 
-Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
 
 PASSING = 0.1
@@ -58,28 +57,17 @@ def rows_of_person(content: FileContent, found: Detections, person: str | None) 
         raise content.error("nobody is found in any frame")
     most = max(map(len, people.values()))
     staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * most}
-    if person is not None:
-        if person not in people:
-            raise SeveralPeopleError(
-                content.path,
-                f"there is no person {person!r}: choose from {_listing(people, found)}",
-                people,
-            )
-        notes = [f"person {person} of {len(people)}"] if len(people) > 1 else []
-        others = tuple(name for name in people if name in staying or name == person)
-        return PersonFound(people[person], person, others, notes)
-    if len(staying) > 1:
-        raise SeveralPeopleError(
-            content.path,
-            f"{len(staying)} people are in it: choose one with person= (--person), "
-            f"of {_listing(staying, found)}",
-            staying,
-        )
-    ((name, rows),) = staying.items()
-    passing = len(people) - 1
-    note = f"person {name}; {passing} seen only in passing are left out"
-    notes = [note] if passing else []
-    return PersonFound(rows, name, (name,), notes)
+    candidates = staying if person is None else people
+    shown = [
+        f"{name} ({len(rows)} frames from {found.frames[rows[0]]} on)"
+        for name, rows in candidates.items()
+    ]
+    name = chosen_person(content.path, candidates, person, shown=shown)
+    others = tuple(each for each in people if each in staying or each == name)
+    note = f"person {name} of {len(people)}"
+    if person is None:
+        note = f"person {name}; {len(people) - 1} seen only in passing are left out"
+    return PersonFound(people[name], name, others, [note] if len(people) > 1 else [])
 
 
 def _people(found: Detections) -> dict[str, Rows]:
@@ -141,12 +129,3 @@ def _strides(found: Detections, before: Rows, row: int) -> Floats:
         passed = found.frames[row] - found.frames[before]
         strides = mean / (size * (_STRIDE + _STRAY * (passed - 1)))
     return np.asarray(np.where(np.isfinite(strides), strides, np.inf))
-
-
-def _listing(people: dict[str, Rows], found: Detections) -> str:
-    return listed(
-        [
-            f"{name} ({len(rows)} frames from {found.frames[rows[0]]} on)"
-            for name, rows in people.items()
-        ]
-    )

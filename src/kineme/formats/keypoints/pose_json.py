@@ -19,20 +19,23 @@ from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
 _SEVERAL = re.compile(rb'\s*(\[|\{\s*"\d+"\s*:)')
+_READERS = (
+    (is_openpose, read_openpose),
+    (is_coco, read_coco),
+    (is_mmpose, read_mmpose),
+    (is_mediapipe, read_mediapipe),
+)
+"""What tells whose a file is, in this order, and what reads it."""
+
 _OF_COCO = (b'"image_id"', b'"images"', b'"annotations"')
 
 
 def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of one person in a JSON file of keypoints."""
     data = parsed_json(content)
-    if is_openpose(data):
-        return read_openpose(content, data, options)
-    if is_coco(data):
-        return read_coco(content, data, options)
-    if is_mmpose(data):
-        return read_mmpose(content, data, options)
-    if is_mediapipe(data):
-        return read_mediapipe(content, data, options)
+    for is_of, read in _READERS:
+        if is_of(data):
+            return read(content, data, options)
     raise content.error(
         "no keypoints found in it: JSON is read as OpenPose ('people'), COCO ('keypoints' and "
         "'image_id'), MMPose ('instances') or MediaPipe (33 landmarks per frame)"

@@ -11,12 +11,11 @@ for each animal in a frame.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
@@ -25,8 +24,6 @@ from kineme.formats.keypoints.video import Person, Video, frame_numbers, video_t
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
-
-Floats = NDArray[np.float64]
 
 LIMIT = 0.2
 """SLEAP's own limit for peaks."""
@@ -56,11 +53,6 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
     frames = range(positions.shape[1])
     video = Video("SLEAP", nodes, people, LIMIT, frames=frames)
     return video_to_motion(content, video, options)
-
-
-def is_sleap(names: Sequence[str]) -> bool:
-    """Whether columns of these names are SLEAP's."""
-    return "frame_idx" in names and any(name.endswith(".score") for name in names)
 
 
 def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
@@ -102,4 +94,8 @@ def _arranged(
 
 
 FORMAT = Format("SLEAP", (".h5", ".hdf5"), lambda head: head.startswith(SIGNATURE), read_sleap)
-DIALECT = Dialect("SLEAP", lambda names, _: is_sleap(names), read_sleap_table)
+DIALECT = Dialect(
+    "SLEAP",
+    lambda names, _: "frame_idx" in names and any(name.endswith(".score") for name in names),
+    read_sleap_table,
+)

@@ -17,14 +17,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._counts import counted
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.people import Detections, rows_of_person
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.recordings import Motion
-
-Floats = NDArray[np.float64]
 
 MOST_FRAMES_MORE = 20
 """Frames per frame in which somebody was found, at most; beyond that the numbers are wrong."""

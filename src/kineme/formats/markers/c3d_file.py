@@ -35,9 +35,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent
 
-Floats = NDArray[np.float64]
 Stored = NDArray[Any]
 """Float32 or int16."""
 

@@ -59,16 +59,9 @@ _LABELS_AND_RANGES = 12345
 
 @dataclass(frozen=True)
 class C3DEvent:
-    """One event.
+    """One event: seconds from the first frame of the file, and a label such as ``Foot Strike``.
 
-    Parameters
-    ----------
-    seconds : float
-        From the first frame of the file.
-    side : str
-        ``Left``, ``Right``, ``General``; empty where nobody says it.
-    label : str
-        Such as ``Foot Strike``.
+    The side is ``Left``, ``Right``, ``General``, or empty where nobody says it.
     """
 
     seconds: float
@@ -77,20 +70,7 @@ class C3DEvent:
 
 
 def with_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
-    """The bytes of a C3D file that has these events besides its own.
-
-    Parameters
-    ----------
-    content : FileContent
-    events : sequence of C3DEvent
-
-    Raises
-    ------
-    ReadError
-        No C3D file, one without a frame rate, or one that is laid out as none should be.
-    WriteError
-        More events than a C3D file holds.
-    """
+    """The bytes of a C3D file that has these events besides its own."""
     parameters = read_parameters(content)
     layout = Layout(content, parameters, read_header(content, parameters))
     layout.frames()  # ReadError where the data are not there

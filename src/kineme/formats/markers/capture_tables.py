@@ -18,8 +18,9 @@ Markers without a name are left out where others have one, and an empty cell is 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -51,40 +52,33 @@ class Capture:
     unit: str  # as written
 
 
-def is_nexus(lines: Sequence[str]) -> bool:
+def is_nexus(_: Sequence[str], lines: Sequence[str]) -> bool:
     """Whether a file is Nexus's; one of devices alone holds channels as others do."""
     return _first_line(lines) in CHAPTERS and any(map(_MARKERS.fullmatch, lines))
 
 
-def is_motive(lines: Sequence[str]) -> bool:
+def is_motive(_: Sequence[str], lines: Sequence[str]) -> bool:
     """Whether a file is Motive's."""
     return _first_line(lines).startswith("format version,")
 
 
-def is_qtm(lines: Sequence[str]) -> bool:
+def is_qtm(_: Sequence[str], lines: Sequence[str]) -> bool:
     """Whether a file is a table of markers of Qualisys'."""
     return _first_line(lines).startswith("no_of_frames") and "MARKER_NAMES" in _facts(lines)
 
 
-def read_nexus(table: DelimitedText, options: ReadOptions) -> Motion:
-    """The motion of the markers in a table of Nexus's."""
-    return _motion(table, _nexus(table.content, table.lines), options, NEXUS.name, usual_up="z")
-
-
-def read_motive(table: DelimitedText, options: ReadOptions) -> Motion:
-    """The motion of the markers in a table of Motive's, or of the bones where there are none."""
-    return _motion(table, _motive(table.content, table.lines), options, MOTIVE.name, usual_up="y")
-
-
-def read_qtm(table: DelimitedText, options: ReadOptions) -> Motion:
-    """The motion of the markers in a table of Qualisys'."""
-    return _motion(table, _qtm(table.content, table.lines), options, QTM.name, usual_up="z")
-
-
-def _motion(
-    table: DelimitedText, capture: Capture, options: ReadOptions, program: str, *, usual_up: str
+def read_capture(
+    table: DelimitedText,
+    options: ReadOptions,
+    *,
+    program: str,
+    look: Callable[[FileContent, Sequence[str]], Capture],
+    usual_up: str = "z",
 ) -> Motion:
-    content, lines, columns = table.content, table.lines, capture.columns
+    """The motion of the markers in a table of a program, once it was looked at."""
+    content, lines = table.content, table.lines
+    capture = look(content, lines)
+    columns = capture.columns
     names = [name for name in columns if not is_nameless(name)] or [*columns]
     chosen = [columns[name] + axis for name in names for axis in range(3)]
     below = range(capture.below, len(lines))
@@ -93,7 +87,7 @@ def _motion(
         content, lines[:end], capture.cells, capture.below - 1, capture.below, capture.separator
     )
     values = rows.numbers(chosen).reshape(-1, len(names), 3)
-    if program == QTM.name:
+    if program == "QTM":
         values[(values == 0).all(axis=2)] = np.nan
     notes = list(rows.remarks)
     if left := len(columns) - len(names):
@@ -209,6 +203,8 @@ def _rate(content: FileContent, table: Capture) -> float:
     return rate
 
 
-NEXUS = Dialect("Nexus", lambda _, lines: is_nexus(lines), read_nexus)
-MOTIVE = Dialect("Motive", lambda _, lines: is_motive(lines), read_motive)
-QTM = Dialect("QTM", lambda _, lines: is_qtm(lines), read_qtm)
+NEXUS = Dialect("Nexus", is_nexus, partial(read_capture, program="Nexus", look=_nexus))
+MOTIVE = Dialect(
+    "Motive", is_motive, partial(read_capture, program="Motive", look=_motive, usual_up="y")
+)
+QTM = Dialect("QTM", is_qtm, partial(read_capture, program="QTM", look=_qtm))

@@ -12,8 +12,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.formats.delimited import DelimitedText, dotted, separator_of
 from kineme.formats.files import FileContent, in_a_cell, numbers, save, spelled
 from kineme.formats.gaps import split_at, unseen
@@ -23,8 +23,6 @@ from kineme.formats.registry import Format
 from kineme.formats.timing import Timing, timing_of
 from kineme.formats.units import unit_named
 from kineme.recordings import Motion
-
-Floats = NDArray[np.float64]
 
 _MM = 0.001
 _HEADER_LINES = 5

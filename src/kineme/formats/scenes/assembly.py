@@ -22,16 +22,15 @@ from collections.abc import Callable, Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.files import MOST_EXPANSION, FileContent, unique
-from kineme.formats.scenes.characters import SceneNode
+from kineme.formats.scenes.characters import SceneNode, carriers
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks
 from kineme.recordings import Motion, Provenance, Skeleton
 
-Floats = NDArray[np.float64]
 Inheritance = Literal["RrSs", "RSrs", "Rrs"]
 
 STILL = 2e-6
@@ -84,28 +83,15 @@ def assemble(
     turn: Floats,
     provenance: Provenance,
 ) -> Motion:
-    """The motion of a character.
+    """The motion of a character, whose joints are nodes, parents first.
 
-    Parameters
-    ----------
-    content : FileContent
-        Let go once all transforms are known.
-    nodes : sequence of SceneNode
-    joints : sequence of int
-        The character's nodes, parents first.
-    transform : callable
-        From the number of a node to its transform.
-    n_frames : int
-    fps : float
-    unit : str or float
-        Of the scene's lengths.
-    turn : ndarray of shape (4,)
-        The rotation of the scene's axes to those with y up.
-    provenance : Provenance
+    ``transform`` has the transform of a node by its number; ``unit`` is that of the scene's
+    lengths, ``turn`` the rotation of its axes to those with y up. The content is let go once all
+    transforms are known.
     """
     number_of = {node: j for j, node in enumerate(joints)}
     parents = [number_of.get(nodes[node].parent, -1) for node in joints]
-    above = _above(nodes, joints[0])
+    above = carriers(nodes, joints[0])[::-1]  # topmost first
     found = _scaled(above, joints, parents, transform, n_frames, turn)
     if found is None:
         found = _multiplied(above, joints, parents, transform, n_frames, turn)
@@ -124,14 +110,6 @@ def assemble(
     names = tuple(unique(nodes[node].name for node in joints))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
     return place(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
-
-
-def _above(nodes: Sequence[SceneNode], node: int) -> list[int]:
-    """The nodes that carry this one, topmost first."""
-    found = []
-    while (node := nodes[node].parent) >= 0:
-        found.append(node)
-    return found[::-1]
 
 
 def _scaled(

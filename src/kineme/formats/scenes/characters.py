@@ -15,9 +15,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from kineme._counts import counted
-from kineme.errors import SeveralPeopleError
+from kineme._counts import listed
 from kineme.formats.files import FileContent, unique
+from kineme.formats.persons import chosen_person
 from kineme.recordings import Note
 
 SMALLEST = 0.25
@@ -27,7 +27,6 @@ _END = re.compile(
     r"(?:(?:^|[\s_.:-])(?i:end|nub|tip)|(?<=[a-z\d])(?:End|Nub|Tip))"
     r"(?:[\s_.-]?(?i:site|effector))?[\s_.-]?\d*$"
 )
-_SHOWN = 8
 
 
 @dataclass(frozen=True)
@@ -59,18 +58,9 @@ class SceneNode:
 
 @dataclass(frozen=True)
 class Character:
-    """A skeleton in a scene.
+    """A skeleton in a scene: its nodes, parents first, so that the root is the first one.
 
-    Parameters
-    ----------
-    joints : list of int
-        Nodes, parents first; the root is the first one.
-    notes : list of str
-        What was left out.
-    name : str
-        Who it is.
-    people : sequence of str
-        Those who could have been.
+    The notes say what was left out; the name, who it is of the people who could have been.
     """
 
     joints: list[int]
@@ -80,15 +70,7 @@ class Character:
 
 
 def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str | None) -> Character:
-    """The only skeleton that moves, or the one of the person wanted.
-
-    Raises
-    ------
-    ReadError
-        The scene has no skeleton.
-    SeveralPeopleError
-        It has several and none was chosen, or none of this name.
-    """
+    """The only skeleton that moves, or the one of the person wanted."""
     skeletons = _skeletons(nodes)
     if not skeletons:
         raise content.error(
@@ -102,20 +84,25 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
     people = dict(zip(_names(nodes, bodies), bodies, strict=True))
     numbers = {str(number): name for number, name in enumerate(people)}
     name = person if person in people else numbers.get(person or "", person)
-    if name is None and len(people) == 1:
-        (name,) = people
-    if name is None or name not in people:
-        listed = _listing([f"{name} ({len(joints)} joints)" for name, joints in people.items()])
-        question = (
-            f"{len(people)} characters are in it: choose one with person= (--person), of"
-            if name is None
-            else f"there is no person {name!r}: choose from"
-        )
-        raise SeveralPeopleError(content.path, f"{question} {listed}", people)
+    shown = [f"{name} ({len(joints)} joints)" for name, joints in people.items()]
+    name = chosen_person(content.path, people, name, "characters", shown)
     notes = [f"person {name} of {len(people)}"] if len(people) > 1 else []
     if props := _props(nodes, list(people.values())):
-        notes.append(f"left out as props: {_listing(props)}")
+        notes.append(f"left out as props: {listed(props)}")
     return Character(people[name], notes, name, [*people])
+
+
+def carriers(nodes: Sequence[SceneNode], node: int) -> list[int]:
+    """The nodes that carry one, from its parent up."""
+    found = []
+    while (node := nodes[node].parent) >= 0:
+        found.append(node)
+    return found
+
+
+def lively_takes(moved: Sequence[set[int]], bones: set[int]) -> list[int]:
+    """The animations that move a bone, by what each moves; anything where there are no bones."""
+    return [number for number, nodes in enumerate(moved) if (nodes & bones if bones else nodes)]
 
 
 def choose_take(
@@ -123,25 +110,13 @@ def choose_take(
 ) -> tuple[int, list[str]]:
     """The number of the animation that is read, by name or number, and what to say of it.
 
-    Parameters
-    ----------
-    content : FileContent
-    names : sequence of str
-        Of all animations, each once.
-    lively : sequence of int
-        Those that move a skeleton: the first of them is read where none is wanted.
-    name : str, optional
-
-    Raises
-    ------
-    ReadError
-        None moves a skeleton, or none of this name is there.
+    Where none is wanted, it is the first of the lively ones, which move a skeleton.
     """
     if name is not None:
         number = _numbered(names, name)
         if number is None:
-            listed = _listing(names) or "none"
-            raise content.error(f"there is no take {name!r}: choose from {listed}")
+            shown = listed(names) or "none"
+            raise content.error(f"there is no take {name!r}: choose from {shown}")
         return number, [f"take {names[number]} of {len(names)}"]
     if not lively:
         raise content.error(
@@ -150,7 +125,7 @@ def choose_take(
     first = lively[0]
     if len(lively) == 1:
         return first, [f"take {names[first]}"]
-    others = _listing([names[number] for number in lively[1:]])
+    others = listed([names[number] for number in lively[1:]])
     remark = (
         f"{len(lively)} takes are in it and {names[first]!r} is read: take= (--take) reads "
         f"another, of {others}"
@@ -173,12 +148,7 @@ def _numbered(names: Sequence[str], name: str) -> int | None:
 def bones_of(parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]) -> list[bool]:
     """Which nodes are joints: bones, what is between two of them, and free ends below.
 
-    Parameters
-    ----------
-    parents : sequence of int
-    bones : sequence of bool
-    free : sequence of bool
-        Whether a node carries no geometry.
+    A node is free if it carries no geometry.
     """
     joints = list(bones)
     above = [False] * len(parents)  # a bone is somewhere above
@@ -236,11 +206,7 @@ def _names(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
 def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
     """The topmost nodes that are animated, or bones, and neither part of a body nor above one."""
     body = {joint for joints in bodies for joint in joints}
-    for joints in bodies:
-        above = nodes[joints[0]].parent
-        while above >= 0:
-            body.add(above)
-            above = nodes[above].parent
+    body.update(above for joints in bodies for above in carriers(nodes, joints[0]))
     names: list[str] = []
     props: set[int] = set()
     for number, node in enumerate(nodes):
@@ -252,8 +218,3 @@ def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
             props.add(number)
             names.append(node.name)
     return names
-
-
-def _listing(names: Sequence[str]) -> str:
-    more = f" and {counted(len(names) - _SHOWN, 'other')}" if len(names) > _SHOWN else ""
-    return ", ".join(names[:_SHOWN]) + more

@@ -13,13 +13,13 @@ See `kineme.formats.scenes.characters` for what counts as a character,
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames, quaternions
-from kineme.formats.scenes.characters import character_of, choose_take
+from kineme.formats.scenes.characters import character_of, choose_take, lively_takes
 from kineme.formats.scenes.fbx_curves import SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx
 from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
@@ -27,8 +27,6 @@ from kineme.formats.scenes.fbx_text import TEXT
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
-
-Floats = NDArray[np.float64]
 
 RATES = {
     1: 120.0, 2: 100.0, 3: 60.0, 4: 50.0, 5: 48.0, 6: 30.0, 7: 30.0, 8: 30 / 1.001, 9: 30 / 1.001,
@@ -58,13 +56,9 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     version, root = parse_fbx(content)
     scene = FBXScene(content, root)
     moved = [scene.moved(take) for take in scene.takes]
-    lively = [
-        number
-        for number, models in enumerate(moved)
-        if models & scene.bones or (models and not scene.bones)
-    ]
+    animated = lively_takes(moved, scene.bones)
     names = unique(take.name for take in scene.takes)
-    number, notes = choose_take(content, names, lively, options.take)
+    number, notes = choose_take(content, names, animated, options.take)
     take, nodes = scene.takes[number], scene.nodes(moved[number])
     character = character_of(content, nodes, options.person)
     joints = [scene.models[j].number for j in character.joints]
@@ -82,7 +76,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         unit=options.unit or _unit(scene),
         turn=turn,
         provenance=content.provenance("FBX", [*notes, *rated, *turned])
-        .of_take(names[number], (names[each] for each in lively))
+        .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
     )
 

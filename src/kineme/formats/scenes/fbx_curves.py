@@ -20,11 +20,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.fbx_nodes import FBXNode
 from kineme.formats.scenes.sampling import between
-
-Floats = NDArray[np.float64]
 
 TICKS = 46_186_158_000
 """In a second."""
@@ -69,12 +68,7 @@ class Curve:
 
 
 class CurveReader:
-    """Reads the curves of a file; most have the same times, which are unpacked once.
-
-    Parameters
-    ----------
-    content : FileContent
-    """
+    """Reads the curves of a file; most have the same times, which are unpacked once."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
@@ -83,13 +77,7 @@ class CurveReader:
         self._ordered = True
 
     def read(self, node: FBXNode) -> Curve | None:
-        """The curve of an ``AnimationCurve``; None where it has no key.
-
-        Raises
-        ------
-        ReadError
-            Its arrays do not fit each other, or are no numbers.
-        """
+        """The curve of an ``AnimationCurve``; None where it has no key."""
         times, values = self._read_times(node), node.array(self.content, "KeyValueFloat")
         if values is None or len(times) == 0:
             return None
@@ -151,15 +139,10 @@ def _from_text(details: Floats) -> NDArray[np.float32]:
 
 
 class Sampler:
-    """Values of curves at the frames of a recording.
+    """Values of curves at the frames of a recording, in ticks.
 
     Most curves of a file have keys at the same times, so that what was found for the last one is
     kept.
-
-    Parameters
-    ----------
-    at : ndarray of shape (frames,)
-        Ticks.
     """
 
     def __init__(self, at: Floats) -> None:
@@ -170,12 +153,7 @@ class Sampler:
         self._share = np.empty(0)
 
     def values(self, curve: Curve) -> Floats:
-        """(frames,), or () where the curve is constant.
-
-        Parameters
-        ----------
-        curve : Curve
-        """
+        """(frames,), or () where the curve is constant."""
         times, values = curve.times, curve.values
         still = bool((values == values[0]).all())
         if still and not curve.kinds & CUBIC:

@@ -48,13 +48,7 @@ _ARRAYS = {
 
 
 def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
-    """The version of an FBX file, in thousandths, and its nodes, below one without a name.
-
-    Raises
-    ------
-    ReadError
-        It is no whole FBX file, or older than 7.0.
-    """
+    """The version of an FBX file, in thousandths, and its nodes, below one without a name."""
     if content.data.startswith(MAGIC):
         if len(content.data) < _START:
             raise content.error("the file ends in its header: it is truncated")

@@ -29,17 +29,15 @@ from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.assembly import Inheritance, Transform
 from kineme.formats.scenes.characters import SceneNode, is_end
 from kineme.formats.scenes.fbx_curves import Curve, CurveReader, Sampler
 from kineme.formats.scenes.fbx_nodes import FBXNode
 from kineme.formats.units import blocks
-
-Floats = NDArray[np.float64]
 
 BONES = frozenset({"LimbNode", "Limb", "Root", "Effector", "IKEffector", "FKEffector"})
 GEOMETRY = frozenset({"Mesh", "Camera", "CameraSwitcher", "Light", "Nurbs", "NurbsCurve", "Line"})
@@ -57,15 +55,9 @@ Properties = dict[str, list[object]]
 
 @dataclass(frozen=True)
 class Take:
-    """An animation stack.
+    """An animation stack: the numbers of its layers, the base first, and ticks of both ends.
 
-    Parameters
-    ----------
-    name : str
-    layers : list of int
-        Their numbers, the base first.
-    start, stop : float
-        Ticks of the first and last frame; both 0 where the file does not say.
+    These are 0 where the file does not say.
     """
 
     name: str
@@ -86,14 +78,7 @@ class Model:
 
 
 class FBXScene:
-    """Models, takes and settings of a file.
-
-    Parameters
-    ----------
-    content : FileContent
-    root : FBXNode
-        Its nodes.
-    """
+    """Models, takes and settings of a file."""
 
     def __init__(self, content: FileContent, root: FBXNode) -> None:
         self.content = content
@@ -243,14 +228,7 @@ class FBXScene:
 
 
 class Pose:
-    """The transforms of models at the frames of a take.
-
-    Parameters
-    ----------
-    scene : FBXScene
-    take : Take
-    sampler : Sampler
-    """
+    """The transforms of models at the frames of a take."""
 
     def __init__(self, scene: FBXScene, take: Take, sampler: Sampler) -> None:
         self.scene, self.sampler = scene, sampler
@@ -289,7 +267,7 @@ class Pose:
                 layer = _euler(value, order)
                 if _replaces(properties):
                     layer = rot.multiply(rot.conjugate(turn), layer)
-                turn = rot.multiply(turn, _share_of(layer, weight))
+                turn = rot.multiply(turn, rot.exponential(weight * rot.logarithm(layer)))
         return _euler(angles, order) if turn is None else turn
 
     def _values(self, model: Model, what: str, usual: float) -> Floats:
@@ -348,15 +326,6 @@ class Pose:
 def _replaces(properties: Properties) -> bool:
     """Whether a layer takes the place of what is below it, to its share, and is not added."""
     return _choice(properties, "BlendMode", 3) == _PASS_THROUGH
-
-
-def _share_of(turn: Floats, weight: Floats | float) -> Floats:
-    """A rotation so large a share as far, along the shorter arc."""
-    turn = np.where(turn[..., :1] < 0, -turn, turn)
-    norm = np.linalg.norm(turn[..., 1:], axis=-1, keepdims=True)
-    angle = np.arctan2(norm, turn[..., :1]) * weight
-    axis = turn[..., 1:] / np.maximum(norm, 1e-300) + 0 * angle
-    return np.asarray(np.concatenate([np.cos(angle), np.sin(angle) * axis], axis=-1), np.float64)
 
 
 def _euler(angles: Floats, axes: str) -> Floats:

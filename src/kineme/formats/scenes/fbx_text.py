@@ -31,13 +31,7 @@ _LONGEST = 40  # digits of a whole number
 
 
 def parse_text(content: FileContent) -> FBXNode:
-    """The nodes of a text, below one without a name.
-
-    Raises
-    ------
-    ReadError
-        It breaks off, or is no such text; the message has the line.
-    """
+    """The nodes of a text, below one without a name."""
     return _Text(content).root
 
 

@@ -16,9 +16,9 @@ import re
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -29,14 +29,19 @@ from kineme.formats.scenes.assembly import (
     orthogonal,
     quaternions,
 )
-from kineme.formats.scenes.characters import SceneNode, character_of, choose_take, is_end
+from kineme.formats.scenes.characters import (
+    SceneNode,
+    carriers,
+    character_of,
+    choose_take,
+    is_end,
+    lively_takes,
+)
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
 from kineme.formats.scenes.gltf_writer import EXTRAS, write_animations, write_gltf
-from kineme.formats.scenes.sampling import between, slerp
+from kineme.formats.scenes.sampling import between
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
-
-Floats = NDArray[np.float64]
 
 USUAL_RATE = 30.0
 """Of files whose keys are not evenly spaced."""
@@ -70,12 +75,16 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
     objects = [file.tree.nodes[number] for number in order]
     bones = {joint for skin in file.tree.skins for joint in skin.joints}
     moved = [
-        {channel.target.node for channel in animation.channels if channel.target.path in _WIDTHS}
+        {
+            target.node
+            for target in (channel.target for channel in animation.channels)
+            if target.path in _WIDTHS and target.node is not None
+        }
         for animation in file.tree.animations
     ]
-    lively = [i for i, nodes in enumerate(moved) if nodes & bones or (nodes and not bones)]
+    animated = lively_takes(moved, bones)
     names = unique(animation.name or "animation" for animation in file.tree.animations)
-    number, notes = choose_take(content, names, lively, options.take)
+    number, notes = choose_take(content, names, animated, options.take)
     nodes = [
         SceneNode(
             each.name or f"node{order[j]}",
@@ -107,7 +116,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         unit=options.unit or 1.0,
         turn=up_rotation(options.up or "y"),
         provenance=content.provenance("glTF", [*notes, *character.notes, *rated])
-        .of_take(names[number], (names[each] for each in lively))
+        .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
     )
 
@@ -142,12 +151,7 @@ def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
 
 def _needed(nodes: list[SceneNode], joints: list[int], order: list[int]) -> set[int]:
     """The numbers of the nodes that a character consists of, and of those that carry it."""
-    needed = set(joints)
-    above = nodes[joints[0]].parent
-    while above >= 0:
-        needed.add(above)
-        above = nodes[above].parent
-    return {order[j] for j in needed}
+    return {order[j] for j in (*joints, *carriers(nodes, joints[0]))}
 
 
 def _keys(file: GLTFFile, animation: Animation, nodes: set[int]) -> dict[tuple[int, str], Keys]:
@@ -259,7 +263,7 @@ def _sampled(keys: Keys, at: Floats, *, turns: bool) -> Floats:
             out, into = tangents[index, 2], tangents[index + 1, 0]
             found = _hermite(start, stop, out, into, share[:, None], step[:, None])
         elif turns:
-            found = slerp(start, stop, share)
+            found = rot.between(start, stop, share[:, None])
         else:
             found = start + share[:, None] * (stop - start)
     return rot.normalized(found) if turns else found

@@ -19,12 +19,11 @@ from urllib.parse import unquote
 
 import numpy as np
 from msgspec import Struct, field
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._json import decoded
 from kineme.formats.files import FileContent, load
 
-Floats = NDArray[np.float64]
 Part = TypeVar("Part")
 
 MAGIC = b"glTF"
@@ -137,17 +136,7 @@ class Tree(Struct, rename="camel"):
 
 
 class GLTFFile:
-    """What a file holds.
-
-    Parameters
-    ----------
-    content : FileContent
-
-    Raises
-    ------
-    ReadError
-        It is no glTF 2.0.
-    """
+    """What a file holds."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
@@ -169,13 +158,7 @@ class GLTFFile:
         return parts[number]
 
     def array(self, number: int) -> Floats:
-        """The numbers of an accessor, (elements, numbers of each).
-
-        Raises
-        ------
-        ReadError
-            It is not there, is longer than its buffer, or is packed in a way that is not read.
-        """
+        """The numbers of an accessor, (elements, numbers of each)."""
         accessor = self.part(self.tree.accessors, number, "accessor")
         code, width = COMPONENTS.get(accessor.component_type), WIDTHS.get(accessor.type)
         if code is None or width is None:

@@ -25,17 +25,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
-from kineme.formats.files import spelled
+from kineme.formats.files import rotations_of, spelled
 from kineme.formats.gaps import warn_of_gaps
 from kineme.formats.scenes.gltf_file import BYTES, CHUNK, HEADER, JSON, MAGIC
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import local_translations
-
-Floats = NDArray[np.float64]
+from kineme.recordings.kinematics import at_rest, local_translations
 
 EXTRAS = "kineme"
 """The name of what kineme adds to the extras of a file."""
@@ -58,34 +57,19 @@ def write_gltf(motion: Motion, path: Path) -> None:
 
 
 def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
-    """Leave motions of one skeleton in a file, each as an animation of its name.
+    """Leave motions of one skeleton, one at least, in a file, each as an animation of its name.
 
-    Parameters
-    ----------
-    motions : mapping of str to Motion
-        At least one.
-    path : Path
-        ``.glb``, or ``.gltf`` with its buffer in it.
-
-    Raises
-    ------
-    WriteError
-        A motion has no rotations, or another skeleton than the first.
+    A ``.gltf`` has its buffer in it.
     """
     first = next(iter(motions.values()))
+    turns = {name: rotations_of(motion, path, "a glTF") for name, motion in motions.items()}
     for motion in motions.values():
-        if motion.rotations is None:
-            raise WriteError(
-                path,
-                "a glTF needs rotations, and this motion has positions only: write .trc, .csv "
-                "or .npz",
-            )
         if motion.skeleton is not first.skeleton and not _same(motion.skeleton, first.skeleton):
             raise WriteError(path, "its animations are of different skeletons: write several files")
     warn_of_gaps(motions.values(), path)
     file = _Writer(first, path)
     for name, motion in motions.items():
-        file.animate(name, motion)
+        file.animate(name, motion, turns[name])
     buffer: dict[str, Any] = {"byteLength": len(file.data)}
     binary = path.suffix.lower() != ".gltf"
     if not binary:
@@ -148,10 +132,7 @@ class _Writer:
     def _add_mesh(self) -> None:
         """Bones to look at, bound to the joints where they are without rotations."""
         skeleton = self.skeleton
-        places = np.array(skeleton.offsets)
-        for j, parent in enumerate(skeleton.parents):
-            if parent >= 0:
-                places[j] += places[parent]
+        places = at_rest(skeleton)
         vertices, faces, joints = _bones(skeleton, places)
         kind = np.uint8 if skeleton.n_joints <= 256 else np.uint16
         bound = np.zeros((len(vertices), 4), kind)
@@ -179,12 +160,10 @@ class _Writer:
             }
         ]
 
-    def animate(self, name: str, motion: Motion) -> None:
-        """Add a motion of the same skeleton."""
-        skeleton, n, turns = self.skeleton, motion.n_frames, motion.rotations
-        if turns is None:
-            return
-        shifts = local_translations(skeleton, motion.positions, motion.rotations)
+    def animate(self, name: str, motion: Motion, turns: Floats) -> None:
+        """Add a motion of the same skeleton, and its rotations."""
+        skeleton, n = self.skeleton, motion.n_frames
+        shifts = local_translations(skeleton, motion.positions, turns)
         slides = np.abs(shifts - skeleton.offsets).max(axis=(0, 2)) > RIGID
         seconds = self._accessor(np.arange(n)[:, None] / motion.fps, _KEYS, bounds=True)
         channels: list[dict[str, Any]] = []

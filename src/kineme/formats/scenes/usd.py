@@ -14,10 +14,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.errors import MissingDependencyError
+from kineme._arrays import Floats
+from kineme._checks import needed
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -33,8 +33,6 @@ from kineme.formats.scenes.usd_writer import END_SITES, write_usd
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
 
-Floats = NDArray[np.float64]
-
 CENTIMETRE = 0.01
 """Metres: the unit of stages that tell none."""
 
@@ -46,10 +44,8 @@ _MOST_FRAMES = 1e12
 
 def read_usd(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of a skeleton in a USD file."""
-    try:
+    with needed("usd-core", "usd"):
         from pxr import Tf
-    except ImportError as error:
-        raise MissingDependencyError("usd-core", "usd") from error
     try:
         return _read(content, options)
     except Tf.ErrorException as error:

@@ -14,31 +14,24 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
+from kineme._checks import needed
 from kineme._files import atomic_write
-from kineme.errors import MissingDependencyError, WriteError
-from kineme.formats.files import spelled, unique
+from kineme.errors import WriteError
+from kineme.formats.files import rotations_of, spelled, unique
 from kineme.formats.gaps import warn_of_gaps
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import local_translations
-
-Floats = NDArray[np.float64]
+from kineme.recordings.kinematics import at_rest, local_translations
 
 END_SITES = "kineme:endSites"
 
 
 def write_usd(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in a USD file."""
-    if motion.rotations is None:
-        raise WriteError(
-            path,
-            "a USD needs rotations, and this motion has positions only: write .trc, .csv or .npz",
-        )
-    try:
+    rotations = rotations_of(motion, path, "a USD")
+    with needed("usd-core", "usd"):
         from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
-    except ImportError as error:
-        raise MissingDependencyError("usd-core", "usd") from error
     warn_of_gaps([motion], path)
     skeleton = motion.skeleton
     names = spelled(path, skeleton.names, str.strip)
@@ -57,21 +50,17 @@ def write_usd(motion: Motion, path: Path) -> None:
     root = UsdSkel.Root.Define(stage, top)
     stage.SetDefaultPrim(root.GetPrim())
     bound = UsdSkel.Skeleton.Define(stage, top.AppendChild("Skeleton"))
-    places = np.array(skeleton.offsets)
-    for j, parent in enumerate(skeleton.parents):
-        if parent >= 0:
-            places[j] += places[parent]
     bound.CreateJointsAttr(joints)
     bound.CreateJointNamesAttr(names)
     bound.CreateRestTransformsAttr([_shift(Gf, offset) for offset in skeleton.offsets])
-    bound.CreateBindTransformsAttr([_shift(Gf, place) for place in places])
+    bound.CreateBindTransformsAttr([_shift(Gf, place) for place in at_rest(skeleton)])
     ends = [names[j] for j in sorted(skeleton.end_sites)]
     bound.GetPrim().SetCustomDataByKey(END_SITES, Vt.StringArray(ends))
     animation = UsdSkel.Animation.Define(stage, bound.GetPath().AppendChild("Animation"))
     animation.CreateJointsAttr(joints)
     animation.CreateScalesAttr(Vt.Vec3hArray(len(joints), Gf.Vec3h(1, 1, 1)))
-    shifts = local_translations(skeleton, motion.positions, motion.rotations).astype("f4")
-    turns = np.roll(motion.rotations, -1, axis=-1).astype("f4")  # as USD stores them, w last
+    shifts = local_translations(skeleton, motion.positions, rotations).astype("f4")
+    turns = np.roll(rotations, -1, axis=-1).astype("f4")  # as USD stores them, w last
     moved, turned = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
     for frame in range(motion.n_frames):
         moved.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)

@@ -26,9 +26,9 @@ from math import radians
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, load, numbers
 from kineme.formats.options import ReadOptions
@@ -38,8 +38,6 @@ from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks, metres
 from kineme.recordings import Motion
-
-Floats = NDArray[np.float64]
 
 Layout = dict[str, int]
 """How many values each bone of a frame has, in the order of the file."""

@@ -19,14 +19,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.errors import WriteError
 from kineme.formats.files import save, spelled, table
 from kineme.formats.skeletons.asf import ROOT
 from kineme.formats.skeletons.bvh_writer import euler_angles
 from kineme.formats.units import UNITS
 from kineme.recordings import Motion, Skeleton
-
-Floats = NDArray[np.float64]
 
 UNIT = UNITS["cmu"]
 

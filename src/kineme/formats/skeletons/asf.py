@@ -23,14 +23,13 @@ from dataclasses import dataclass, field
 from math import radians
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.units import INCH
 from kineme.recordings import Skeleton
 
-Floats = NDArray[np.float64]
 Line = tuple[int, list[str]]
 
 ROOT = "root"

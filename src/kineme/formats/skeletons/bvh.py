@@ -28,9 +28,9 @@ from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme._counts import counted
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, numbers
@@ -40,8 +40,6 @@ from kineme.formats.skeletons.bvh_writer import write_bvh
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks, rate_from_period
 from kineme.recordings import Motion, Provenance, Skeleton
-
-Floats = NDArray[np.float64]
 
 CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""

@@ -16,12 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.errors import WriteError
-from kineme.formats.files import save, spelled, table
+from kineme._arrays import Floats
+from kineme.formats.files import rotations_of, save, spelled, table
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
-
-Floats = NDArray[np.float64]
 
 UNIT = 0.01
 RIGID = 1e-9
@@ -52,14 +50,10 @@ def euler_angles(motion: Motion, path: Path, what: str) -> tuple[Floats, Floats,
 
     WriteError where a motion has no rotations for ``what`` is to be written.
     """
-    if motion.rotations is None:
-        raise WriteError(
-            path,
-            f"{what} needs rotations, and this motion has positions only: write .trc, .csv or .npz",
-        )
-    translations = local_translations(motion.skeleton, motion.positions, motion.rotations)
+    rotations = rotations_of(motion, path, what)
+    translations = local_translations(motion.skeleton, motion.positions, rotations)
     slides = np.abs(translations - motion.skeleton.offsets).max(axis=(0, 2)) > RIGID
-    return np.degrees(rot.to_euler_zyx(motion.rotations)), translations, slides
+    return np.degrees(rot.to_euler_zyx(rotations)), translations, slides
 
 
 def _names(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:

@@ -16,19 +16,16 @@ from dataclasses import dataclass, field
 from xml.etree import ElementTree as ET
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme._counts import listed
+from kineme._arrays import Floats
 from kineme._xml import NoEntities
-from kineme.errors import SeveralPeopleError
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
+from kineme.formats.persons import chosen_person
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.placing import place
 from kineme.recordings import Motion, Skeleton
-
-Floats = NDArray[np.float64]
 
 KINDS = ("position", "orientation")
 """What is read of a frame."""
@@ -59,7 +56,11 @@ class Subject:
 def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of a suit in an MVNX file."""
     people = _subjects(content)
-    subject = _chosen(content, people, options.person)
+    if not people:
+        raise content.error("there is no subject in it")
+    called = [each.name for each in people]
+    who = chosen_person(content.path, called, options.person, "subjects")
+    subject = people[called.index(who)]
     names = [name for name in PARENTS if name in subject.segments]
     if "Pelvis" not in names:
         raise content.error("none of its segments is a 'Pelvis'")
@@ -88,7 +89,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     notes = [f"segments left out: {', '.join(left)}"] if left else []
     provenance = content.provenance("MVNX", notes)
     if len(people) > 1:
-        provenance = provenance.of_person(subject.name, [each.name for each in people])
+        provenance = provenance.of_person(who, called)
     return place(
         Skeleton(tuple(names), tuple(parents), offsets),
         local,
@@ -155,18 +156,6 @@ def _stacked(content: FileContent, subject: Subject, what: str, width: int) -> F
     if any(len(values) != width for values in frames):
         raise content.error(f"a frame has another number of values in {what} than {width}")
     return np.stack(frames)
-
-
-def _chosen(content: FileContent, people: list[Subject], person: str | None) -> Subject:
-    if not people:
-        raise content.error("there is no subject in it")
-    found = [each for each in people if person in (None, each.name)]
-    if len(found) == 1:
-        return found[0]
-    names = [each.name for each in people]
-    raise SeveralPeopleError(
-        content.path, f"choose one of its subjects with person= (--person): {listed(names)}", names
-    )
 
 
 def _parent(name: str, names: list[str]) -> int:

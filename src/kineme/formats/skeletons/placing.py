@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.formats.units import (
     BODIES,
     blocks,
@@ -24,8 +24,6 @@ from kineme.formats.units import (
 )
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
-
-Floats = NDArray[np.float64]
 
 BYTES_PER_JOINT = 2 * 8 * (4 + 3)
 """What a joint takes in a frame: rotation, position, and as much again."""

@@ -118,15 +118,7 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
 def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
     """The same segments, whose clusters have these names and no others; labels stay as they are.
 
-    Parameters
-    ----------
-    segmentation : Segmentation
-    names : mapping of str
-        By cluster; empty for one that has none, whatever its segments are called.
-
-    Returns
-    -------
-    Segmentation
+    The name of a cluster is empty if it has none, whatever its segments are called.
     """
     present = set(segmentation.table.cluster.tolist())
     kept = {cluster: names[cluster] for cluster in sorted(names) if cluster in present}

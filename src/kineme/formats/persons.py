@@ -1,0 +1,32 @@
+"""Whose motion is read where a file holds those of several."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from pathlib import Path
+
+from kineme._counts import listed
+from kineme.errors import SeveralPeopleError
+
+
+def chosen_person(
+    path: str | Path,
+    people: Collection[str],
+    person: str | None,
+    what: str = "people",
+    shown: Sequence[str] = (),
+) -> str:
+    """The one who is wanted, or the only one; SeveralPeopleError where that is nobody.
+
+    ``shown`` is how messages call the people, ``what`` how all of them.
+    """
+    if person is None and len(people) == 1:
+        return next(iter(people))
+    if person is not None and person in people:
+        return person
+    question = (
+        f"{len(people)} {what} are in it: choose one with person= (--person), of"
+        if person is None
+        else f"there is no person {person!r}: choose from"
+    )
+    raise SeveralPeopleError(path, f"{question} {listed(shown or [*people])}", people)
