@@ -121,11 +121,12 @@ def _placed(
 ) -> Motion:
     """The motion of joints as `_local` gives them."""
     parents = tuple(joint.parent for joint in joints)
+    above = {*parents}
     skeleton = Skeleton(
         tuple(joint.name for joint in joints),
         parents,
         np.array([joint.offset for joint in joints]),
-        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in parents),
+        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in above),
     )
     return place(skeleton, *turned, fps, unit=options.unit, up=options.up, provenance=provenance)
 

@@ -1,0 +1,24 @@
+"""Whether work grows with what there is to do, at whatever pace a machine goes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+PARTS = 8
+LINEAR = 3.0 * PARTS
+"""`times_longer` of work in proportion stays below this; that of a square is 64."""
+LEAST = 0.02
+"""Seconds: what takes less is taken for so much."""
+
+
+def times_longer(work: Callable[[int], object], n: int) -> float:
+    """How many times the processor time for n is that for an eighth of it."""
+
+    def spent(n: int) -> float:
+        start = time.process_time()
+        work(n)
+        return time.process_time() - start
+
+    work(n // PARTS)  # loads what it needs
+    return spent(n) / max(spent(n // PARTS), LEAST)
