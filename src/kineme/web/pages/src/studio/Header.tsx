@@ -1,4 +1,5 @@
 /** The bar on top: what is open, undo and redo, whether everything is saved, and the dialogs. */
+import { counted } from "../counted";
 import type { JSX } from "preact";
 import { theme, toggleTheme } from "../theme";
 import { IconButton } from "../transport/icons";
@@ -96,7 +97,7 @@ function SaveState(): JSX.Element {
   const text = finding
     ? "finding the segments…"
     : waiting
-      ? `saving ${waiting} ${waiting === 1 ? "edit" : "edits"}…`
+      ? `saving ${counted(waiting, "edit")}…`
       : saved
         ? `saved as ${saved}`
         : "not corrected yet";

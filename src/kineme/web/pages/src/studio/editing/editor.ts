@@ -10,7 +10,7 @@ import type { Store } from "../../store";
 import * as commands from "./commands";
 import type { Session } from "../session";
 import { isExcluded, nearestBorder } from "../../segments";
-import { counted } from "./words";
+import { counted } from "../../counted";
 
 export class Editor {
   /** Asks for the field of a name to take the keyboard: of a segment or its cluster. */

@@ -2,6 +2,7 @@
  * All recordings of the folder, a row each. Only the rows that are seen are there, so that five
  * hundred scroll like ten.
  */
+import { counted } from "../../counted";
 import { computed, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
@@ -234,7 +235,7 @@ function Find(): JSX.Element | null {
       title="Find the segments of the recordings that have none yet; they are saved once you edit them"
       onClick={() => void folder.find()}
     >
-      Segment {n} {n === 1 ? "recording" : "recordings"}
+      Segment {counted(n, "recording")}
     </button>
   );
 }

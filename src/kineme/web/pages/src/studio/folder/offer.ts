@@ -1,4 +1,5 @@
 /** What a cluster of one recording is called now, offered for all recordings of the folder. */
+import { counted } from "../../counted";
 import { effect, signal, untracked } from "@preact/signals";
 import { explain } from "../server/api";
 import type { Session } from "../session";
@@ -40,11 +41,9 @@ export class NameOffer {
     this.present.value = null;
     try {
       const { tables, others, left } = await api.callEverywhere(offer, this.isLibrary());
-      const kept = others ? ` ${others} clusters there keep another name.` : "";
+      const kept = others ? ` Another name stays with ${counted(others, "cluster")} there.` : "";
       const lost = left.length ? ` Not changed: ${left.join("; ")}.` : "";
-      bulletin.tell(
-        `“${offer.label}” in ${tables} saved ${tables === 1 ? "table" : "tables"} more.${kept}${lost}`,
-      );
+      bulletin.tell(`“${offer.label}” in ${counted(tables, "saved table")} more.${kept}${lost}`);
       if (state.value) await this.session.refresh();
     } catch (error) {
       bulletin.problem(explain(error));
