@@ -10,6 +10,7 @@ export function Header(): JSX.Element {
   const { session, front } = useStudio();
   const edited = session.edited.value;
   const recording = edited?.confirmed.value;
+  const news = session.bulletin.news.value;
   const other = theme.value === "dark" ? "light" : "dark";
   return (
     <>
@@ -18,7 +19,9 @@ export function Header(): JSX.Element {
       <span class="folder quiet" title={session.state.value?.folder}>
         {recording?.name ?? session.state.value?.folder}
       </span>
-      <span class="spacer" />
+      <div class="spacer news-place" role="status">
+        {news && <span class="news">{news.text}</span>}
+      </div>
       <span class="group">
         <button
           type="button"
