@@ -275,31 +275,31 @@ class OpenRecordings:
             self._sketches.pop(name, None)
         differ = after.differs_from(before)
         for each in present:
-            known = each.id in self._open or self._sketches.get(each.id) or usual_table(each)
-            if differ and known:
+            is_present = each.id in self._open or self._sketches.get(each.id) or usual_table(each)
+            if differ and is_present:
                 with suppress(ReadError):  # who is not in another take
                     self._open_anew(each, with_table=differ != {"take"})
         return [each.id for each in present if everybody or each.person in ("", person)]
 
     def _read_so(
-        self, listed: ListedRecording, said: Reading, everybody: bool
+        self, listed: ListedRecording, choice: Reading, everybody: bool
     ) -> tuple[Reading, str]:
         """What to keep of how a file is read from now on, and which of several people was read.
 
-        ``said`` has the people of before. KinemeError where it cannot be read so.
+        ``choice`` has the people of before. KinemeError where it cannot be read so.
         """
-        people = self._cache.people(listed.path, said) if everybody else ()
-        person = people[0] if people else said.options.get("person") or listed.person
-        found = self._cache.read(ListedRecording(listed.path, person), said).provenance
+        people = self._cache.people(listed.path, choice) if everybody else ()
+        person = people[0] if people else choice.options.get("person") or listed.person
+        found = self._cache.read(ListedRecording(listed.path, person), choice).provenance
         people = people or found.people
         if self.folder.of_library:
-            return said, ""
+            return choice, ""
         if len(people) < 2:
-            return Reading(said.options), ""
+            return Reading(choice.options), ""
         before = options_of(listed.path).get("person", "")
         first = before if listed.person else self._first_person(listed)
-        kept = said.people if {*people} <= {*said.people} and not everybody else people
-        return Reading({**said.options, "person": first}, kept), found.person or ""
+        kept = choice.people if {*people} <= {*choice.people} and not everybody else people
+        return Reading({**choice.options, "person": first}, kept), found.person or ""
 
     def _first_person(self, listed: ListedRecording) -> str:
         """Whose the table of a file is, where somebody was read before any were told apart."""

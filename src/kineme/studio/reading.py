@@ -41,13 +41,13 @@ class RecordingCache:
         self._recent: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
         self._extents: dict[tuple[Path, Stamp, str], Extent] = {}
 
-    def read(self, listed: ListedRecording, said: Reading | None = None) -> Motion | Signals:
+    def read(self, listed: ListedRecording, choice: Reading | None = None) -> Motion | Signals:
         """A recording, read from its file if it is not in memory; ReadError where it cannot be.
 
-        It is read as people said of it, or as it is ``said`` now. Its provenance has what there is
+        It is read as people said of it, or as a ``choice`` says. Its provenance has what there is
         to warn of.
         """
-        path, options = listed.path, read_options(listed, self.options.file, said)
+        path, options = listed.path, read_options(listed, self.options.file, choice)
         key = path, stamp_of(path), repr(options)
         with self._lock:
             reading = self._reading.setdefault(key, threading.Lock())
@@ -72,9 +72,9 @@ class RecordingCache:
             self._extents[key] = Extent(found.n_frames, found.fps, found.provenance.clock)
         return self._extents[key]
 
-    def people(self, path: Path, said: Reading) -> tuple[str, ...]:
+    def people(self, path: Path, choice: Reading) -> tuple[str, ...]:
         """Those in a file that is read so, where there are several; it is read for it."""
-        return people_in(path, read_options(ListedRecording(path), self.options.file, said))
+        return people_in(path, read_options(ListedRecording(path), self.options.file, choice))
 
     def analog(self, listed: ListedRecording) -> Signals | None:
         """The channels beside the motion in a file, read each time; None where there are none."""

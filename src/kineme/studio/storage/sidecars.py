@@ -83,25 +83,25 @@ def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
         folder = path.parent / FOLDER
         if folder not in present:
             present[folder] = _names_in(folder)
-        known = _sidecar(path, READING).name in present[folder]
-        said = reading_of(path) if known else Reading()
-        first = said.options.get("person")
-        found += [ListedRecording(path, who, who == first) for who in said.people]
-        found += [] if said.people else [ListedRecording(path)]
+        is_present = _sidecar(path, READING).name in present[folder]
+        choice = reading_of(path) if is_present else Reading()
+        first = choice.options.get("person")
+        found += [ListedRecording(path, who, who == first) for who in choice.people]
+        found += [] if choice.people else [ListedRecording(path)]
     return found
 
 
 def read_options(
-    listed: ListedRecording, general: ReadOptions, said: Reading | None = None
+    listed: ListedRecording, general: ReadOptions, choice: Reading | None = None
 ) -> ReadOptions:
-    """How a recording is read: as people said of it, or as it is ``said`` now; else as of all."""
-    options = replace(general, **(said or reading_of(listed.path)).options)
+    """How a recording is read: as people said of it, or as a ``choice`` says; else as of all."""
+    options = replace(general, **(choice or reading_of(listed.path)).options)
     return replace(options, person=listed.person) if listed.person else options
 
 
-def keep_reading(recording: Path, said: Reading) -> None:
+def keep_reading(recording: Path, choice: Reading) -> None:
     """Keep what people say of how a file is read, and who is in it."""
-    content = {**given(said.options), "people": [*said.people]}
+    content = {**given(choice.options), "people": [*choice.people]}
     write_file(_sidecar(recording, READING), json.dumps(content).encode())
 
 
@@ -180,13 +180,13 @@ def _make_folder(folder: Path) -> None:
 def _reading(recording: Path) -> tuple[Reading, list[str]]:
     path = _sidecar(recording, READING)
     content, notes = read_sidecar(path, _Reading, _Reading())
-    said = Reading(given(content), content.get("people", []))
+    choice = Reading(given(content), content.get("people", []))
     try:
-        ReadOptions(**said.options)
+        ReadOptions(**choice.options)
     except KinemeError as error:
         wrong = f"{path.name} was left alone: it holds a wrong option: {error}"
-        return replace(said, options={}), [*notes, wrong]
-    return said, notes
+        return replace(choice, options={}), [*notes, wrong]
+    return choice, notes
 
 
 def _video(recording: Path) -> tuple[_Offset, list[str]]:

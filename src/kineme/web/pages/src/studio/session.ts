@@ -87,10 +87,10 @@ export class Session {
     this.bulletin = new Bulletin(() => tableOf(store.recording.value));
     this.beside = new Beside(this);
     this.people = new People(this);
-    const over = (which: readonly string[], inFront: () => unknown): void =>
+    const over = (topics: readonly string[], inFront: () => unknown): void =>
       void effect(() => {
         void inFront();
-        untracked(() => which.forEach((what) => this.bulletin.solved(what)));
+        untracked(() => topics.forEach((what) => this.bulletin.solved(what)));
       });
     over(OF_TABLE, () => tableOf(store.recording.value));
     over(OF_RECORDING, () => store.recording.value?.id);
