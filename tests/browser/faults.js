@@ -1,5 +1,6 @@
 /** What of the page cannot be seen or used: cut off, covered, outside of the window, too small. */
 () => {
+  const LEAST = 23.9; // pixels of a target: 24, but for what is lost in zooming
   const faults = [];
   const page = document.documentElement;
   const name = (element) =>
@@ -21,6 +22,9 @@
     return null;
   };
   const check = (control) => {
+    const { width, height } = control.getBoundingClientRect();
+    if (control.localName === "button" && Math.min(width, height) < LEAST)
+      faults.push(`“${name(control)}” is ${width.toFixed()} × ${height.toFixed()}`);
     const clip = clippedBy(control);
     if (clip) {
       const [at, overflow, what] = clip;

@@ -39,7 +39,7 @@ def test_the_folder_is_a_page_and_a_review_goes_through_it_with_keys(new_tab, se
     rows = page.locator(".folder-page [role=rowgroup] [role=row]")
     until(page, lambda: rows.locator(".gradient").count() == 3, "3 rows")
     assert "20 %" in rows.nth(1).inner_text()
-    page.get_by_text("0 of 9 checked, 2 left above half a doubt").wait_for()
+    page.get_by_text("0 of 9 checked; 2 of the others below 50 %").wait_for()
     page.get_by_role("button", name="Lowest confidence").click()
     until(page, lambda: rows.first.inner_text().startswith("b.bvh"), "b first")
     page.get_by_label("Filter the recordings by name").fill("c.")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from test_views import FAULTS
 
 import kineme
 from kineme.datasets import bundled_truth
@@ -161,6 +162,27 @@ def test_a_file_that_is_no_recording_is_refused_in_words(new_tab, server):
     notice = page.locator("[data-notice=problem]")
     notice.filter(has_text="broken.bvh").wait_for()
     page.get_by_text("Choose a recording on the left").wait_for()
+    broken.unlink()
+
+
+def test_what_is_told_covers_no_button_and_goes(new_tab, server, take):
+    broken = server.folder / "broken.bvh"
+    broken.write_text("HIERARCHY\nnothing of the kind\n")
+    page = new_tab(server.address_of(take))
+    page.set_viewport_size({"width": 1024, "height": 768})
+    screen = Screen(page).opened()
+    page.keyboard.press("9")
+    page.get_by_text("No label is on the key 9 yet").wait_for()
+    notice = page.locator("[data-notice=problem]")
+    dismiss = notice.get_by_role("button", name="Dismiss")
+    good = page.get_by_role("button", name=take.name, exact=True)
+    for end in (dismiss.click, lambda: page.keyboard.press("Escape"), good.click):
+        page.get_by_role("button", name="broken.bvh", exact=True).click()
+        notice.wait_for()
+        screen.drawn()
+        assert page.evaluate(FAULTS) == []
+        end()
+        notice.wait_for(state="detached")
     broken.unlink()
 
 

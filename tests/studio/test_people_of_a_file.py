@@ -11,9 +11,11 @@ from studio_clients import Studio
 from typer.testing import CliRunner
 
 import kineme
+from kineme import _json
 from kineme.cli.app import app
 from kineme.cli.studio import _tell_apart
 from kineme.studio.reading import ReadingOptions
+from kineme.studio.storage import sidecars
 from kineme.studio.storage.listed import ListedRecording, file_id
 from people_files import write_people
 
@@ -99,6 +101,28 @@ def test_reading_the_file_otherwise_makes_the_tables_of_all_anew(duet: Studio) -
     refused = duet.client.post(f"/api/recordings/{bob.id}/reading", json={"person": "Eve"})
     assert (refused.status_code, refused.json()["people"]) == (400, ["Anna", "Bob"])
     assert bob.recording()["fps"] == 15.0
+
+
+def test_reading_it_as_it_is_read_makes_no_table_anew(duet: Studio) -> None:
+    assert choose(duet, person="Bob", fps=15.0) == [of(duet, "Bob").id]
+    bob = of(duet, "Bob")
+    bob.done(bob.recording()["revision"], "name_segment", **NAME, label="before")
+    revision = bob.recording()["revision"]
+    assert choose(bob, person="Bob", fps=15.0) == [bob.id]
+    assert (labels(bob), bob.recording()["revision"]) == ({"before"}, revision)
+
+
+def test_the_side_file_of_people_is_read_once_for_a_list(duet: Studio, monkeypatch) -> None:
+    choose(duet, everybody=True)
+    read: list[Path] = []
+
+    def loaded(path: Path, shape: Any) -> Any:
+        read.append(path)
+        return _json.loaded(path, shape)
+
+    monkeypatch.setattr(sidecars, "loaded", loaded)
+    assert [each.person for each in sidecars.listed_in([duet.path])] == ["Anna", "Bob"]
+    assert len(read) == 1
 
 
 @pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")

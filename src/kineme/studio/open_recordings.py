@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 from msgspec import UNSET, Struct
 
 from kineme._counts import counted
-from kineme.errors import KinemeError, ParameterError, SeveralPeopleError
+from kineme.errors import KinemeError, ParameterError, ReadError, SeveralPeopleError
 from kineme.formats import sketch
 from kineme.labels.collections import Extent
 from kineme.segments.segmentation import Segmentation
@@ -28,11 +28,12 @@ from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.studio.running import NOTHING, READING
 from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import (
-    OPTIONS,
-    keep_options,
+    Reading,
+    given,
+    keep_reading,
     options_of,
-    people_of,
     read_options,
+    reading_of,
     video_message,
 )
 from kineme.studio.storage.tables import usual_table
@@ -265,52 +266,40 @@ class OpenRecordings:
         all. KinemeError where it cannot be read so: it is read as before.
         """
         listed = _found(self.folder.recordings(), name, "recording")
-        before, former = options_of(listed.path), self._open.get(name)
-        person, several = self._keep_reading(listed, options, everybody=everybody)
-        chosen = several and (former is None or former.loaded.provenance.person != person)
-        after = options_of(listed.path)
-        differ = {option for option in OPTIONS if before.get(option) != after.get(option)}
-        if several:  # another person is another recording
-            differ.discard("person")
+        before = reading_of(listed.path)
+        after, person = self._read_so(listed, Reading(given(options), before.people), everybody)
+        keep_reading(listed.path, after)
         present = [each for each in self.folder.recordings().values() if each.path == listed.path]
         if name not in {each.id for each in present}:
             self._open.pop(name, None)
             self._sketches.pop(name, None)
-        whom = [each for each in present if everybody or not several or each.person == person]
+        differ = after.differs_from(before)
         for each in present:
-            if each in whom and not (chosen or everybody):
-                self._open_anew(each, with_table=differ != {"take"})
-            elif differ and (each.id in self._open or usual_table(each) is not None):
-                with suppress(KinemeError):  # who is not in another take
+            is_present = each.id in self._open or self._sketches.get(each.id) or usual_table(each)
+            if differ and is_present:
+                with suppress(ReadError):  # who is not in another take
                     self._open_anew(each, with_table=differ != {"take"})
-        return [each.id for each in whom]
+        return [each.id for each in present if everybody or each.person in ("", person)]
 
-    def _keep_reading(
-        self, listed: ListedRecording, options: dict[str, Any], *, everybody: bool
-    ) -> tuple[str, bool]:
-        """Keep how a file is read once it can be: who was read then, and whether of several people.
+    def _read_so(
+        self, listed: ListedRecording, choice: Reading, everybody: bool
+    ) -> tuple[Reading, str]:
+        """What to keep of how a file is read from now on, and which of several people was read.
 
-        KinemeError where it cannot; what was kept before holds.
+        ``choice`` has the people of before. KinemeError where it cannot be read so.
         """
-        path = listed.path
-        before, former = options_of(path), people_of(path)
-        first = before.get("person", "") if listed.person else self._first_person(listed)
-        keep_options(path, options, former)
-        try:
-            people = self._cache.people(path) if everybody else ()
-            person = people[0] if people else options.get("person") or listed.person
-            found = self._cache.read(ListedRecording(path, person)).provenance
-            people = people or found.people
-            several = len(people) > 1 and not self.folder.of_library
-            if several:
-                kept = former if {*people} <= {*former} and not everybody else people
-                keep_options(path, {**options, "person": first}, kept)
-            elif former and not self.folder.of_library:  # of another file of that name
-                keep_options(path, options, ())
-        except KinemeError:
-            keep_options(path, before, former)
-            raise
-        return found.person or "", several
+        people = self._cache.people(listed.path, choice) if everybody else ()
+        person = people[0] if people else choice.options.get("person") or listed.person
+        found = self._cache.read(ListedRecording(listed.path, person), choice).provenance
+        people = people or found.people
+        if self.folder.of_library:
+            return choice, ""
+        if len(people) < 2:
+            return Reading(choice.options), ""
+        before = options_of(listed.path).get("person", "")
+        first = before if listed.person else self._first_person(listed)
+        kept = choice.people if {*people} <= {*choice.people} and not everybody else people
+        return Reading({**choice.options, "person": first}, kept), found.person or ""
 
     def _first_person(self, listed: ListedRecording) -> str:
         """Whose the table of a file is, where somebody was read before any were told apart."""

@@ -12,7 +12,7 @@ from kineme.errors import ReadError
 from kineme.formats import ReadOptions, people_in, read_analog, read_quietly
 from kineme.labels.collections import Extent
 from kineme.studio.storage.listed import ListedRecording
-from kineme.studio.storage.sidecars import read_options
+from kineme.studio.storage.sidecars import Reading, read_options
 
 if TYPE_CHECKING:
     from kineme.features import Names
@@ -41,12 +41,13 @@ class RecordingCache:
         self._recent: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
         self._extents: dict[tuple[Path, Stamp, str], Extent] = {}
 
-    def read(self, listed: ListedRecording) -> Motion | Signals:
+    def read(self, listed: ListedRecording, choice: Reading | None = None) -> Motion | Signals:
         """A recording, read from its file if it is not in memory; ReadError where it cannot be.
 
-        Its provenance has what there is to warn of.
+        It is read as people said of it, or as a ``choice`` says. Its provenance has what there is
+        to warn of.
         """
-        path, options = listed.path, read_options(listed, self.options.file)
+        path, options = listed.path, read_options(listed, self.options.file, choice)
         key = path, stamp_of(path), repr(options)
         with self._lock:
             reading = self._reading.setdefault(key, threading.Lock())
@@ -71,9 +72,9 @@ class RecordingCache:
             self._extents[key] = Extent(found.n_frames, found.fps, found.provenance.clock)
         return self._extents[key]
 
-    def people(self, path: Path) -> tuple[str, ...]:
-        """Those in a file, where there are several; it is read for it."""
-        return people_in(path, read_options(ListedRecording(path), self.options.file))
+    def people(self, path: Path, choice: Reading) -> tuple[str, ...]:
+        """Those in a file that is read so, where there are several; it is read for it."""
+        return people_in(path, read_options(ListedRecording(path), self.options.file, choice))
 
     def analog(self, listed: ListedRecording) -> Signals | None:
         """The channels beside the motion in a file, read each time; None where there are none."""

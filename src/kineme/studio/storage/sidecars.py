@@ -13,8 +13,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any, TypedDict, TypeVar
 
@@ -49,14 +49,30 @@ class _Offset(Struct):
     offset_s: Annotated[float, Meta(ge=-LARGEST, le=LARGEST)] = 0.0
 
 
-def options_of(recording: Path) -> dict[str, Any]:
-    """What people said of how a recording is read, by the names of the options."""
+@dataclass(frozen=True)
+class Reading:
+    """How a file is read, as people said, and who is in it, where each is a recording of its own.
+
+    ``options`` have the names of `OPTIONS`.
+    """
+
+    options: dict[str, Any] = field(default_factory=dict)
+    people: Sequence[str] = ()
+
+    def differs_from(self, other: Reading) -> set[str]:
+        """The options that are others; another person of several is another recording."""
+        names = {name for name in OPTIONS if name != "person" or not self.people}
+        return {name for name in names if self.options.get(name) != other.options.get(name)}
+
+
+def reading_of(recording: Path) -> Reading:
+    """What people said of how a recording is read."""
     return _reading(recording)[0]
 
 
-def people_of(recording: Path) -> list[str]:
-    """The people in a file each of whom is a recording of its own; none where nobody was chosen."""
-    return read_sidecar(_sidecar(recording, READING), _Reading, _Reading())[0].get("people", [])
+def options_of(recording: Path) -> dict[str, Any]:
+    """The options alone."""
+    return reading_of(recording).options
 
 
 def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
@@ -67,28 +83,31 @@ def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
         folder = path.parent / FOLDER
         if folder not in present:
             present[folder] = _names_in(folder)
-        people = people_of(path) if _sidecar(path, READING).name in present[folder] else []
-        first = options_of(path).get("person") if people else None
-        found += [ListedRecording(path, who, who == first) for who in people]
-        found += [] if people else [ListedRecording(path)]
+        is_present = _sidecar(path, READING).name in present[folder]
+        choice = reading_of(path) if is_present else Reading()
+        first = choice.options.get("person")
+        found += [ListedRecording(path, who, who == first) for who in choice.people]
+        found += [] if choice.people else [ListedRecording(path)]
     return found
 
 
-def read_options(listed: ListedRecording, general: ReadOptions) -> ReadOptions:
-    """How a recording is read: as people said of it, else as of all."""
-    options = replace(general, **options_of(listed.path))
+def read_options(
+    listed: ListedRecording, general: ReadOptions, choice: Reading | None = None
+) -> ReadOptions:
+    """How a recording is read: as people said of it, or as a ``choice`` says; else as of all."""
+    options = replace(general, **(choice or reading_of(listed.path)).options)
     return replace(options, person=listed.person) if listed.person else options
 
 
-def keep_options(recording: Path, options: dict[str, Any], people: Sequence[str]) -> None:
-    """Keep what people say of how a file is read, and who is in it.
-
-    ParameterError for a wrong value.
-    """
-    given = {name: value for name, value in options.items() if name in OPTIONS and value}
-    ReadOptions(**given)
-    content = {**given, "people": [*people]} if people else given
+def keep_reading(recording: Path, choice: Reading) -> None:
+    """Keep what people say of how a file is read, and who is in it."""
+    content = {**given(choice.options), "people": [*choice.people]}
     write_file(_sidecar(recording, READING), json.dumps(content).encode())
+
+
+def given(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Those of the options that say something."""
+    return {name: value for name, value in options.items() if name in OPTIONS and value}
 
 
 def video_message(recording: Path) -> Video | None:
@@ -158,15 +177,16 @@ def _make_folder(folder: Path) -> None:
         raise WriteError(folder, f"cannot be made: {error.strerror or error}") from error
 
 
-def _reading(recording: Path) -> tuple[dict[str, Any], list[str]]:
+def _reading(recording: Path) -> tuple[Reading, list[str]]:
     path = _sidecar(recording, READING)
     content, notes = read_sidecar(path, _Reading, _Reading())
-    options = {name: value for name, value in content.items() if value and name in OPTIONS}
+    choice = Reading(given(content), content.get("people", []))
     try:
-        ReadOptions(**options)  # type: ignore[arg-type]  # its values are of these types
+        ReadOptions(**choice.options)
     except KinemeError as error:
-        return {}, [*notes, f"{path.name} was left alone: it holds a wrong option: {error}"]
-    return options, notes
+        wrong = f"{path.name} was left alone: it holds a wrong option: {error}"
+        return replace(choice, options={}), [*notes, wrong]
+    return choice, notes
 
 
 def _video(recording: Path) -> tuple[_Offset, list[str]]:

@@ -1,4 +1,5 @@
 /** Questions about a segment table. */
+import { counted } from "./counted";
 import type { Annotation, Level, Segment, Segments } from "./messages";
 
 /** What the list of clusters says of one. */
@@ -9,6 +10,17 @@ export interface Cluster {
   /** Seconds of all members together. */
   total_s: number;
   mean_s: number;
+}
+
+/** How many activities or primitives a table has; transitions are neither. */
+export function countOf({ segments }: Segments, level: Level): number {
+  return segments.filter((each) => each.level === level && each.kind !== "transition").length;
+}
+
+/** "1 activity, 18 primitives". */
+export function countsOf(table: Segments): string {
+  const activities = counted(countOf(table, "activity"), "activity", "activities");
+  return `${activities}, ${counted(countOf(table, "primitive"), "primitive")}`;
 }
 
 /** The segments of a level in time order; they tile the recording. */

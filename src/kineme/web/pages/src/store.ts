@@ -6,6 +6,9 @@ import { durationOf, indexAt } from "./segments";
 import { State, UNBOUNDED } from "./state";
 import { following, inside, panned, zoomed, type Span } from "./view";
 
+const SMALL = 1 / 30; // of the time that is shown
+const AROUND = 12; // times its own length
+
 export class Store extends State {
   seek(seconds: number): void {
     const playhead = Math.min(Math.max(seconds, 0), this.duration.value);
@@ -115,12 +118,25 @@ export class Store extends State {
     return { start_s: start_s ?? 0, stop_s: stop_s ?? this.duration.value };
   }
 
+  /** Stops at a segment and selects it; one that would hardly be seen, or not whole, is zoomed to. */
+  lookAt(segment: Segment): void {
+    this.playing.value = false;
+    this.select(segment);
+    const { start_s, stop_s } = this.range.value;
+    const share = (segment.stop_s - segment.start_s) / (stop_s - start_s);
+    if (share < SMALL || segment.stop_s > stop_s) this.zoomTo(segment, AROUND);
+  }
+
   /** Shows what is between the marks, else the segment at the playhead, with a little around it. */
   zoomToTarget(): void {
     const span = this.markedSpan() ?? this.target.value;
-    if (!span) return;
+    if (span) this.zoomTo(span, 1.2);
+  }
+
+  /** Shows so many times the length of a span, which is in the middle. */
+  private zoomTo(span: Span, times: number): void {
     const length = span.stop_s - span.start_s;
-    const wide = Math.min(Math.max(1.2 * length, 0.2), this.duration.value);
+    const wide = Math.min(Math.max(times * length, 0.2), this.duration.value);
     const start = (span.start_s + span.stop_s - wide) / 2;
     const range = inside({ start_s: start, stop_s: start + wide }, this.duration.value);
     this.zoom.value = wide < this.duration.value ? range : null;

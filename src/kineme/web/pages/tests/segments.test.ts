@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import {
   clustersOf,
+  countsOf,
   indexAt,
   labelsOf,
   labelSpans,
@@ -75,4 +76,10 @@ test("labels are counted where there are no clusters", () => {
     ["walk", 1],
     ["hop", 2],
   ]);
+});
+
+test("what a table has is counted, transitions not, one as one", () => {
+  const rest = segment(30, 40, { cluster: -1, kind: "transition" });
+  const activity = segment(0, 40, { level: "activity", kind: "activity" });
+  expect(countsOf(tableOf([...lane.slice(0, 2), rest, activity]))).toBe("1 activity, 2 primitives");
 });

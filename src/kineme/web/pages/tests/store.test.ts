@@ -30,6 +30,18 @@ function page(): Store {
   return store;
 }
 
+test("what is looked at is zoomed to where it would hardly be seen", () => {
+  const store = page();
+  const small = segment(20, 21);
+  store.lookAt(primitives[1]!);
+  expect(store.zoom.value).toBeNull();
+  store.lookAt(small);
+  const { start_s, stop_s } = store.zoom.value!;
+  expect([start_s, stop_s].map((each) => each.toFixed(2))).toEqual(["1.45", "2.65"]);
+  store.lookAt(primitives[1]!); // its end is not in there
+  expect(store.zoom.value).toBeNull();
+});
+
 test("selecting a segment moves the playhead and shows its cluster", () => {
   const store = page();
   store.select(primitives[1]!);

@@ -1,7 +1,7 @@
 /** Where the result comes from, and what it cost. */
 import type { ComponentChildren, JSX } from "preact";
 import { useStore } from "../context";
-import type { Recording, Segment } from "../messages";
+import { countsOf } from "../segments";
 import type { Store } from "../store";
 import { clock } from "../view";
 
@@ -19,7 +19,7 @@ export function About(): JSX.Element | null {
           {clock(store.duration.value, 2)} ({recording.n_frames} frames at {rounded(recording.fps)}{" "}
           Hz)
         </Fact>
-        <Fact name="Found">{countsOf(recording)}</Fact>
+        <Fact name="Found">{countsOf(recording.segmentation)}</Fact>
         {Object.entries(rest).map(([key, value]) => (
           <Fact key={key} name={key}>
             <Value of={value} />
@@ -109,14 +109,6 @@ function Timings({ of }: { of: Record<string, number> }): JSX.Element | null {
       </table>
     </section>
   );
-}
-
-function countsOf({ segmentation }: Recording): string {
-  const count = (want: (segment: Segment) => boolean): number =>
-    segmentation.segments.filter(want).length;
-  const of = (level: string, kind: string): number =>
-    count((segment) => segment.level === level && segment.kind === kind);
-  return `${of("activity", "activity")} activities, ${of("activity", "transition")} transitions, ${of("primitive", "primitive")} primitives`;
 }
 
 function isRecord(value: unknown): value is Record<string, unknown> {

@@ -1,4 +1,5 @@
 /** The repetitions of a cluster over each other, with mean and deviation, as kineme measures them. */
+import { counted } from "../counted";
 import { useComputed, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStore } from "../context";
@@ -51,7 +52,7 @@ export function Curves(): JSX.Element {
       />
       <div class="curve-room">
         <Canvas
-          label={`Curves of ${curves.total} repetitions, with mean and deviation. Click one to go to it.`}
+          label={`Curves of ${counted(curves.total, "repetition")}, with mean and deviation. Click one to go to it.`}
           watch={() => void [measured.value, selected.value, leftOut.value, store.cluster.value]}
           draw={(pen, width, height) => {
             const shown = measured.value;
@@ -88,7 +89,7 @@ export function Curves(): JSX.Element {
         {beside.value && whatIsBeside(store, beside.value, curves)}
         {opposite && `; ${opposite.channel}${DASHED}`}
         {curves.turned > 0 &&
-          `; ${curves.turned} ${curves.turned === 1 ? "activity" : "activities"} turned to the phase of the others`}
+          `; ${counted(curves.turned, "activity", "activities")} turned to the phase of the others`}
       </p>
     </div>
   );
@@ -96,14 +97,15 @@ export function Curves(): JSX.Element {
 
 /** How many repetitions the mean is of, and which. */
 function whatIsShown({ n, total, ends, left_out, cycles }: ClusterCurves): string {
+  const all = counted(total, "repetition");
   const mean = "mean ± standard deviation";
   const drawn = cycles.length < total ? `, ${cycles.length} drawn` : "";
   const without = left_out ? `, ${left_out} left out by hand` : "";
-  if (!n && left_out) return `${total} repetitions${drawn}${without}, no other recorded as a whole`;
-  if (!n) return `${total} repetitions${drawn}, none recorded as a whole`;
+  if (!n && left_out) return `${all}${drawn}${without}, no other recorded as a whole`;
+  if (!n) return `${all}${drawn}, none recorded as a whole`;
   if (n === 1)
-    return `1${ends ? "" : " inner"} of ${total} repetitions${drawn}${without}, bold: too few for a mean`;
-  return `${n}${ends ? "" : " inner"} of ${total} repetitions${drawn}${without}, ${mean}`;
+    return `1${ends ? "" : " inner"} of ${all}${drawn}${without}, bold: too few for a mean`;
+  return `${n}${ends ? "" : " inner"} of ${all}${drawn}${without}, ${mean}`;
 }
 
 interface Choice {

@@ -1,4 +1,5 @@
 /** The table of repetitions; on paper it follows the pictures. */
+import { counted } from "../counted";
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import { NO_COLOR } from "../colors";
@@ -15,9 +16,7 @@ export function Repetitions(): JSX.Element | null {
   return (
     <table class="repetitions">
       {out > 0 && (
-        <caption class="quiet">
-          {out === 1 ? "1 repetition is" : `${out} repetitions are`} left out of means by hand.
-        </caption>
+        <caption class="quiet">{counted(out, "repetition")} left out of means by hand.</caption>
       )}
       <thead>
         <tr>

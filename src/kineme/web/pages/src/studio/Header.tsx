@@ -1,4 +1,5 @@
 /** The bar on top: what is open, undo and redo, whether everything is saved, and the dialogs. */
+import { counted } from "../counted";
 import type { JSX } from "preact";
 import { theme, toggleTheme } from "../theme";
 import { IconButton } from "../transport/icons";
@@ -9,6 +10,7 @@ export function Header(): JSX.Element {
   const { session, front } = useStudio();
   const edited = session.edited.value;
   const recording = edited?.confirmed.value;
+  const news = session.bulletin.news.value;
   const other = theme.value === "dark" ? "light" : "dark";
   return (
     <>
@@ -17,7 +19,9 @@ export function Header(): JSX.Element {
       <span class="folder quiet" title={session.state.value?.folder}>
         {recording?.name ?? session.state.value?.folder}
       </span>
-      <span class="spacer" />
+      <div class="spacer news-place" role="status">
+        {news && <span class="news">{news.text}</span>}
+      </div>
       <span class="group">
         <button
           type="button"
@@ -96,7 +100,7 @@ function SaveState(): JSX.Element {
   const text = finding
     ? "finding the segments…"
     : waiting
-      ? `saving ${waiting} ${waiting === 1 ? "edit" : "edits"}…`
+      ? `saving ${counted(waiting, "edit")}…`
       : saved
         ? `saved as ${saved}`
         : "not corrected yet";

@@ -1,5 +1,6 @@
-/** What needs attention, across the page; and the last news. */
+/** What needs attention: above the page, which gives it room, so that nothing is covered. */
 import type { JSX } from "preact";
+import { Offered } from "./folder/Offered";
 import { useStudio } from "./context";
 import type { EditedRecording } from "./editing/editedRecording";
 import { inWords } from "./editing/words";
@@ -7,10 +8,9 @@ import { inWords } from "./editing/words";
 export function Notices(): JSX.Element {
   const { session } = useStudio();
   const { bulletin, trouble, unsent } = session;
-  const news = bulletin.news.value;
   return (
-    <>
-      <div class="notices" role="alert">
+    <div class="notices">
+      <div role="alert">
         {trouble.value && (
           <div class="notice danger" data-notice="trouble">
             <p>
@@ -30,6 +30,7 @@ export function Notices(): JSX.Element {
               type="button"
               class="icon"
               aria-label="Dismiss"
+              title="Dismiss (Escape)"
               onClick={() => bulletin.dismiss(text)}
             >
               ×
@@ -37,19 +38,8 @@ export function Notices(): JSX.Element {
           </div>
         ))}
       </div>
-      <div class="news-place" role="status">
-        {news && (
-          <div class="news">
-            {news.text}
-            {news.undo && (
-              <button type="button" onClick={news.undo}>
-                Undo
-              </button>
-            )}
-          </div>
-        )}
-      </div>
-    </>
+      <Offered />
+    </div>
   );
 }
 

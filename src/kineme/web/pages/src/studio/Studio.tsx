@@ -18,7 +18,6 @@ import { DropZone } from "./panels/DropZone";
 import { EditTools } from "./panels/EditTools";
 import { ExportDialog } from "./dialogs/ExportDialog";
 import { FolderPage } from "./folder/FolderPage";
-import { OfferBar } from "./folder/OfferBar";
 import { QueueBar } from "./folder/QueueBar";
 import { useStageTurn } from "./folder/stageTurn";
 import { FolderPanel } from "./panels/FolderPanel";
@@ -69,6 +68,7 @@ export function Studio(): JSX.Element {
   ];
   return (
     <>
+      <Notices />
       <Layout
         header={<Header />}
         left={
@@ -92,8 +92,6 @@ export function Studio(): JSX.Element {
       />
       <FolderPage />
       <Paper />
-      <OfferBar />
-      <Notices />
       <DropZone />
       <OpenDialog name={dialog} close={close} />
     </>

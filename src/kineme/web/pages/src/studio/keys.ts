@@ -25,7 +25,7 @@ export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
   ["T", "Labels from a knowledge base"],
   ["C", "Compare with another result"],
   ["E", "Export"],
-  ["Escape", "Cancel the segmentation that is running"],
+  ["Escape", "Cancel the segmentation that is running, else dismiss what went wrong"],
   ["?", "This help"],
 ];
 
@@ -66,6 +66,8 @@ export function commandOf(
     "?": () => front.show("help"),
   };
   if (session.segmenting.value) commands["Escape"] = () => session.cancel();
+  else if (session.bulletin.problems.value.length)
+    commands["Escape"] = () => session.bulletin.dismiss();
   return commands[key];
 }
 

@@ -45,6 +45,9 @@ function start(): void {
   effect(() => {
     document.title = `${store.recording.value?.name ?? "kineme"} · kineme studio`;
   });
+  effect(() => {
+    if (session.bulletin.problems.value.length) front.dialog.value = null; // it lies below
+  });
   rememberLevel(store);
   startPlayer(store);
   exposeStudio(session);

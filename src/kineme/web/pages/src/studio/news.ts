@@ -6,7 +6,6 @@ const READING_TIME = 6000; // milliseconds
 
 export interface News {
   text: string;
-  undo?: (() => void) | undefined;
   /** The table that was in front: once it is another, this is no news any more. */
   of: string;
 }
@@ -30,14 +29,14 @@ export class Bulletin {
   }
 
   /** Takes the place of earlier news, and goes by itself. */
-  tell(text: string, undo?: () => void): void {
-    this.news.value = { text, undo, of: untracked(this.inFront) };
+  tell(text: string): void {
+    this.news.value = { text, of: untracked(this.inFront) };
     window.clearTimeout(this.timer);
     this.timer = window.setTimeout(() => (this.news.value = null), READING_TIME);
   }
 
   /** `about` is what did not work: the problem goes once that has worked. */
-  problem(text: string, about = ""): void {
+  problem(text: string, about: string): void {
     const others = this.problems.value.filter((each) => each.text !== text);
     this.problems.value = [...others, { text, about }];
   }
@@ -47,7 +46,8 @@ export class Bulletin {
       this.problems.value = this.problems.value.filter((each) => each.about !== about);
   }
 
-  dismiss(text: string): void {
+  /** Takes one away that has been read; the last one, where none is named. */
+  dismiss(text = this.problems.value.at(-1)?.text): void {
     this.problems.value = this.problems.value.filter((each) => each.text !== text);
   }
 }

@@ -26,8 +26,9 @@ const NO_ANSWER =
 const STARTED_ANEW =
   "The studio was started anew. Open the address it printed: then this tab goes on, too.";
 
-/** Problems of what is laid below a table, which are none of the next one's. */
-const BESIDE = ["preview", "compare"];
+/** Problems of a table, and of a recording, which are none of the next one's. */
+const OF_TABLE = ["preview", "compare"];
+const OF_RECORDING = ["video", "versions", "clips", "export"];
 
 /** A recording that was not read as it was told to be. */
 export interface Unread {
@@ -86,10 +87,13 @@ export class Session {
     this.bulletin = new Bulletin(() => tableOf(store.recording.value));
     this.beside = new Beside(this);
     this.people = new People(this);
-    effect(() => {
-      void tableOf(store.recording.value);
-      untracked(() => BESIDE.forEach((what) => this.bulletin.solved(what)));
-    });
+    const over = (topics: readonly string[], inFront: () => unknown): void =>
+      void effect(() => {
+        void inFront();
+        untracked(() => topics.forEach((what) => this.bulletin.solved(what)));
+      });
+    over(OF_TABLE, () => tableOf(store.recording.value));
+    over(OF_RECORDING, () => store.recording.value?.id);
   }
 
   /** @param announced once other tabs know of this one, which edits are taken over by */
@@ -103,11 +107,12 @@ export class Session {
   async refresh(): Promise<boolean> {
     try {
       this.state.value = await this.api.state();
+      this.bulletin.solved("folder");
       return true;
     } catch (error) {
       if (error instanceof Unreachable) this.lost();
       else if (error instanceof Refused && error.status === 403) this.lost(STARTED_ANEW);
-      else this.bulletin.problem(explain(error));
+      else this.bulletin.problem(explain(error), "folder");
       return false;
     }
   }
@@ -119,6 +124,7 @@ export class Session {
     const index = store.opened.value.findIndex((each) => each.recording.value.id === id);
     if (index >= 0) {
       store.show(index);
+      this.bulletin.solved("open");
       if (!beside) this.closeOthers(id, store.people.value);
       shown();
       return;
@@ -255,7 +261,7 @@ export class Session {
         api: this.api,
         folder: this.state.value?.folder ?? "",
         lost: () => this.lost(),
-        tell: (text, undo) => this.tellOf(id, text, undo),
+        tell: (text) => this.tellOf(id, text),
       }));
     if (!this.recordings.value.includes(edited))
       this.recordings.value = [...this.recordings.value, edited];
@@ -263,9 +269,9 @@ export class Session {
   }
 
   /** News of a recording; those of one that is not in front are told with its name. */
-  private tellOf(id: string, text: string, undo?: () => void): void {
+  private tellOf(id: string, text: string): void {
     const edited = this.recordings.peek().find((each) => each.id === id);
-    if (!edited || this.edited.peek() === edited) this.bulletin.tell(text, undo);
+    if (!edited || this.edited.peek() === edited) this.bulletin.tell(text);
     else this.bulletin.tell(`${edited.confirmed.peek().name}: ${text}`);
   }
 

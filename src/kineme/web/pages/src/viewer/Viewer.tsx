@@ -1,4 +1,5 @@
 /** The figures in 3-D: drag to orbit, wheel to zoom, right button or two fingers to pan. */
+import { counted } from "../counted";
 import { useEffect, useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
@@ -48,7 +49,7 @@ function Caption(): JSX.Element {
   const stepping = store.inStep.value && shown;
   const people = stepping ? [] : store.people.value;
   const n = shown?.members.length ?? 0;
-  const all = n === 1 ? "1 member" : `${n} members`;
+  const all = counted(n, "member");
   const count = n > MOST_MEMBERS ? `the first ${MOST_MEMBERS} of ${n} members` : all;
   return (
     <div class="caption">

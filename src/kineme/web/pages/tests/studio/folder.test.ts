@@ -1,8 +1,29 @@
+import { signal } from "@preact/signals";
 import { expect, it } from "vitest";
 import type { BriefTable, Segments } from "../../src/messages";
 import { leastOf, stripOf, tableOf, tallyOf } from "../../src/studio/folder/briefTables";
+import type { Folder } from "../../src/studio/folder/folder";
+import { NameOffer } from "../../src/studio/folder/offer";
 import { COLUMNS, fitting, ordered, rowOf } from "../../src/studio/folder/rows";
 import { brief, listing } from "./briefs";
+
+it("offers a name for all recordings where another one has the name of before", () => {
+  const recording = (names: Record<string, string>) => ({
+    id: "a",
+    segmentation: { cluster_names: names },
+  });
+  const confirmed = signal(recording({ "0": "hop", "1": "walk" }));
+  const members = ["a", "b"].map((id) => ({ listing: { id }, table: tableOf(brief(0.9)) }));
+  const offer = new NameOffer({
+    session: { edited: signal({ confirmed }), state: signal({ of_library: false }) },
+    members: signal(members), // each has a segment called “hop”
+    ready: signal(true),
+  } as unknown as Folder);
+  confirmed.value = recording({ "0": "hop", "1": "run" });
+  expect(offer.present.value).toBeNull();
+  confirmed.value = recording({ "0": "leap", "1": "run" });
+  expect(offer.present.value?.before).toBe("hop");
+});
 
 it("tells of a table what its row shows", () => {
   const table = tableOf(brief(0.3, [0]));
@@ -24,6 +45,11 @@ it("orders recordings by a column; those without a table come last", () => {
     rowOf(member("b", null), "new"),
     rowOf(member("c", brief(0.2)), "corrected"),
   ];
+  expect(rows.map(({ activities, primitives }) => [activities, primitives])).toEqual([
+    [2, 0],
+    [null, null],
+    [2, 0],
+  ]);
   const names = (reverse: boolean): string =>
     ordered(rows, "least", reverse)
       .map(({ listing: { id } }) => id)
@@ -34,6 +60,6 @@ it("orders recordings by a column; those without a table come last", () => {
 it("leaves columns out that the width has no room for, never the places of lowest confidence", () => {
   const shown = (width: number) => fitting(COLUMNS, width).map(({ id }) => id);
   expect(shown(1100)).toHaveLength(COLUMNS.length);
-  expect(shown(830)).toEqual(["name", "strip", "segments", "checked", "least", "status"]);
+  expect(shown(830)).toEqual(["name", "strip", "activities", "primitives", "checked", "least"]);
   expect(shown(10)).toEqual(["name", "strip", "checked", "least"]);
 });

@@ -11,7 +11,7 @@ beforeEach(() => {
 
 it("tells news of a table only while that is in front", () => {
   const bulletin = new Bulletin(() => inFront.value);
-  bulletin.tell("4 segments named", () => undefined);
+  bulletin.tell("4 segments named");
   expect(bulletin.news.value?.text).toBe("4 segments named");
   inFront.value = "take 2"; // one more edit, or its undo
   expect(bulletin.news.value).toBeNull();

@@ -1,5 +1,6 @@
 import { expect, it } from "vitest";
-import { counted, inWords } from "../../src/studio/editing/words";
+import { counted } from "../../src/counted";
+import { inWords } from "../../src/studio/editing/words";
 
 it("says edits in words, with seconds", () => {
   const move = { kind: "move_border", level: "primitive", frame: 30, to: 40 } as const;

@@ -4,7 +4,8 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { Version } from "../../messages";
-import { counted, inWords } from "../editing/words";
+import { counted } from "../../counted";
+import { inWords } from "../editing/words";
 import { explain } from "../server/api";
 import { Dialog } from "./Dialog";
 

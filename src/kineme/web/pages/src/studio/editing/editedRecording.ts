@@ -31,7 +31,7 @@ export interface Surroundings {
   /** Nobody answered, or not to us. */
   lost(): void;
   /** A sentence for the person, with an offer to undo where that helps. */
-  tell(text: string, undo?: () => void): void;
+  tell(text: string): void;
 }
 
 export class EditedRecording {
@@ -325,10 +325,9 @@ export class EditedRecording {
   }
 
   private report(edit: Edit, segmentation: Segments, notes: string[]): void {
-    const undo = replacesTable(edit) ? (): void => this.undo() : undefined;
     const found = edit.kind === "segment" ? [foundIn(segmentation)] : [];
     const text = [...found, ...notes.filter((note) => !found.length || isLoss(note))].join(" ");
-    if (text) this.around.tell(text, undo);
+    if (text) this.around.tell(text);
   }
 }
 

@@ -10,7 +10,7 @@ import type { Store } from "../../store";
 import * as commands from "./commands";
 import type { Session } from "../session";
 import { isExcluded, nearestBorder } from "../../segments";
-import { counted } from "./words";
+import { counted } from "../../counted";
 
 export class Editor {
   /** Asks for the field of a name to take the keyboard: of a segment or its cluster. */
@@ -167,9 +167,8 @@ export class Editor {
   /** The primitives that start at these frames count in no mean, or do so again. */
   exclude(frames: number[], excluded: boolean): void {
     const what = excluded ? "left out of means" : "in means again";
-    const undo = (): void => this.undo();
     this.send({ kind: "exclude", frames, excluded }, () => {
-      this.session.bulletin.tell(`${counted(frames.length, "repetition")} ${what}.`, undo);
+      this.session.bulletin.tell(`${counted(frames.length, "repetition")} ${what}.`);
     });
   }
 
@@ -185,9 +184,8 @@ export class Editor {
   /** Several edits as one step, which says how many segments it reached. */
   together(edits: ByHand[], what: string): void {
     if (!edits.length) return;
-    const undo = (): void => this.undo();
     this.send(edits.length === 1 ? edits[0]! : { kind: "together", edits }, () => {
-      if (what) this.session.bulletin.tell(`${counted(edits.length, "segment")} ${what}.`, undo);
+      if (what) this.session.bulletin.tell(`${counted(edits.length, "segment")} ${what}.`);
     });
   }
 

@@ -1,5 +1,7 @@
 /** Edits in words, as notices and the list of versions say them. */
+import { counted } from "../../counted";
 import type { Edit, Level, Segments } from "../../messages";
+import { countsOf } from "../../segments";
 
 const LEVELS: Record<Level, [one: string, many: string]> = {
   activity: ["activity", "activities"],
@@ -67,18 +69,11 @@ export function inWords(edit: Edit, fps: number): string {
   }
 }
 
-/** "1 member", "2 members". */
-export function counted(n: number, one: string, many = `${one}s`): string {
-  return `${n} ${n === 1 ? one : many}`;
-}
-
 /** What a segmentation found, and in what time; that it found nothing where it was cancelled. */
 export function foundIn(table: Segments): string {
   if (!Object.keys(table.timings).length) return "Not segmented.";
-  const count = (level: Level): number =>
-    table.segments.filter((row) => row.level === level && row.kind !== "transition").length;
   const seconds = Object.values(table.timings).reduce((sum, each) => sum + each, 0);
-  return `${count("activity")} activities, ${count("primitive")} primitives, found in ${seconds.toFixed(2)} s.`;
+  return `${countsOf(table)}, found in ${seconds.toFixed(2)} s.`;
 }
 
 export function isLoss(note: string): boolean {

@@ -2,11 +2,12 @@
  * All recordings of the folder, a row each. Only the rows that are seen are there, so that five
  * hundred scroll like ten.
  */
+import { counted } from "../../counted";
 import { computed, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { isForPlayer } from "../../focus";
-import { sizeStyle } from "../../layout/sizes";
+import { AddFiles } from "../panels/AddFiles";
 import { StatusOptions } from "./StatusOptions";
 import { useStudio } from "../context";
 import type { Status } from "../recordingList";
@@ -15,11 +16,10 @@ import { FolderRow } from "./FolderRow";
 import { COLUMNS, fitting, gridOf, ordered, rowOf, type Column } from "./rows";
 import { shownColumns, showColumn } from "./shownColumns";
 
-const BELOW =
-  ".place-viewer, .place-matrix, .place-side, .place-transport, .place-timeline, .place-curves";
+const BELOW = ".layout > :not(.place-header)";
 const [HEIGHT, LOW] = [30, 26]; // pixels of a row: as usual, in a low window
 const LOW_WINDOW = 480; // pixels, as in folder.css
-const HEAD = 40; // of the bar on top, where it is one line
+const HEAD = 40; // where the bar on top ends, if it is one line and nothing lies above
 const MORE = 6; // rows drawn above and below what is seen
 
 export function FolderPage(): JSX.Element | null {
@@ -58,13 +58,15 @@ function Page(): JSX.Element {
   );
   useEffect(() => {
     void folder.refresh();
-    const bar = document.querySelector<HTMLElement>(".place-header");
+    const bar = document.querySelector(".place-header");
+    scrollTo(0, 0); // on a small screen, where the bar is a part of what scrolls
     const sized = new ResizeObserver(() => {
       height.value = place.current?.clientHeight ?? 600;
       width.value = place.current?.clientWidth ?? Infinity;
-      head.value = bar?.offsetHeight ?? HEAD;
+      head.value = bar?.getBoundingClientRect().bottom ?? HEAD;
     });
-    for (const each of [place.current, bar]) if (each) sized.observe(each);
+    for (const each of [place.current, bar, document.querySelector(".notices")])
+      if (each) sized.observe(each);
     return () => sized.disconnect();
   }, [folder, height, width, head]);
   useOver();
@@ -82,11 +84,12 @@ function Page(): JSX.Element {
   const to = Math.ceil((top.value + height.value) / rowHeight) + MORE;
   const isOpen = session.store.opened.value.length > 0;
   return (
-    <section class="folder-page" aria-label="Folder" style={{ ...sizeStyle(), ...grid }}>
+    <section class="folder-page" aria-label="Folder" style={grid}>
       <div class="folder-tools">
         <h2>{session.state.value?.folder.split(/[\\/]/).at(-1)}</h2>
         <FolderProgress tally={folder.tally.value} />
         <span class="spacer" />
+        <AddFiles />
         <Find />
         <button
           type="button"
@@ -234,7 +237,7 @@ function Find(): JSX.Element | null {
       title="Find the segments of the recordings that have none yet; they are saved once you edit them"
       onClick={() => void folder.find()}
     >
-      Segment {n} {n === 1 ? "recording" : "recordings"}
+      Segment {counted(n, "recording")}
     </button>
   );
 }

@@ -1,4 +1,4 @@
-/** How far the folder is: "312 of 1,396 checked, 40 left above half a doubt". */
+/** How far the folder is: "312 of 1,396 checked; 40 of the others below 50 %". */
 import type { JSX } from "preact";
 import type { Tally } from "./briefTables";
 
@@ -8,8 +8,11 @@ export function FolderProgress({ tally }: { tally: Tally }): JSX.Element | null 
   return (
     <p class="folder-progress">
       <progress max={all} value={checked} aria-label="Segments of the folder checked" />
-      <span class="number" title="Left: not checked, and more probably wrong than right">
-        {grouped(checked)} of {grouped(all)} checked, {grouped(doubtful)} left above half a doubt
+      <span
+        class="number"
+        title="Segments that nobody checked and that are more probably wrong than right"
+      >
+        {grouped(checked)} of {grouped(all)} checked; {grouped(doubtful)} of the others below 50 %
       </span>
     </p>
   );

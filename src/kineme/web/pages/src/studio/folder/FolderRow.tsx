@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { useStudio } from "../context";
 import { nameOf } from "../../segments";
 import { clock } from "../../view";
+import { MiddleShortened } from "../panels/MiddleShortened";
 import { queueOf, stripOf } from "./briefTables";
 import { secondsOf, type Column, type Row } from "./rows";
 
@@ -12,11 +13,13 @@ const CELLS: Record<Column, (row: Row) => JSX.Element | string> = {
   strip: (row) => <Strip row={row} />,
   length: ({ table }) => (table ? clock(secondsOf(table), 0) : ""),
   rate: ({ table }) => (table ? `${Number(table.fps.toFixed(2))} Hz` : ""),
-  segments: ({ tally }) => String(tally?.all ?? ""),
+  activities: ({ activities }) => String(activities ?? ""),
+  primitives: ({ primitives }) => String(primitives ?? ""),
   checked: ({ tally }) =>
     tally ? (
       <>
-        <progress max={tally.all} value={tally.checked} aria-hidden="true" /> {tally.checked}
+        <progress max={tally.all} value={tally.checked} aria-hidden="true" />{" "}
+        {Math.floor((100 * tally.checked) / Math.max(tally.all, 1))} %
       </>
     ) : (
       ""
@@ -64,7 +67,8 @@ function Name({ row: { listing } }: { row: Row }): JSX.Element {
       aria-busy={opening}
       onClick={() => void session.open(listing.id).then(() => (front.folder.value = null))}
     >
-      {listing.name} {opening && <span class="busy" />}
+      <MiddleShortened name={listing.name} />
+      {opening && <span class="busy" />}
     </button>
   );
 }

@@ -63,8 +63,7 @@ export class FolderQueue {
     const { store } = this.folder.session;
     const table = store.recording.value;
     if (table?.id !== place.id || this.looking.value !== place) return; // not the last one chosen
-    store.playing.value = false;
-    store.select(presentOf(table.segmentation, place.doubt.segment));
+    store.lookAt(presentOf(table.segmentation, place.doubt.segment));
   }
 
   /** What is looked at comes last from now on, wherever an edit has moved its start. */

@@ -1,7 +1,10 @@
 /** What a cluster of one recording is called now, offered for all recordings of the folder. */
+import { counted } from "../../counted";
 import { effect, signal, untracked } from "@preact/signals";
 import { explain } from "../server/api";
+import type { Segments } from "../../messages";
 import type { Session } from "../session";
+import type { Folder } from "./folder";
 
 export interface Offer {
   recording: string;
@@ -17,7 +20,11 @@ export class NameOffer {
   readonly present = signal<Offer | null>(null);
   private last: { id: string; names: Names } | null = null;
 
-  constructor(private readonly session: Session) {
+  private readonly session: Session;
+
+  constructor(private readonly folder: Folder) {
+    const { session } = folder;
+    this.session = session;
     effect(() => {
       const { id, segmentation, finding } = session.edited.value?.confirmed.value ?? {};
       if (!id || !segmentation || finding) return;
@@ -27,7 +34,8 @@ export class NameOffer {
       const other = otherName(last, names);
       untracked(() => {
         if (this.present.value?.recording !== id) this.present.value = null;
-        if (other) this.present.value = this.isUseful(other) ? { recording: id, ...other } : null;
+        if (other)
+          this.present.value = this.isUseful(id, other) ? { recording: id, ...other } : null;
       });
     });
   }
@@ -39,15 +47,14 @@ export class NameOffer {
     if (!offer) return;
     this.present.value = null;
     try {
+      bulletin.solved("offer");
       const { tables, others, left } = await api.callEverywhere(offer, this.isLibrary());
-      const kept = others ? ` ${others} clusters there keep another name.` : "";
+      const kept = others ? ` Another name stays with ${counted(others, "cluster")} there.` : "";
       const lost = left.length ? ` Not changed: ${left.join("; ")}.` : "";
-      bulletin.tell(
-        `“${offer.label}” in ${tables} saved ${tables === 1 ? "table" : "tables"} more.${kept}${lost}`,
-      );
+      bulletin.tell(`“${offer.label}” in ${counted(tables, "saved table")} more.${kept}${lost}`);
       if (state.value) await this.session.refresh();
     } catch (error) {
-      bulletin.problem(explain(error));
+      bulletin.problem(explain(error), "offer");
     }
   }
 
@@ -55,9 +62,13 @@ export class NameOffer {
     return this.session.state.value?.of_library ?? false;
   }
 
-  private isUseful({ before, label }: { before: string; label: string }): boolean {
-    const several = (this.session.state.value?.recordings.length ?? 0) > 1;
-    return several && label !== "" && (this.isLibrary() || before !== "");
+  /** Whether others have what was named, as far as is known. */
+  private isUseful(id: string, { before, label }: { before: string; label: string }): boolean {
+    const others = this.folder.members.value.filter(({ listing }) => listing.id !== id);
+    if (!others.length || !label) return false;
+    if (this.isLibrary() || (before && !this.folder.ready.value)) return true;
+    const has = (table: Segments): boolean => table.segments.some((row) => row.label === before);
+    return before !== "" && others.some(({ table }) => table && has(table));
   }
 }
 

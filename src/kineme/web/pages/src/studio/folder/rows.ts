@@ -1,12 +1,22 @@
 /** The rows of the folder's page: what they show, their order, and which are shown. Pure. */
 import type { Segments } from "../../messages";
+import { countOf } from "../../segments";
 import type { Status } from "../recordingList";
 import { leastOf, tallyOf, type Tally } from "./briefTables";
 import type { Member } from "./folder";
 
 /** What a column shows, and what the rows are ordered by. */
 export type Column =
-  "name" | "strip" | "length" | "rate" | "segments" | "checked" | "least" | "notes" | "status";
+  | "name"
+  | "strip"
+  | "length"
+  | "rate"
+  | "activities"
+  | "primitives"
+  | "checked"
+  | "least"
+  | "notes"
+  | "status";
 
 /** Titles, widths, and what stands in a tooltip. */
 export const COLUMNS: readonly {
@@ -27,8 +37,14 @@ export const COLUMNS: readonly {
   },
   { id: "length", title: "Length", least: 64, help: "Minutes and seconds" },
   { id: "rate", title: "Rate", least: 64, help: "Frames per second" },
-  { id: "segments", title: "Segments", least: 70, help: "Activities and primitives" },
-  { id: "checked", title: "Checked", least: 92, help: "Segments that somebody checked" },
+  { id: "activities", title: "Activities", least: 66, help: "How many it has" },
+  { id: "primitives", title: "Primitives", least: 68, help: "Repetitions, and what else recurs" },
+  {
+    id: "checked",
+    title: "Checked",
+    least: 92,
+    help: "How much of its table somebody checked, activities, primitives and transitions",
+  },
   {
     id: "least",
     title: "Lowest confidence",
@@ -40,7 +56,14 @@ export const COLUMNS: readonly {
 ];
 
 const GAP = 10; // pixels between columns
-const YIELDING: readonly Column[] = ["rate", "length", "notes", "segments", "status"];
+const YIELDING: readonly Column[] = [
+  "rate",
+  "length",
+  "notes",
+  "status",
+  "primitives",
+  "activities",
+];
 
 /** Columns of these as a grid has them, and the pixels that they need. */
 export function gridOf(columns: readonly (typeof COLUMNS)[number][]): [string, number] {
@@ -66,6 +89,8 @@ export function fitting(
 export interface Row extends Member {
   status: Status;
   tally: Tally | null;
+  activities: number | null;
+  primitives: number | null;
   least: number | null;
 }
 
@@ -75,6 +100,8 @@ export function rowOf(member: Member, status: Status): Row {
     ...member,
     status,
     tally: table && tallyOf(table),
+    activities: table && countOf(table, "activity"),
+    primitives: table && countOf(table, "primitive"),
     least: table && leastOf(table),
   };
 }
@@ -108,14 +135,14 @@ function keyOf(row: Row, by: Column): string | number | null {
     case "notes":
       return row.comments || null;
     case "least":
-      return row.least;
+    case "activities":
+    case "primitives":
+      return row[by];
     case "length":
     case "strip":
       return table && secondsOf(table);
     case "rate":
       return table && table.fps;
-    case "segments":
-      return tally && tally.all;
     case "checked":
       return tally && tally.checked / Math.max(tally.all, 1);
   }

@@ -17,7 +17,12 @@ export function showColumn(column: Column, shown: boolean): void {
 function remembered(): readonly Column[] {
   try {
     const found: unknown = JSON.parse(localStorage.getItem(KEY) ?? "null");
-    return Array.isArray(found) ? ALL.filter((id) => id === "name" || found.includes(id)) : ALL;
+    if (!Array.isArray(found)) return ALL;
+    const before: Partial<Record<Column, string>> = {
+      activities: "segments",
+      primitives: "segments",
+    };
+    return ALL.filter((id) => id === "name" || found.includes(id) || found.includes(before[id]));
   } catch {
     return ALL;
   }

@@ -1,4 +1,5 @@
 /** The vocabulary of a library: a card for each cluster, with a name to type. */
+import { counted } from "../../counted";
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { clusterColor } from "../../colors";
@@ -69,13 +70,12 @@ function Tables({ page }: { page: LibraryPage }): JSX.Element {
           title="Recordings that nobody has corrected have them anyway. Segments stay; undo is in each recording."
           onClick={() => void page.updateTables(false)}
         >
-          Numbers and names to {saved.length} corrected{" "}
-          {saved.length === 1 ? "recording" : "recordings"}
+          Numbers and names to {counted(saved.length, "corrected recording")}
         </button>
       )}
       {others > 0 && (
         <button type="button" onClick={() => void page.updateTables(true)}>
-          Replace {others} other {others === 1 ? "name" : "names"}, too
+          Replace {counted(others, "other name")}, too
         </button>
       )}
       <span role="status">{text}</span>
@@ -107,7 +107,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
       <Strip page={page} cluster={it} />
       <p class="quiet number">
         {it.repetitions || it.activities} × {seconds(it.typical_s)}, {seconds(it.seconds)} in all,
-        in {n} {n === 1 ? "recording" : "recordings"}
+        in {counted(n, "recording")}
         {it.unsure > 0 && <span class="unsure"> · {it.unsure} unsure</span>}
       </p>
       <div class="card-tools">

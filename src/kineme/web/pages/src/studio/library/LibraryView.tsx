@@ -1,4 +1,5 @@
 /** The page of a library: its clusters, its recordings, and a search by example. */
+import { counted } from "../../counted";
 import type { JSX } from "preact";
 import { Tabs } from "../../layout/Tabs";
 import { theme, toggleTheme } from "../../theme";
@@ -46,8 +47,4 @@ export function LibraryView({ page }: { page: LibraryPage }): JSX.Element {
       )}
     </main>
   );
-}
-
-function counted(n: number, what: string): string {
-  return `${n} ${what}${n === 1 ? "" : "s"}`;
 }

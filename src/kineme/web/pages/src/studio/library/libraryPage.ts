@@ -1,4 +1,5 @@
 /** The library that is shown: what it holds, what is searched for, what was said of the hits. */
+import { counted } from "../../counted";
 import { computed, signal } from "@preact/signals";
 import type { LibraryEdit, LibraryHit, LibraryState, Span } from "../../messages";
 import { explain, Refused } from "../server/answers";
@@ -73,10 +74,10 @@ export class LibraryPage {
   async updateTables(names: boolean): Promise<void> {
     await this.trying(async () => {
       const { tables, others, left } = await this.api.updateTables({ names });
-      const kept = others ? ` ${others} clusters in them keep another name.` : "";
+      const kept = others ? ` Another name stays with ${counted(others, "cluster")} in them.` : "";
       const lost = left.length ? ` Not changed: ${left.join("; ")}.` : "";
       this.tablesNews.value = {
-        text: `${tables} saved ${tables === 1 ? "table has" : "tables have"} other numbers or names now.${kept}${lost}`,
+        text: `Other numbers or names in ${counted(tables, "saved table")} now.${kept}${lost}`,
         others,
       };
     });

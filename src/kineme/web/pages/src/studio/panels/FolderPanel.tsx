@@ -1,15 +1,16 @@
 /** The recordings of the folder: search, open, show beside, add. */
 import type { JSX } from "preact";
 import { StatusOptions } from "../folder/StatusOptions";
+import { AddFiles } from "./AddFiles";
+import { MiddleShortened } from "./MiddleShortened";
 import { useStudio } from "../context";
 import type { Listing } from "../../messages";
 import type { Order, Status } from "../recordingList";
 
 const SIGNS: Record<Status, string> = { new: "", corrected: "✎", labelled: "◐", checked: "✓" };
-const TAIL = 12; // letters at the end of a name that are always seen
 
 export function FolderPanel(): JSX.Element {
-  const { session, uploads, front } = useStudio();
+  const { session, front } = useStudio();
   const { search, status } = session.list;
   const all = session.state.value?.recordings ?? [];
   const found = session.list.listed.value;
@@ -28,22 +29,7 @@ export function FolderPanel(): JSX.Element {
             Folder
           </button>
         )}
-        <label
-          class="button"
-          title="Add files to the folder; dropping them on the page does the same"
-        >
-          Add…
-          <input
-            class="unseen"
-            type="file"
-            multiple
-            onChange={(event) => {
-              const input = event.currentTarget;
-              void uploads.add([...(input.files ?? [])]);
-              input.value = "";
-            }}
-          />
-        </label>
+        <AddFiles />
       </div>
       {all.length > 1 && (
         <div class="folder-filter">
@@ -82,12 +68,6 @@ export function FolderPanel(): JSX.Element {
           <Row key={listing.id} listing={listing} />
         ))}
       </ul>
-      {uploads.running.value.map(({ name, share }) => (
-        <p class="upload" key={name}>
-          <span>{name}</span>
-          <progress value={share} aria-label={`Sending ${name}`} />
-        </p>
-      ))}
       <Hint all={all.length} found={found.length} suffixes={session.state.value?.suffixes ?? []} />
     </section>
   );
@@ -152,17 +132,6 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
         )
       )}
     </li>
-  );
-}
-
-/** A name of which the middle goes first, since recordings often differ at the end. */
-function MiddleShortened({ name }: { name: string }): JSX.Element {
-  const cut = Math.max(name.length - TAIL, 0);
-  return (
-    <span class="name halves">
-      <span>{name.slice(0, cut)}</span>
-      <span>{name.slice(cut)}</span>
-    </span>
   );
 }
 

@@ -2,7 +2,7 @@
 import type { JSX } from "preact";
 import { useStudio } from "../context";
 import type { Proposal } from "../editing/beside";
-import { counted } from "../editing/words";
+import { counted } from "../../counted";
 
 export function Proposed(props: {
   proposal: Proposal;

@@ -7,7 +7,7 @@ import type { Kind, Segment } from "../../messages";
 import { NameInput } from "../../layout/NameInput";
 import { durationOf, nameOf } from "../../segments";
 import { confidenceOf } from "../../confidence";
-import { counted } from "../editing/words";
+import { counted } from "../../counted";
 import type { Session } from "../session";
 import { Comment } from "./Comment";
 import { Vocabulary } from "./Vocabulary";

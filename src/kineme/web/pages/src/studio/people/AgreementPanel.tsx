@@ -4,6 +4,7 @@ import { useStore } from "../../context";
 import type { Agreement, RecordingAgreement } from "../../messages";
 import { clock } from "../../view";
 import { useStudio } from "../context";
+import { MiddleShortened } from "../panels/MiddleShortened";
 
 const BY_NAMES = "Names are compared, in capitals or small letters.";
 const BY_MAPPING =
@@ -136,11 +137,12 @@ function ByRecording({ agreement }: { agreement: Agreement }): JSX.Element {
             <td>
               <button
                 type="button"
-                class="link"
+                class="link halves"
+                title={name}
                 aria-current={id === session.store.recording.value?.id}
                 onClick={() => void session.open(id)}
               >
-                {name}
+                <MiddleShortened name={name} />
               </button>
             </td>
             <td>{shown(fleiss_kappa)}</td>

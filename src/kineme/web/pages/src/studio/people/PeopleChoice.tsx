@@ -3,7 +3,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
-import { counted } from "../editing/words";
+import { counted } from "../../counted";
 import type { AnnotatorChoice } from "../../messages";
 import { explain } from "../server/api";
 

@@ -6,7 +6,6 @@ import { clusterColor, NO_COLOR } from "../../colors";
 import type { Level } from "../../messages";
 import { nameOf } from "../../segments";
 import { clock } from "../../view";
-import { FolderProgress } from "../folder/FolderProgress";
 import { progressOf } from "./doubts";
 
 const MOST = 100; // rows; the rest comes when these are checked
@@ -27,7 +26,7 @@ export function ReviewPanel(): JSX.Element {
         onChange={(event) => void review.goEverywhere(event.currentTarget.value === "folder")}
       >
         <option value="recording">this recording</option>
-        <option value="folder">all recordings of the folder</option>
+        <option value="folder">all recordings</option>
       </select>
     </label>
   );
@@ -84,7 +83,6 @@ function FolderReview({ scope }: { scope: ComponentChildren }): JSX.Element {
   return (
     <div class="review-panel">
       {scope}
-      <FolderProgress tally={folder.tally.value} />
       <ol class="doubts">
         {places.slice(0, MOST).map((place) => {
           const { id, recording, doubt } = place;

@@ -32,7 +32,7 @@ export class Review {
   ) {
     this.folder = new Folder(session);
     this.queue = new FolderQueue(this.folder);
-    this.offer = new NameOffer(session);
+    this.offer = new NameOffer(this.folder);
   }
 
   /** Goes through all recordings from now on, the least sure place of them first; or no more. */
@@ -61,8 +61,7 @@ export class Review {
   }
 
   go({ segment }: Doubt): void {
-    this.session.store.playing.value = false;
-    this.session.store.select(segment);
+    this.session.store.lookAt(segment);
   }
 
   /** Marks the segment at the playhead as checked, and goes on. */

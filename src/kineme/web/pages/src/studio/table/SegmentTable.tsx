@@ -2,6 +2,7 @@
  * All segments as a table: ordered, filtered, several chosen at once. Only the rows that are seen
  * are there, so that ten thousand scroll like ten.
  */
+import { counted } from "../../counted";
 import { computed, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useMemo, useRef } from "preact/hooks";
@@ -134,7 +135,8 @@ export function SegmentTable(): JSX.Element {
           role="status"
           title="Click rows, with Shift or Ctrl several, to name, merge, check or write them"
         >
-          {rows.value.length} segments{many.length > 0 && `, ${many.length} chosen`}
+          {counted(rows.value.length, "segment")}
+          {many.length > 0 && `, ${many.length} chosen`}
         </p>
         <LoopsButton />
       </div>

@@ -2,14 +2,14 @@
 import type { JSX } from "preact";
 import { useStudio } from "../context";
 
-export function OfferBar(): JSX.Element | null {
+export function Offered(): JSX.Element {
   const { review } = useStudio();
   const { offer } = review;
   const { value: present } = offer.present;
-  if (!present) return null;
+  if (!present) return <div role="status" />;
   const { cluster, before, label } = present;
   return (
-    <div class="offer-bar" role="status">
+    <div class="notice" role="status">
       <p>
         Cluster {cluster} is “{label}” here.{" "}
         {offer.isLibrary()

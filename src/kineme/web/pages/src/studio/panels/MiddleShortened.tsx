@@ -1,0 +1,14 @@
+/** A name of which the middle goes first, since recordings often differ at the end. */
+import type { JSX } from "preact";
+
+const TAIL = 12; // letters at the end that are always seen
+
+export function MiddleShortened({ name }: { name: string }): JSX.Element {
+  const cut = Math.max(name.length - TAIL, 0);
+  return (
+    <span class="name halves">
+      <span>{name.slice(0, cut)}</span>
+      <span>{name.slice(cut)}</span>
+    </span>
+  );
+}
