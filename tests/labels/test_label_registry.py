@@ -79,6 +79,17 @@ def test_levels_and_kinds_of_a_table_of_seconds_are_kept(tmp_path: Path) -> None
     assert found.primitives.label.tolist() == ["x", "", "", ""]
 
 
+def test_clusters_of_a_table_of_seconds_are_kept_where_they_are_numbers(tmp_path: Path) -> None:
+    path = tmp_path / "exported.csv"
+    path.write_text(
+        "recording,kind,start_s,stop_s,label,cluster\na.bvh,activity,0,2,,7\n"
+        "a.bvh,activity,2,3,wave,3\na.bvh,transition,3,4,,-1\na.bvh,activity,4,6,run,mine\n"
+    )
+    found = read_segments(path, fps=10)
+    assert found.activities.cluster.tolist() == [7, 3, -1, -1]
+    assert found.activities.label.tolist() == ["", "wave", "", "run"]
+
+
 def test_a_table_of_many_recordings_is_no_table_of_one(tmp_path: Path) -> None:
     path = tmp_path / "labels.csv"
     path.write_text("recording,start_s,stop_s,label\na,0,2,walk\nb,0,2,run\n")

@@ -10,10 +10,9 @@ others are ignored.
 
 A table of intervals that people keep by hand is read as well: ``label`` with ``start_s``
 and ``stop_s`` (seconds, or dates such as 2026-01-31T09:30:00.25), or with ``start_frame``
-and ``stop_frame``, in any order, with ``level``,
-``kind`` and ``count`` (repetitions) where there are any. What no row covers is a transition.
-A column ``recording`` must name one recording only; tables of many are read by
-`kineme.labels.collections`.
+and ``stop_frame``, in any order, with ``level``, ``kind``, ``cluster`` and ``count``
+(repetitions) where there are any. What no row covers is a transition. A column ``recording``
+must name one recording only; tables of many are read by `kineme.labels.collections`.
 """
 
 from __future__ import annotations
@@ -21,6 +20,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import astuple, replace
 from pathlib import Path
@@ -136,7 +136,8 @@ def intervals(path: Path) -> dict[str, Labels]:
             cells = {name: row[name] if comma == "," else dotted(row[name]) for name in SPANS[unit]}
             convert = _second if unit == "seconds" else number
             start, stop = (convert(cell, name, path, line) for name, cell in cells.items())
-            span = Span(start, stop, _text(row), _level(row), repetitions=_count(row, path, line))
+            count = _count(row, path, line)
+            span = Span(start, stop, _text(row), _level(row), _cluster(row), repetitions=count)
             spans.setdefault(row.get("recording", ""), []).append(span)
     return {recording: Labels(some, unit) for recording, some in spans.items()}
 
@@ -165,6 +166,12 @@ def _text(row: dict[str, str]) -> str:
 
 def _level(row: dict[str, str]) -> Level:
     return "primitive" if row.get("level") == "primitive" else "activity"
+
+
+def _cluster(row: dict[str, str]) -> int:
+    """The number of a cluster, as in an exported library; other words there are people's own."""
+    text = row.get("cluster", "").strip()
+    return int(text) if re.fullmatch("[0-9]{1,9}", text) else -1
 
 
 def _count(row: dict[str, str], path: Path, line: int) -> int | None:
