@@ -34,7 +34,8 @@ from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.journal import Journal
 from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import (
-    keep_options,
+    Reading,
+    keep_reading,
     listed_in,
     notes_on_sidecars,
     options_of,
@@ -189,7 +190,8 @@ def _library(root: Path, motion: Motion, _: Segmentation) -> None:
 def _studio(root: Path, motion: Motion, truth: Segmentation) -> None:
     folder = _made(root / "studio")
     formats.write(motion[:60], root / TAKE)
-    keep_options(root / TAKE, {"fps": 30.0, "unit": "cm", "up": "y"}, ["Anna", "Bob"])
+    said = Reading({"fps": 30.0, "unit": "cm", "up": "y"}, ["Anna", "Bob"])
+    keep_reading(root / TAKE, said)
     set_offset(root / TAKE, 1.5)
     share_labels(folder, ["walk", "jump"])
     saved = folder / f"walk{CORRECTED}"

@@ -44,3 +44,17 @@ def test_a_place_that_is_there_or_named_is_left_as_it_is(tmp_path: Path) -> None
     assert run(shown, tmp_path) == "None"
     named = str(tmp_path / "own")
     assert run(NOBODY_WRITES + shown, tmp_path, NUMBA_CACHE_DIR=named) == named
+
+
+def test_it_is_said_once_that_code_is_compiled_and_not_when_it_is_loaded(tmp_path: Path) -> None:
+    (tmp_path / "kernels.py").write_text(
+        "from numba import njit\nimport kineme._compiled as c\n"
+        "one, other = (njit('i8(i8)', **c.OPTIONS)(f) for f in (lambda n: n, lambda n: n + 1))"
+    )
+    code = (
+        f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import kineme._compiled as c\n"
+        "with c.telling_of_compiling(print): import kernels"
+    )
+    kept = {"NUMBA_CACHE_DIR": str(tmp_path / "kept")}
+    assert run(code, tmp_path, **kept) == _compiled.COMPILING
+    assert run(code, tmp_path, **kept) == ""

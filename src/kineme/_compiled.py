@@ -12,11 +12,35 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
 VARIABLE = "NUMBA_CACHE_DIR"
+COMPILING = "compiling, the first time only"
+"""How people are told why nothing seems to go on, for half a minute on a slow machine."""
+
+
+@contextmanager
+def telling_of_compiling(say: Callable[[str], None]) -> Iterator[None]:
+    """While the block lasts, say so before the first kernel is compiled that was never before."""
+    from numba.core.event import Event, Listener, install_listener
+
+    class Once(Listener):
+        before = False
+
+        def on_start(self, _: Event) -> None:
+            if not self.before:
+                self.before = True
+                say(COMPILING)
+
+        def on_end(self, _: Event) -> None:
+            """Nothing is to be said."""
+
+    with install_listener("numba:compile", Once()):
+        yield
 
 
 def find_cache() -> None:

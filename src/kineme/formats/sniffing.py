@@ -247,8 +247,9 @@ def _rate_below_start(lines: Sequence[str], full: Sequence[int]) -> float | None
         return None
     starts, rates = ({float(cell) if is_finite(cell) else 0.0 for cell in row} for row in rows[:2])
     start, rate = max(starts), max(rates)
-    alike = len(starts) == len(rates) == 1
-    return rate if alike and start > SINCE_2001 and 0 < rate < start else None
+    if len(starts) > 1 or len(rates) > 1 or start < SINCE_2001:
+        return None
+    return rate if 0 < rate < start else None
 
 
 def _rate_in(lines: Sequence[str]) -> float | None:

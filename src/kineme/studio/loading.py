@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from kineme._compiled import telling_of_compiling
 from kineme._threads import asking
 from kineme.errors import MotionError, ParameterError, ReadError
 from kineme.methods.presets import DEFAULT
@@ -149,7 +150,11 @@ class LoadedRecording:
             segments = former[1]
         else:
             found = self.recording
-            with self.runs.one(run or Run(preset)) as present, asking(present.go_on):
+            with (
+                self.runs.one(run or Run(preset)) as present,
+                asking(present.go_on),
+                telling_of_compiling(present.stage),
+            ):
                 segments = segment(
                     found,
                     preset=preset,

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from kineme._compiled import telling_of_compiling
 from kineme.cli.options.method import Constants, Detail, PresetName, constants_of
 from kineme.cli.options.reading import Effectors, Emg, effector_names, keywords_of
 from kineme.errors import ParameterError
@@ -150,7 +151,8 @@ class Request:
         """The segments at the detail asked for, and what was found on the way to them."""
         from kineme.segmentation.segmenter import segmented
 
-        result, found = segmented(recording, self.options, progress=stage)
+        with telling_of_compiling(stage):
+            result, found = segmented(recording, self.options, progress=stage)
         return result.level(self.detail), found
 
     def segments(
