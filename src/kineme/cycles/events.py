@@ -374,8 +374,9 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
     --------
     >>> from kineme.cycles import foot_events, strides
     >>> from kineme.datasets import Action, synthesize
-    >>> strides(foot_events(synthesize([Action("walk", 4)], fps=60).motion))["foot"].tolist()
-    ['left', 'left', 'right', 'right']
+    >>> table = strides(foot_events(synthesize([Action("walk", 4)], fps=60).motion))
+    >>> [*table]
+    ['foot', 'start_s', 'stop_s', 'stride_s', 'stance_s', 'swing_s', 'stance_percent', 'step_s', ...]
     """
     check_type(events, Events, "gait", "foot_events(recording) gives them")
     sides = [_strides(events, side, recording) for side in SIDES]

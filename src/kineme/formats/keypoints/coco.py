@@ -96,7 +96,7 @@ def _frames(content: FileContent, images: Any, entries: Sequence[Mapping[str, An
         order = {str(image["id"]): i for i, image in enumerate(sorted(usable, key=_place))}
         for entry in entries:
             if str(entry.get("image_id")) not in order:
-                raise content.error(f"image {str(entry.get('image_id'))[:40]} is not in 'images'")
+                raise content.error(f"image {entry.get('image_id')!r:.40} is not in 'images'")
         return [order[str(entry["image_id"])] for entry in entries]
     return [_number(content, entry.get("image_id")) for entry in entries]
 
