@@ -376,7 +376,7 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
     >>> from kineme.datasets import Action, synthesize
     >>> table = strides(foot_events(synthesize([Action("walk", 4)], fps=60).motion))
     >>> [*table]
-    ['foot', 'start_s', 'stop_s', 'stride_s', 'stance_s', 'swing_s', 'stance_percent', 'step_s', ...]
+    ['foot', 'start_s', 'stop_s', 'stride_s', 'stance_s', 'swing_s', 'stance_percent', ...]
     """
     check_type(events, Events, "gait", "foot_events(recording) gives them")
     sides = [_strides(events, side, recording) for side in SIDES]
