@@ -35,7 +35,7 @@ from kineme.segments.editing.annotating import marked
 from report_in_browser import SIZE, wait
 from studio import start
 
-TWENTY, WRONG, FIVE, EIGHT = few((20, 10, 5, 8), (4, 3, 2, 8))
+TWENTY, WRONG, FIVE, EIGHT = few((20, 10, 5, 8), (4, 3, 2, 4))
 MANY, ROWS, STEPS = few((500, 100, 20), (10, 20, 4))
 MOST_KEYS, MOST_ACTIONS, MOST_PAGE_S, MOST_STEP_S = 60, 4, 1.0, 0.2
 PEOPLE = {"anna": 0, "ben": 4, "cleo": 40}  # frames by which their borders lie later
@@ -125,7 +125,7 @@ def named(tab: Any, folder: Path) -> None:
     tab.wait_for_timeout(1000)
     begun = perf_counter()
     tab.get_by_role("button", name="Numbers and names to").press("Enter")
-    wait(tab, "document.body.innerText.includes('other numbers or names now')")
+    wait(tab, "document.body.innerText.includes('Other numbers or names in')")
     took = perf_counter() - begun
     told = Library(folder / "library").table("segments").to_pylist()
     for path in paths[:FIVE]:

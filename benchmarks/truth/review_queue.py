@@ -161,7 +161,8 @@ def main() -> None:
         review = Review(browser.new_page(viewport=SIZE))
         review.page.goto(f"{studio.base}/?token={studio.token}&open={file_id(paths[0])}")
         for path, case in zip(paths, known, strict=True):
-            wait(review.page, f"window.kineme?.name === '{path.name}' && window.kineme.hasMotion")
+            wait(review.page, f"window.kineme?.name === '{path.name}'")
+            wait(review.page, "window.kineme.hasMotion && !window.kineme.finding")
             look_through(review, case, options.share, totals, mend=options.mend)
             review.press("PageDown")
         studio.end()
