@@ -77,6 +77,8 @@ export class Session {
 
   readonly beside: Beside;
   readonly people: People;
+  /** Revisions that were announced of recordings while these were still on their way here. */
+  private readonly missed = new Map<string, number>();
   private retrying = 0;
   private started = false;
 
@@ -263,8 +265,12 @@ export class Session {
         lost: () => this.lost(),
         tell: (text) => this.tellOf(id, text),
       }));
-    if (!this.recordings.value.includes(edited))
+    if (!this.recordings.value.includes(edited)) {
       this.recordings.value = [...this.recordings.value, edited];
+      const revision = this.missed.get(id) ?? 0;
+      if (revision > edited.confirmed.peek().revision) void edited.changed(revision);
+      this.missed.delete(id);
+    }
     return { data, recording: edited.shown, motion: signal<Motion | null>(null) };
   }
 
@@ -294,7 +300,10 @@ export class Session {
 
   private async changed(change: Changed): Promise<void> {
     const edited = this.recordings.value.find((each) => each.id === change.recording);
-    if (!edited) return void (await this.refresh());
+    if (!edited) {
+      this.missed.set(change.recording, change.revision);
+      return void (await this.refresh());
+    }
     await edited.changed(change.revision);
     await this.renewMotion(edited.id);
   }
