@@ -323,7 +323,7 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     """Print a line for each group, of two sessions for each of both, and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import OF_COUNTS, PER_CENT, in_per_cent, new_table
+    from kineme.cli.tables import OF_COUNTS, PER_CENT, in_per_cent, keep_if_filled, new_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
@@ -347,11 +347,9 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
             table.add_row(*name, *head, *(_filled(cell) for cell in cells))
             if n == 0:
                 without.append(group)
-    at = len(first) + 2
-    if not any(table.columns[at].cells):
-        del table.columns[at]
+    probable = keep_if_filled(table, PER_CENT)
     console.print(table)
-    if table.columns[at].header == PER_CENT:
+    if probable:
         console.print(f"{OF_COUNTS}, of the least sure activity.")
     of = "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
     console.print(f"n, means: over {of}.")

@@ -140,12 +140,11 @@ def _activity_rows(segmentation: Segmentation) -> Table:
         table.add_row(*_span(number, row), *cells, style=_style(row))
     if any("+" in str(cell) for cell in table.columns[5].cells):
         captions.append("(+n): primitives of the activity that are in other clusters, or in none")
-    if any(table.columns[6].cells):
+    if keep_if_filled(table, PER_CENT):
         captions.append(OF_COUNTS)
-    else:
-        del table.columns[6]
     table.caption, table.caption_justify = "\n".join(captions) or None, "left"
-    return _without_empty_labels(table, segmentation.activities.label.tolist())
+    keep_if_filled(table, "label")
+    return table
 
 
 def in_per_cent(probability: float) -> str:
@@ -167,7 +166,8 @@ def _primitive_rows(segmentation: Segmentation) -> Table:
     for number, row in enumerate(segmentation.primitives):
         cells = str(row.activity), cluster_cell(row.cluster), row.label
         table.add_row(*_span(number, row), *cells, style=_style(row))
-    return _without_empty_labels(table, segmentation.primitives.label.tolist())
+    keep_if_filled(table, "label")
+    return table
 
 
 def columns_of(names: Iterable[str]) -> RenderableType:
@@ -187,10 +187,13 @@ def new_table(*names: str) -> Table:
     return table
 
 
-def _without_empty_labels(table: Table, labels: list[str]) -> Table:
-    if not any(labels):
-        table.columns.pop()
-    return table
+def keep_if_filled(table: Table, name: str) -> bool:
+    """Leave out the column of this name if all of its cells are empty; whether it stays."""
+    at = [column.header for column in table.columns].index(name)
+    filled = any(table.columns[at].cells)
+    if not filled:
+        del table.columns[at]
+    return filled
 
 
 def _span(number: int, row: Segment) -> tuple[str, ...]:

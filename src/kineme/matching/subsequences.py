@@ -146,7 +146,7 @@ def search(
     if top is not None and not (is_number(top) and top >= 1):
         raise ParameterError(f"top must be a whole number above 0, not {top!r:.60}")
     distances, starts = Searched(recording).distances(example, most=threshold)
-    ends = np.flatnonzero(distances <= np.float32(threshold))
+    ends = np.flatnonzero(np.isfinite(distances))
     ends = ends[np.argsort(distances[ends], kind="stable")]
     chosen = np.empty(len(ends), np.int64)
     most = len(ends) if top is None else int(top)

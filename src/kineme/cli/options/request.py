@@ -96,9 +96,10 @@ class Request:
     ) -> Request:
         """The options as they were typed; typer.BadParameter where one makes no sense."""
         keywords = keywords_of(reading)
-        chosen = preset or DEFAULT
+        is_default = not any((preset, detail, constants, effectors, keywords))
+        chosen, detail = preset or DEFAULT, DEFAULT_DETAIL if detail is None else detail
         try:
-            check_detail(DEFAULT_DETAIL if detail is None else detail)
+            check_detail(detail)
         except ParameterError as error:
             raise typer.BadParameter(str(error), param_hint="--detail") from error
         options = SegmentOptions(
@@ -107,8 +108,7 @@ class Request:
             effectors=effector_names(effectors),
             emg=bool(keywords.get("emg")),
         )
-        is_default = not any((preset, detail, constants, effectors, keywords))
-        return cls(options, keywords, detail or DEFAULT_DETAIL, is_default=is_default)
+        return cls(options, keywords, detail, is_default=is_default)
 
     @property
     def effectors(self) -> Names | None:
