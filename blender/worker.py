@@ -23,7 +23,7 @@ def segmented(task: dict[str, Any]) -> dict[str, Any]:
     said("reading")
     recording = kineme.read(task["recording"])
     found = kineme.segment(recording, effectors=joints(task["effectors"]), progress=said)
-    found = found.level(task["detail"])
+    found = found.at_detail(task["detail"])
     provenance = dict(found.provenance)
     provenance["input"] = {"path": task["name"], "format": "Blender", "sha256": None}
     return {"table": as_json(replace(found, provenance=provenance), task)}

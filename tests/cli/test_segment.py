@@ -67,8 +67,8 @@ def test_detail_gives_coarser_and_finer_segments(kineme, recording: Path, tmp_pa
         table = tmp_path / f"{detail}.json"
         done = kineme("segment", recording, "--detail", detail, "--output", table, "--quiet")
         assert (done.returncode, done.stderr) == (0, "")
-        assert package.read_segments(table).table == whole.level(detail).table
-        assert package.read_segments(table).level(1).table == whole.table
+        assert package.read_segments(table).table == whole.at_detail(detail).table
+        assert package.read_segments(table).at_detail(1).table == whole.table
     refused = kineme("segment", recording, "--detail", 0)
     assert refused.returncode == 2
     assert "detail must be a number above 0" in refused.stderr

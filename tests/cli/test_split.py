@@ -59,7 +59,7 @@ def test_split_takes_coarser_segments(kineme, tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (0, "")
     found = package.segment(package.read(bundled_recording()))
     manifest = pd.read_csv(tmp_path / "clips" / "manifest.csv")
-    assert manifest.start_frame.tolist() == found.level(0.25).activities.start_frame.tolist()
+    assert manifest.start_frame.tolist() == found.at_detail(0.25).activities.start_frame.tolist()
     assert len(manifest) < len(found.activities)
 
 

@@ -52,8 +52,8 @@ def test_other_details_are_read(file: str) -> None:
     found = read_segments(OLDER / file)
     assert found.hierarchy is not None
     assert found.hierarchy.details == (0.125, 1.0)
-    assert found.level(0.125).activities.kind.tolist() == ["activity"]
-    assert set(found.level(0.125).primitives.kind.tolist()) == {"primitive", "transition"}
+    assert found.at_detail(0.125).activities.kind.tolist() == ["activity"]
+    assert set(found.at_detail(0.125).primitives.kind.tolist()) == {"primitive", "transition"}
 
 
 @pytest.mark.parametrize("file", ["edited.csv", "edited.parquet", "edited_whole.json"])

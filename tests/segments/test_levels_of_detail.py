@@ -54,7 +54,7 @@ def test_every_border_at_one_detail_is_one_at_any_finer_one(seed, seconds, prese
     whole = found(seed, seconds, preset)
     assert whole.hierarchy is not None
     details = sorted({*asked, 1.0, *whole.hierarchy.details})
-    results = [whole.level(detail) for detail in details]
+    results = [whole.at_detail(detail) for detail in details]
     for coarse, fine in pairwise(results):
         for level in ("activity", "primitive"):
             assert set(coarse.cuts(level).tolist()) <= set(fine.cuts(level).tolist())
@@ -63,16 +63,16 @@ def test_every_border_at_one_detail_is_one_at_any_finer_one(seed, seconds, prese
         )
         parents = np.unique(clusters[(clusters >= 0).all(axis=1)], axis=0)[:, 1]
         assert len(parents) == len(set(parents.tolist())), "a cluster is part of two coarser ones"
-    assert whole.level(1) == whole
-    assert all(result.level(1) == whole for result in results)
+    assert whole.at_detail(1) == whole
+    assert all(result.at_detail(1) == whole for result in results)
 
 
 def test_the_coarsest_is_one_activity_and_finer_ones_have_more() -> None:
     whole = kineme.segment(kineme.read(kineme.bundled_recording()))
-    counts = [len(whole.level(detail).activities) for detail in (0.01, 0.5, 1, 100)]
+    counts = [len(whole.at_detail(detail).activities) for detail in (0.01, 0.5, 1, 100)]
     assert counts == sorted(counts)
     assert counts[0] == 1 < counts[1] < counts[2]
-    assert whole.level(100).provenance["detail"] > 1
+    assert whole.at_detail(100).provenance["detail"] > 1
 
 
 def test_borders_know_the_detail_at_which_they_appear() -> None:
@@ -80,30 +80,30 @@ def test_borders_know_the_detail_at_which_they_appear() -> None:
     assert whole.hierarchy is not None
     frames, details = whole.hierarchy.borders()
     for detail in whole.hierarchy.details:
-        assert frames[details <= detail].tolist() == whole.level(detail).cuts().tolist()
+        assert frames[details <= detail].tolist() == whole.at_detail(detail).cuts().tolist()
 
 
 def test_methods_without_levels_have_one() -> None:
     whole = kineme.segment(kineme.read(kineme.bundled_recording()), preset="voegele2014")
     assert whole.hierarchy is None
-    assert whole.level(0.1) is whole.level(7) is whole
+    assert whole.at_detail(0.1) is whole.at_detail(7) is whole
 
 
 @pytest.mark.parametrize("detail", [0, -1, float("nan"), float("inf"), True, None])
 def test_what_is_no_detail_is_refused(detail) -> None:
     with pytest.raises(ParameterError, match="detail"):
-        found(0, 5.0, "sensors").level(detail)
+        found(0, 5.0, "sensors").at_detail(detail)
 
 
 @pytest.mark.parametrize("suffix", [".json", ".csv", ".parquet"])
 @pytest.mark.parametrize("detail", [0.5, 1.0, 4.0])
 def test_files_keep_every_detail(tmp_path: Path, suffix: str, detail: float) -> None:
-    result = found(5, 30.0, "kineme").level(detail)
+    result = found(5, 30.0, "kineme").at_detail(detail)
     path = tmp_path / f"take{suffix}"
     write_segments(result, path)
     again = read_segments(path)
     assert again == result
-    assert again.level(1) == result.level(1)
+    assert again.at_detail(1) == result.at_detail(1)
 
 
 def test_a_csv_that_was_edited_has_one_detail(tmp_path: Path) -> None:
@@ -132,7 +132,7 @@ def test_an_edit_leaves_one_detail() -> None:
     assert edited.hierarchy is None
     assert replace(whole, table=whole.table[:]).hierarchy == whole.hierarchy
     assert replace(whole, table=edited.table).hierarchy is None
-    assert edited.level(0.5) is edited
+    assert edited.at_detail(0.5) is edited
 
 
 def test_tables_that_are_not_nested_are_refused() -> None:

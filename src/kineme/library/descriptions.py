@@ -150,7 +150,7 @@ def analysis_of(
         effectors=settings.effectors,
         emg=emg,
         **settings.constants,
-    ).level(settings.detail)
+    ).at_detail(settings.detail)
     described = describe(recording, effectors=settings.effectors, emg=emg)
     embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
     for row, each in enumerate(found.table):

@@ -78,7 +78,7 @@ def write_report(
         data, segmentation, name=name or _name(segmentation), band=band, levels=True
     )
     source = recorded(recording, data.fps)
-    others = [segmentation.level(level.detail) for level in message.levels]
+    others = [segmentation.at_detail(level.detail) for level in message.levels]
     with atomic_write(path) as draft:
         page = filled(
             _template(),

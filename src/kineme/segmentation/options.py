@@ -58,7 +58,7 @@ class SegmentOptions:
 
     def __post_init__(self) -> None:
         if "detail" in self.constants:
-            raise ParameterError("detail is asked of what comes out: segment(...).level(0.5)")
+            raise ParameterError("detail is asked of what comes out: segment(...).at_detail(0.5)")
         for name, value in (("unit", self.unit), ("feature_fps", self.feature_fps)):
             if value is not None and not (is_number(value) and value > 0):
                 raise ParameterError(f"{name} must be a number above 0, not {value!r:.60}")

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, get_args, overload
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -159,54 +159,58 @@ class Segmentation:
     @property
     def activities(self) -> SegmentTable:
         """The activity level: activities and the transitions between them."""
-        return self._of_level("activity")
+        return self.level("activity")
 
     @property
     def primitives(self) -> SegmentTable:
         """The primitive level: single repetitions, and transitions whole."""
-        return self._of_level("primitive")
+        return self.level("primitive")
 
-    @overload
-    def level(self, level: Level) -> SegmentTable: ...
-    @overload
-    def level(self, level: float) -> Segmentation: ...
-    def level(self, level: Level | float) -> SegmentTable | Segmentation:
-        """The segments of one level of the table; or, by a number, the result at that detail.
+    def level(self, level: Level) -> SegmentTable:
+        """Return the segments of one level of the table, in time order.
+
+        Raises ParameterError if `level` is neither ``"activity"`` nor ``"primitive"``.
+        """
+        if not is_one_of(level, get_args(Level)):
+            raise ParameterError(
+                f"level must be 'activity' or 'primitive', not {level!r}; "
+                "at_detail() gives coarser and finer results"
+            )
+        return self.table.select(self.table.level == level)
+
+    def at_detail(self, detail: float) -> Segmentation:
+        """Return the result with fewer or more segments.
 
         Parameters
         ----------
-        level : {"activity", "primitive"} or float
-            Of the two levels of this table, one: a `SegmentTable` in time order. Or a detail
-            above 0: 1 is the default result, less is coarser, more is finer, and every
-            border at one detail is a border at any finer one.
+        detail : float
+            Above 0. 1 is the default result, less is coarser, more is finer. Every border at
+            one detail is a border at any finer one.
 
         Returns
         -------
-        SegmentTable or Segmentation
-            By a number, the finest segmentation that is no finer than that, with the same
-            hierarchy: what was coarser or finer can still be had. Without a hierarchy there is
-            one detail, and it is this segmentation whatever the number.
+        Segmentation
+            The finest result that is no finer than `detail`, with the same hierarchy, so that
+            coarser and finer results stay available. Without a hierarchy: this result.
 
         Raises
         ------
         ParameterError
-            No such level, or a number that is no detail.
+            `detail` is not a number above 0.
 
         Examples
         --------
         >>> import kineme
-        >>> found = kineme.segment(kineme.read(kineme.bundled_recording()))
-        >>> {*found.level(0.5).cuts().tolist()} <= {*found.cuts().tolist()}
+        >>> segments = kineme.segment(kineme.read(kineme.bundled_recording()))
+        >>> {*segments.at_detail(0.5).cuts().tolist()} <= {*segments.cuts().tolist()}
         True
-        >>> found.level(0.5).level(1) == found
+        >>> segments.at_detail(0.5).at_detail(1) == segments
         True
         """
-        if isinstance(level, str):
-            return self._of_level(level)
-        check_detail(level)
+        check_detail(detail)
         if self.hierarchy is None:
             return self
-        chosen = self.hierarchy.at(level)
+        chosen = self.hierarchy.at(detail)
         provenance = {name: value for name, value in self.provenance.items() if name != "detail"}
         if chosen.detail != DEFAULT_DETAIL:
             provenance["detail"] = chosen.detail
@@ -214,7 +218,7 @@ class Segmentation:
 
     def cuts(self, level: Level = "activity") -> NDArray[np.int64]:
         """The frames where one segment of a level ends and the next starts."""
-        return self._of_level(level).start_frame[1:]
+        return self.level(level).start_frame[1:]
 
     def repetitions(self) -> dict[int, int]:
         """How many primitives each cluster has; those in no cluster are not counted."""
@@ -248,7 +252,7 @@ class Segmentation:
         """
         if not is_one_of(column, COLUMNS):
             raise ParameterError(f"no column {column!r}; there are {', '.join(COLUMNS)}")
-        rows = self._of_level(level)
+        rows = self.level(level)
         values: NDArray[Any] = getattr(rows, column)
         return np.repeat(values, rows.stop_frame - rows.start_frame)
 
@@ -340,11 +344,3 @@ class Segmentation:
         from kineme.segments.timeline import page
 
         return page(repr(self).strip("<>"), [self.activities, self.primitives], self.activities)
-
-    def _of_level(self, level: Level) -> SegmentTable:
-        """The segments of one level, in time order; ParameterError for any other word."""
-        if not is_one_of(level, get_args(Level)):
-            raise ParameterError(
-                f"level must be 'activity' or 'primitive', or a detail above 0, not {level!r}"
-            )
-        return self.table.select(self.table.level == level)

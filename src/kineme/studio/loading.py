@@ -163,7 +163,7 @@ class LoadedRecording:
                     **changed,
                 )
             self._found = key, segments
-        return segments if detail == DEFAULT_DETAIL else segments.level(detail)
+        return segments if detail == DEFAULT_DETAIL else segments.at_detail(detail)
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
         """The table before anybody made another, and what people should know about it.

@@ -153,7 +153,7 @@ class Request:
 
         with telling_of_compiling(stage):
             result, found = segmented(recording, self.options, progress=stage)
-        return result.level(self.detail), found
+        return result.at_detail(self.detail), found
 
     def segments(
         self, recording: Motion | Signals, table: Path | None, stage: Stage
