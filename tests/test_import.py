@@ -124,3 +124,9 @@ def test_public_doors_refuse_in_their_own_words(tmp_path: Path) -> None:
                 except Exception as error:  # noqa: BLE001 (what else there is, is the question)
                     foreign.append(f"{door.__qualname__}, {slot}: {wrong!r:.30}: {error!r:.80}")
     assert not foreign
+
+
+@pytest.mark.parametrize("name", ["formats", "interop.adapters", "interop.movement_dataset"])
+def test_packages_of_the_docs_are_attributes(name: str) -> None:
+    loaded = f"import kineme; from operator import attrgetter; attrgetter({name!r})(kineme)"
+    assert "kineme" in loaded_by(loaded)

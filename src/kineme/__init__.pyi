@@ -3,7 +3,49 @@
 __version__: str
 
 from . import (
+    clips as clips,
+)
+from . import (
+    datasets as datasets,
+)
+from . import (
+    errors as errors,
+)
+from . import (
+    evaluation as evaluation,
+)
+from . import (
+    features as features,
+)
+from . import (
+    formats as formats,
+)
+from . import (
+    interop as interop,
+)
+from . import (
+    labels as labels,
+)
+from . import (
     library as library,
+)
+from . import (
+    methods as methods,
+)
+from . import (
+    plot as plot,
+)
+from . import (
+    recordings as recordings,
+)
+from . import (
+    segments as segments,
+)
+from . import (
+    synthesis as synthesis,
+)
+from . import (
+    transfer as transfer,
 )
 from .cycles import (
     Cycles as Cycles,
