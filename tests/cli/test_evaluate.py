@@ -125,6 +125,19 @@ def test_a_plain_table_of_intervals_is_a_result_too(kineme, tmp_path):
     assert float(scores(tmp_path / "out.csv")[0]["border_f1"]) == 1.0
 
 
+def test_right_borders_of_wrong_classes_are_explained(kineme, tmp_path):
+    rows = "".join(f"{name},{5 * k},{5 * k + 5}\n" for k, name in enumerate("abcd"))
+    (tmp_path / "truth.csv").write_text(f"label,start_s,stop_s\n{rows}")
+    (tmp_path / "same.csv").write_text(f"label,start_s,stop_s\n{rows}")
+    joined = rows.replace("c,", "a,").replace("d,", "b,")  # a cluster for two labels
+    (tmp_path / "joined.csv").write_text(f"label,start_s,stop_s\n{joined}")
+    right = kineme("evaluate", "same.csv", "--against", "truth.csv", "--fps", "30")
+    wrong = kineme("evaluate", "joined.csv", "--against", "truth.csv", "--fps", "30")
+    assert right.returncode == wrong.returncode == 0, wrong.stderr
+    assert "Borders are better than classes" in wrong.stdout
+    assert "Borders are better than classes" not in right.stdout
+
+
 def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
     kineme, data_dir, tmp_path
 ):

@@ -92,13 +92,15 @@ def show_written(console: Console, paths: Iterable[Path | None]) -> None:
 
 def show_scores(title: str, columns: Mapping[str, Mapping[str, float]]) -> None:
     """Print scores by the columns that have them."""
-    from kineme.evaluation.tables import score_rows
+    from kineme.evaluation.tables import explain_disagreement, score_rows
 
-    show_table(title, list(columns), score_rows(columns))
+    show_table(title, list(columns), score_rows(columns), note=explain_disagreement(columns))
 
 
-def show_table(title: str, header: Sequence[str], sections: Sequence[Section]) -> None:
-    """Print a table: a column of names, one per title in the header, rows in sections."""
+def show_table(
+    title: str, header: Sequence[str], sections: Sequence[Section], *, note: str = ""
+) -> None:
+    """Print a column of names, one column per title in the header, rows in sections, a note."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     table.add_column("", no_wrap=True)
     for name in header:
@@ -111,6 +113,8 @@ def show_table(title: str, header: Sequence[str], sections: Sequence[Section]) -
     console = Console(highlight=False)
     console.print(Text(title, style="bold"))
     console.print(table)
+    if note:
+        console.print(Text(note, style="dim"))
 
 
 def _activity_rows(segmentation: Segmentation) -> Table:

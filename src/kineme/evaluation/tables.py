@@ -20,6 +20,8 @@ from kineme.evaluation.score import scores
 from kineme.formats.delimited import as_text
 
 OUTPUTS = (".json", ".csv")
+DISAGREEMENT = 0.2
+"""Border F1 above Edit by more than this is explained under the table."""
 COST = {"seconds": "seconds", "seconds_per_hour": "seconds per hour"}
 """What a result cost: no score, but shown below them."""
 
@@ -44,6 +46,19 @@ def score_rows(
         if rows:
             groups.append((group, rows))
     return groups
+
+
+def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
+    """Return why scores of borders and of classes disagree, or "" if they do not."""
+    for values in columns.values():
+        by_class = values.get("edit", math.nan)
+        if values.get("border_f1", math.nan) - by_class > DISAGREEMENT:
+            return (
+                "Borders are better than classes: Edit, F1@k and shares of frames also need the "
+                "right class, and a cluster stands for one label only. Look at labels that share a "
+                "cluster, or one label that has several."
+            )
+    return ""
 
 
 def shown(value: float) -> str:

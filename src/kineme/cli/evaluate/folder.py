@@ -16,7 +16,7 @@ from kineme.errors import ParameterError
 from kineme.evaluation.folder import Evaluated, FolderScores, Mapped, evaluate_folder
 from kineme.evaluation.recordings import Reading, check_method, recordings_below
 from kineme.evaluation.score import scores
-from kineme.evaluation.tables import score_rows, shown, write_result
+from kineme.evaluation.tables import explain_disagreement, score_rows, shown, write_result
 from kineme.labels.collections import labels_and_strays
 
 NAMED = 5
@@ -99,7 +99,8 @@ def _show(result: FolderScores) -> None:
         f"{sum(not one.error for one in ones)} of {len(ones)}" for ones in result.methods.values()
     ]
     groups = [*score_rows(columns), ("recordings", [("recordings scored", counted)])]
-    show_table(f"over all recordings, one mapping for each {result.mapping}", list(columns), groups)
+    title = f"over all recordings, one mapping for each {result.mapping}"
+    show_table(title, list(columns), groups, note=explain_disagreement(columns))
 
 
 def _row(one: Evaluated, names: Sequence[str]) -> list[str]:
