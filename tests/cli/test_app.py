@@ -88,19 +88,17 @@ def test_help_fits_on_a_page(words: tuple[str, ...]) -> None:
     done = CliRunner().invoke(app, [*words, "--help"], env={"COLUMNS": "80"})
     assert done.exit_code == 0
     lines = done.stdout.splitlines()
-    assert len(lines) <= 60
+    assert len(lines) <= 80
     assert max(map(len, lines)) <= 80
     assert "@" not in done.stdout.replace("@START", "").replace("bvh@", "")
 
 
-def test_options_stand_in_named_groups(kineme) -> None:
-    text = kineme("segment", "--help").stdout
-    heads = [line for line in text.splitlines() if line.endswith(":") and line[0] != " "]
-    assert heads == [
-        "Arguments:", "Input:", "Method:", "Output:", "What the file does not say:", "Other:",
-    ]  # fmt: skip
-    method = text[text.index("Method:") : text.index("Output:")]
-    for name in ("--preset", "--detail", "--set NAME=VALUE", *PRESETS):
+def test_options_stand_in_named_groups() -> None:
+    done = CliRunner().invoke(app, ["segment", "--help"], env={"COLUMNS": "80"})
+    for title in ("Arguments", "Input", "Method", "Output", "Reading options"):
+        assert f"─ {title} ─" in done.stdout
+    method = done.stdout[done.stdout.index("─ Method ─") :]
+    for name in ("--preset", "--detail", "NAME=VALUE", *PRESETS):
         assert name in method
 
 
@@ -251,7 +249,7 @@ def test_the_preset_of_another_package_is_one_like_any_other(tmp_path: Path) -> 
         done = subprocess.run(given, capture_output=True, text=True, check=True, cwd=tmp_path)
         return done.stdout
 
-    assert "uniform, toy;" in " ".join(toy("segment", "--help").split())
+    assert "uniform, toy;" in " ".join(toy("segment", "--help").replace("│", "").split())
     assert "toy          Cuts as a toy does." in toy("presets")
     assert "averaging\t7\tsamples\t\t7\t\twhatever a toy averages over" in toy("presets", "toy")
     given = "--preset", "toy", "--set", "averaging=9", "--set", "level=3", "--json"

@@ -93,7 +93,7 @@ def convert(
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
-    """Turn segments into labels of another program and back, or a recording into another format.
+    """Convert labels or recordings to another format.
 
     The suffixes say what is read and written: .bvh, .amc, .glb, .trc, .csv and .npz hold
     recordings; .fbx is read only.

@@ -100,7 +100,7 @@ def cycles(
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
-    """Measure each repetition: its duration, how far each joint went, mean curves.
+    """Measure each repetition: duration, ranges, mean curves.
 
     Borders are moved to equal phase. Several recordings are measured together.
     """

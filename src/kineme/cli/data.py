@@ -53,7 +53,7 @@ def data(
     ] = 30.0,
     quiet: Quiet = False,
 ) -> None:
-    """Fetch public recordings from their own site, for `kineme evaluate` and to try things on.
+    """Download public recordings.
 
     What broke off is continued; what is there already is checked and kept.
 

@@ -29,7 +29,7 @@ def demo(
     ] = Path(),
     quiet: Quiet = False,
 ) -> None:
-    """Segment the recording that comes with kineme; write its table and picture."""
+    """Segment the bundled recording; write a table and a picture."""
     from kineme.datasets import bundled_recording
 
     path = bundled_recording()

@@ -63,7 +63,7 @@ def events(
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
-    """Find when feet come down and leave the ground, and measure the gait.
+    """Find foot contacts and measure the gait.
 
     From the positions of heel and toe, from gyroscopes at the feet, or from the force under them.
     """

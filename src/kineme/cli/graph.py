@@ -51,7 +51,7 @@ def graph(
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
-    """Find which primitives of recordings can be played one after the other.
+    """Find primitives that can follow each other.
 
     Primitives are single movements, such as a step or a jump. What is written is a motion graph,
     of which `kineme synthesize` makes new motion.

@@ -1,13 +1,11 @@
-"""Commands and their help, which fits on a page: options in named groups, in two columns.
+"""Load commands when they are called, and fill registered names into their help.
 
-Where a help text names the registered formats or presets, these are filled in only when
-it is shown: they are many modules, and other packages may add theirs, so that importing them
-takes time that a command which needs none of them does not have.
+The names of formats and presets replace placeholders only when help is shown. Importing the
+registries takes time that a command without them should not spend.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from importlib import import_module
@@ -19,36 +17,31 @@ from typer.core import TyperCommand, TyperGroup
 
 if TYPE_CHECKING:
     from typer import _click
-    from typer._click import Context, HelpFormatter, Parameter
+    from typer._click import Context, HelpFormatter
 
 RECORDINGS = "@recordings@"
-"""Stands in a help text for the names of the formats of recordings."""
+"""Placeholder for the names of the formats of recordings."""
 LABELS = "@labels@"
-"""Stands for those of the formats of labels."""
+"""Placeholder for the names of the formats of labels."""
 TABLES = "@tables@"
-"""Stands for the suffixes by which these are written."""
+"""Placeholder for the suffixes by which tables are written."""
 PRESETS = "@presets@"
-"""Stands for the names of the presets, the default one first."""
+"""Placeholder for the names of the presets, the default one first."""
 
-INPUT, UNSAID, METHOD, OUTPUT = "Input", "What the file does not say", "Method", "Output"
-_ARGUMENTS, _OTHER = "Arguments", "Other"
-_FIRST, _LAST = (_ARGUMENTS, INPUT), (METHOD, OUTPUT, UNSAID, _OTHER)
-"""Groups before and after those that only some command has."""
-_COLUMN = 26
-"""Characters of the column of names; a longer name has a line of its own."""
-_TYPES = {"path": "PATH", "int": "N", "int range": "N", "float": "NUMBER", "str": "TEXT"}
+INPUT, READING_OPTIONS, METHOD, OUTPUT = "Input", "Reading options", "Method", "Output"
+"""Titles of the groups of options that several commands share."""
 
 
 def option(group: str, text: str, *names: str, **more: Any) -> Any:
-    """An option in a group of the help; called as its parameter is, unless names are given."""
+    """Return an option in a group of the help, named after its parameter unless names are given."""
     return typer.Option(*names, help=text, rich_help_panel=group, **more)
 
 
 class Command(TyperCommand):
-    """A command whose options stand in groups."""
+    """A command that explains --set and fills registered names into its help."""
 
     def parse_args(self, ctx: Context, args: list[str]) -> list[str]:
-        """What the command is given; a constant as an option of its own is told how it is set."""
+        """Parse the arguments; point to --set if a constant was given as an option."""
         if any(parameter.name == "constants" for parameter in self.params):
             self._check_constants(ctx, args)
         try:
@@ -70,32 +63,17 @@ class Command(TyperCommand):
                 value = value if equals else following
                 ctx.fail(f"No such option: {flag}; use --set {name}={value or 'VALUE'}")
 
-    def collect_usage_pieces(self, ctx: Context) -> list[str]:
-        """The options, then the arguments by the names that the help gives them."""
-        arguments = [each for each in self.get_params(ctx) if _is_argument(each)]
-        return ["[OPTIONS]", *map(_usage, arguments)]
-
-    def format_options(self, ctx: Context, formatter: HelpFormatter) -> None:
-        """Write the groups of options."""
-        _write_groups(self.get_params(ctx), ctx, formatter)
-
-
-class Commands(TyperGroup):
-    """Several commands, each with its first sentence."""
-
-    def format_options(self, ctx: Context, formatter: HelpFormatter) -> None:
-        """Write the commands, then the options of all of them."""
-        named = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
-        lines = [(name, _first_sentence(one.help or "")) for name, one in named if one]
-        with formatter.section("Commands"):
-            formatter.write_dl(lines)
-        _write_groups(self.get_params(ctx), ctx, formatter)
+    def format_help(self, ctx: Context, formatter: HelpFormatter) -> None:
+        """Show the help, with the registered names in place of their placeholders."""
+        for each in self.params:
+            each.help = _fill_names(each.help or "")  # type: ignore[attr-defined]
+        super().format_help(ctx, formatter)
 
 
 def on_demand(homes: Mapping[str, str]) -> type[TyperGroup]:
-    """A group of commands in the order of the help, each the function of its name in a module."""
+    """Return a class of command groups that import each command from its module when called."""
 
-    class OnDemand(Commands):
+    class OnDemand(TyperGroup):
         def __init__(self, **attributes: Any) -> None:
             super().__init__(**{**attributes, "commands": _Homes(homes)})
 
@@ -103,7 +81,7 @@ def on_demand(homes: Mapping[str, str]) -> type[TyperGroup]:
 
 
 class _Homes(Mapping[str, "_click.Command"]):
-    """The commands by name."""
+    """Commands by name, imported when asked for."""
 
     def __init__(self, homes: Mapping[str, str]):
         self._homes = dict(homes)
@@ -120,61 +98,19 @@ class _Homes(Mapping[str, "_click.Command"]):
 
 @cache
 def _command(module: str, name: str) -> _click.Command:
-    """A command, or a group of them."""
+    """Import a command or a group of commands."""
     found = getattr(import_module(module), name)
     if isinstance(found, typer.Typer):
         return typer.main.get_command(found)
-    alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    alone = typer.Typer(
+        add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="markdown"
+    )
     alone.command(name, cls=Command)(found)
     return typer.main.get_command(alone)
 
 
-def _write_groups(parameters: Sequence[Parameter], ctx: Context, formatter: HelpFormatter) -> None:
-    groups: dict[str, list[tuple[str, str]]] = {}
-    for each in parameters:
-        record = each.get_help_record(ctx)
-        if record is None:  # a hidden one
-            continue
-        name, text = record
-        group = getattr(each, "rich_help_panel", None) or _OTHER
-        if _is_argument(each):
-            group, name = _ARGUMENTS, _name(each)
-            text = text.removesuffix("  [required]").replace("; required]", "]")
-        groups.setdefault(group, []).append((_typed(name), _filled(text)))
-    order = [*_FIRST, *(name for name in groups if name not in _FIRST + _LAST), *_LAST]
-    for group in filter(groups.get, order):
-        with formatter.section(group):
-            formatter.write_dl(groups[group], col_max=_COLUMN)
-
-
-def _is_argument(parameter: Parameter) -> bool:
-    return parameter.param_type_name == "argument"
-
-
-def _name(argument: Parameter) -> str:
-    return argument.metavar or (argument.name or "").upper()
-
-
-def _usage(argument: Parameter) -> str:
-    """An argument in the line of usage: ``FILES...``, ``[NAME]``."""
-    name = _name(argument) + "..." * (argument.nargs != 1 and "…" not in _name(argument))
-    return name if argument.required or name.startswith("[") else f"[{name}]"
-
-
-def _typed(name: str) -> str:
-    """The name of an option with its value as people write it: ``PATH`` for ``<path>``."""
-    plain = re.sub(r"<list\[(\w+)\]>", r"<\1>", name)
-    return re.sub(r"<([^>]*)>", lambda found: _TYPES.get(found[1].lower(), found[1]), plain)
-
-
-def _first_sentence(text: str) -> str:
-    return " ".join(text.split("\n\n", 1)[0].split())
-
-
-def _filled(text: str) -> str:
-    """A help text with names in place of what stands for them, and limits in words."""
-    text = re.sub(r"x>=(\d+)", r"at least \1", text)
-    text = re.sub(r"default: \(([^)]*)\)", r"default: \1", text)
+def _fill_names(text: str) -> str:
+    """Replace placeholders in a help text by the registered names."""
     if "@" not in text:
         return text
     from kineme.formats import supported_formats

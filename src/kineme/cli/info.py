@@ -36,7 +36,7 @@ def info(
     recursive: Recursive = False,
     json: Json = False,
 ) -> None:
-    """Tell a recording's format, length, frame rate and skeleton or channels."""
+    """Show the format, length, frame rate and joints of files."""
     batch = Batch(files, recursive=recursive)
     for path in batch.paths:
         with batch.caught(path):

@@ -38,7 +38,7 @@ def label(
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
-    """Add the labelled primitives of recordings to a knowledge base.
+    """Add labelled primitives to a knowledge base.
 
     Primitives are single movements, such as a step or a jump. A knowledge base is a file of them
     with their names, by which `kineme transfer` labels other recordings. Where the labels name

@@ -33,7 +33,7 @@ def report(
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
-    """Write a page on which a recording plays beside its segments, for any browser.
+    """Write a web page that plays a recording and its segments.
 
     One file with everything in it: it needs neither a server nor a network.
     """

@@ -57,7 +57,7 @@ def segment(
     json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Cut recordings into activities, transitions and repeated primitives.
+    """Cut recordings into activities and repeated primitives.
 
     An activity is one kind of movement for a while, such as walking; a transition leads from one
     to the next. Primitives are the movements that an activity repeats, such as each double step.

@@ -59,7 +59,10 @@ def split(
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
-    """Write each segment as a file of its own, never retargeted to another skeleton, and a list."""
+    """Write each segment as a file of its own.
+
+    The clips keep the skeleton of the recording. A table lists them.
+    """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
     batch.tables("--segments", segments)  # whether there are any

@@ -50,7 +50,7 @@ def studio(
         typer.Option("--dev", hidden=True, help="For `npm run dev`: pages from their sources."),
     ] = False,
 ) -> None:
-    """See recordings and correct their segments, in the browser.
+    """See and correct segments in the browser.
 
     The page is served on this machine alone; presets and their constants are chosen there.
     Corrections are kept in NAME.segments.json beside each recording, from one edit to the next.

@@ -49,7 +49,10 @@ def synthesize(
     seed: Annotated[int, option(PLAYED, "Another number draws other primitives.", min=0)] = 0,
     quiet: Quiet = False,
 ) -> None:
-    """Make a new motion of recorded ones: given actions, along a line, or drawn by chance."""
+    """Make new motion from a motion graph.
+
+    The actions are named, follow a line on the floor, or are drawn at random.
+    """
     if (actions is None and path is None) == (duration is None):
         raise typer.BadParameter("give --actions, --path or both, or --duration")
     failures = Failures()

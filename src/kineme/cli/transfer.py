@@ -60,7 +60,7 @@ def transfer(
     json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Cut recordings, and label the movements in them that a knowledge base knows.
+    """Segment recordings and label them by a knowledge base.
 
     A knowledge base is a file of movements with names, which `kineme label` makes.
     """

@@ -135,7 +135,7 @@ def evaluate(
     ] = None,
     quiet: Quiet = False,
 ) -> None:
-    """Score segments against what people say: of a benchmark, of a folder, or of one result."""
+    """Score segments of a file, folder or benchmark against labels."""
     failures = Failures()
     with failures.caught(what):
         _check_output(output)

@@ -69,7 +69,7 @@ def build(
     ] = None,
     quiet: Quiet = False,
 ) -> None:
-    """Segment a collection of recordings once, and keep what a search needs.
+    """Segment a collection and index it for search.
 
     What is there already is kept, and goes on where it ended. How recordings are read and
     segmented stays as it was; where an option says otherwise, all are segmented anew.

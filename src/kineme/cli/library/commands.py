@@ -79,7 +79,7 @@ def show(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Tell the recordings, hours and clusters of a library, and which names are unsure."""
+    """Show recordings, hours, clusters and unsure names."""
     with opened(folder) as library:
         if pictures is not None:
             library.pictures(pictures)
@@ -120,7 +120,7 @@ def export(
         typer.Option(metavar="NAME", help="segments, recordings, clusters, words or embeddings."),
     ] = "segments",
 ) -> None:
-    """Write one table of a library: its segments, with a column for the recording."""
+    """Write the segments of all recordings as one table."""
     with opened(folder) as library:
         library.export(output, table)
 
@@ -140,7 +140,7 @@ def merge(
     cluster: Cluster,
     others: Annotated[list[str], typer.Argument(help="Clusters that are the same.")],
 ) -> None:
-    """Make other clusters part of one, which keeps its number and name."""
+    """Merge clusters into the first, which keeps number and name."""
     with opened(folder) as library:
         library.merge(cluster, *others)
 
@@ -152,7 +152,10 @@ def split(
         list[str], typer.Argument(help="Names of recordings where it is something else.")
     ],
 ) -> None:
-    """Make what a cluster has in some recordings a cluster of its own; its number is printed."""
+    """Move the segments of some recordings to a new cluster.
+
+    Its number is printed.
+    """
     with opened(folder) as library:
         typer.echo(library.split(cluster, recordings))
 

@@ -84,7 +84,7 @@ def search(
     json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Find what is like an example in all recordings, whoever moves there.
+    """Find movements that match an example.
 
     For example: kineme library search LIB --like walk.bvh@3.5-6
     """

@@ -13,30 +13,34 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.help import INPUT, OUTPUT, UNSAID, option
+from kineme.cli.help import INPUT, OUTPUT, READING_OPTIONS, option
 from kineme.errors import ParameterError
 
-Skeleton = Annotated[Path | None, option(UNSAID, "ASF skeleton of an AMC file.", metavar="FILE")]
-Fps = Annotated[float | None, option(UNSAID, "Frames per second, in place of the file's.")]
+Skeleton = Annotated[
+    Path | None, option(READING_OPTIONS, "ASF skeleton of an AMC file.", metavar="FILE")
+]
+Fps = Annotated[float | None, option(READING_OPTIONS, "Frames per second, in place of the file's.")]
 Unit = Annotated[
-    str | None, option(UNSAID, "Unit: m, cm, mm, inch, cmu, or its metres, as 0.0254.")
+    str | None, option(READING_OPTIONS, "Unit: m, cm, mm, inch, cmu, or its metres, as 0.0254.")
 ]
 Up = Annotated[
-    str | None, option(UNSAID, "Axis that points up: x, y, z, -x, -y, -z.", metavar="AXIS")
+    str | None, option(READING_OPTIONS, "Axis that points up: x, y, z, -x, -y, -z.", metavar="AXIS")
 ]
 Person = Annotated[
-    str | None, option(UNSAID, "Which of several people in it, by name or number.", metavar="NAME")
+    str | None,
+    option(READING_OPTIONS, "Which of several people in it, by name or number.", metavar="NAME"),
 ]
 Confidence = Annotated[
-    float | None, option(UNSAID, "Leave out points of less confidence, such as 0.5.")
+    float | None, option(READING_OPTIONS, "Leave out points of less confidence, such as 0.5.")
 ]
 Take = Annotated[
-    str | None, option(UNSAID, "Which of several animations, by name or number.", metavar="NAME")
+    str | None,
+    option(READING_OPTIONS, "Which of several animations, by name or number.", metavar="NAME"),
 ]
 Effectors = Annotated[
     str | None,
     option(
-        UNSAID,
+        READING_OPTIONS,
         "Joints at left and right ankle, head, left and right wrist; or some, as in "
         "head=NAME,left_wrist=NAME.",
         metavar="NAME,NAME,…",
