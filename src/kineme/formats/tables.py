@@ -26,6 +26,7 @@ from kineme.formats.devices import find_table
 from kineme.formats.dialects import dialect_of, hold_channels
 from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
 from kineme.formats.gaps import unseen
+from kineme.formats.label_tables import refuse_labels
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.timing import NO_TIMES, RATE, is_date, is_timing
@@ -34,6 +35,7 @@ from kineme.recordings import Motion, Signals
 
 def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """The joints or keypoints in a text table, or its channels where there are none."""
+    refuse_labels(content)
     table = find_table(content)
     dialect = dialect_of(table.names, table.lines)
     if options.channels:

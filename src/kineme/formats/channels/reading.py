@@ -67,9 +67,9 @@ class ChannelTable:
     values: Floats  # (rows, channels), NaN where there is nothing
     timing: Mapping[str, ArrayLike]  # columns that tell times or a rate
     rate: float | None = None  # the file's own
-    nominal: float | None = None  # what a header says beside times
     notes: tuple[str, ...] = ()  # on what was left out
     hint: str = ""  # on what may tell the rate, where nothing does
+    nominal: float | None = None  # what a header says beside times
 
     def timed(self, content: FileContent, fps: float | None) -> Timing:
         """Frames per second, pauses, and what was seen of the times."""
