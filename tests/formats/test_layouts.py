@@ -30,3 +30,72 @@ def test_trc_names_stand_any_number_of_tabs_apart(tmp_path: Path, tabs: str) -> 
     assert isinstance(motion, kineme.Motion)
     found = motion.positions[:, [motion.skeleton.names.index(n) for n in ("LASI", "RASI", "SACR")]]
     assert np.abs(found - POINTS / 1000).max() < 1e-6
+
+
+def test_columns_with_a_unit_behind_the_axis_are_read_in_it(tmp_path: Path) -> None:
+    """A head in mm beside a hip in metres without a unit."""
+    path = tmp_path / "take.csv"
+    rows = (f"{i / 50},{0.1},{0.9},{0.2},{100},{1700},{200 + i % 3}\n" for i in range(40))
+    path.write_text("time,hip_x,hip_y,hip_z,head_x_mm,head_y_mm,head_z_mm\n" + "".join(rows))
+    with pytest.warns(kineme.KinemeWarning, match="1 point tell no unit, and are taken in m"):
+        motion = kineme.read(path, up="y")
+    assert isinstance(motion, kineme.Motion)
+    heights = dict(zip(motion.skeleton.names, motion.positions[0, :, 1], strict=True))
+    assert heights == pytest.approx({"hip": 0.9, "head": 1.7})
+
+
+XSENS = "// Update Rate: 100.0Hz\nPacketCounter\tSampleTimeFine\tUTC_Second\tAcc_X\tGyr_X\n"
+
+
+@pytest.mark.parametrize("clock", ["\t", "{i}00\t5"])
+def test_xsens_takes_the_rate_of_its_header(tmp_path: Path, clock: str) -> None:
+    path = tmp_path / "take.txt"
+    rows = (f"{i:05}\t{clock.format(i=i)}\t{i % 7}.5\t{i % 5}.5\n" for i in range(300))
+    path.write_text(XSENS + "".join(rows))
+    for options, names in (({}, ("Acc_X", "Gyr_X")), ({"columns": ["Gyr_X"]}, ("Gyr_X",))):
+        signals = kineme.read(path, **options)
+        assert isinstance(signals, kineme.Signals)
+        assert (signals.fps, signals.names) == (100, names)
+
+
+@pytest.mark.parametrize(("order", "first"), [("dd/MM/yyyy", 1733875200), ("M/d/yyyy", 1731369600)])
+def test_actigraph_dates_are_in_the_order_of_its_header(
+    tmp_path: Path, order: str, first: int
+) -> None:
+    path = tmp_path / "take.csv"
+    head = f"--- Data File Created By ActiGraph LEAP date format {order} at 32 Hz ---\nSerial: 1\n"
+    rows = (f"11/12/2024 00:00:{i / 32:06.3f},{i % 3}.5,{i % 5}.5\n" for i in range(320))
+    path.write_text(head + "Timestamp,Accelerometer X,Accelerometer Y\n" + "".join(rows))
+    signals = kineme.read(path, columns=["Accelerometer *"])
+    assert signals.fps == 32
+    assert signals.provenance.clock is not None
+    assert signals.provenance.clock.times[0] == first
+
+
+ELAN = "Sport\t\t00:00:01.200\t1.2\t00:00:05.900\t5.9\tsquat\n"
+WIDE = "Begin Time - msec\tEnd Time - msec\tSport\n1200\t5900\tsquat\n"
+BORIS = (
+    "Observation id,Behavior,Behavior type,Start (s),Stop (s)\n"
+    "o,squat,STATE,1.2,5.9\no,clap,POINT,7.0,7.0\n"
+)
+
+
+@pytest.mark.filterwarnings("ignore:.*point events")
+@pytest.mark.parametrize(
+    ("name", "text"), [("a.txt", ELAN), ("b.txt", WIDE), ("c.tsv", WIDE), ("d.csv", BORIS)]
+)
+def test_labels_are_no_recording(tmp_path: Path, name: str, text: str) -> None:
+    path = tmp_path / name
+    path.write_text(text)
+    with pytest.raises(kineme.ReadError, match="holds labels as"):
+        kineme.read(path)
+    found = kineme.read_segments(path, fps=10).activities
+    spans = [(a.start_s, a.stop_s) for a in found if a.label == "squat"]
+    assert spans == [(1.2, 5.9)]
+
+
+def test_boris_names_the_points_that_it_leaves_out(tmp_path: Path) -> None:
+    path = tmp_path / "take.csv"
+    path.write_text(BORIS)
+    with pytest.warns(kineme.KinemeWarning, match=r"left out: clap \(1\)"):
+        kineme.read_segments(path, fps=10)

@@ -45,9 +45,11 @@ def _names_channels(path: Path) -> bool:
     from kineme.formats.devices import find_table
     from kineme.formats.dialects import hold_channels
     from kineme.formats.files import load
+    from kineme.formats.label_tables import refuse_labels
 
     try:
-        table = find_table(load(path)).numbered()
+        refuse_labels(content := load(path))
+        table = find_table(content).numbered()
     except ReadError:
         return False
     return hold_channels(table.names) and table.names[0] != "1" and bool(table.numeric())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from kineme._files import HEAD
 from kineme.formats.files import FileContent
 
 _ELAN_HEADER = re.compile(r"(?:begin|end) time - (?:hh:mm:ss\.ms|ss\.msec|msec|\S+)", re.IGNORECASE)
@@ -30,12 +31,15 @@ def is_boris_table(head: str) -> bool:
     return "Behavior" in cells and ("Time" in cells or {"Start (s)", "Stop (s)"} <= cells)
 
 
+def program_of_labels(head: str) -> str | None:
+    """Return whose table of labels a text begins, or None."""
+    return "ELAN" if is_elan_table(head) else "BORIS" if is_boris_table(head) else None
+
+
 def refuse_labels(content: FileContent) -> None:
     """Raise ReadError where a file of text holds labels."""
-    head = content.text[:4096]
-    for program, is_of in (("ELAN", is_elan_table), ("BORIS", is_boris_table)):
-        if is_of(head):
-            raise content.error(
-                f"holds labels as {program} exports them, not a recording: read it with "
-                "kineme.read_segments, or kineme convert it to a table of labels with --fps"
-            )
+    if program := program_of_labels(content.text[:HEAD]):
+        raise content.error(
+            f"holds labels as {program} exports them, not a recording: read it with "
+            "kineme.read_segments, or kineme convert it to a table of labels with --fps"
+        )

@@ -27,6 +27,7 @@ from kineme._files import head_of, tail_of
 from kineme.errors import ReadError
 from kineme.formats.columns import joint_names
 from kineme.formats.devices import find_table
+from kineme.formats.label_tables import program_of_labels
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.registry import speaks, supported_formats
@@ -136,6 +137,8 @@ def _is_recording(path: Path) -> bool:
 
 
 def _names_spans(path: Path) -> bool:
+    if program_of_labels(head_of(path).decode(errors="replace")):
+        return True
     try:
         names = find_table(FileContent(path, head_of(path))).names
     except ReadError:  # not a line: an error for who reads it
