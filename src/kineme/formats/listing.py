@@ -27,9 +27,9 @@ from kineme._files import head_of, tail_of
 from kineme.errors import ReadError
 from kineme.formats.columns import joint_names
 from kineme.formats.devices import find_table
-from kineme.formats.label_tables import program_of_labels
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import frame_files
+from kineme.formats.label_tables import program_of_labels
 from kineme.formats.registry import speaks, supported_formats
 from kineme.formats.timing import is_timing
 
