@@ -2,9 +2,8 @@
 
 A joint is two or three columns that differ in their last letter: ``hip_x hip_y
 hip_z``, ``hip.x``, ``hip x`` or ``hipX``, in any order; ``hip_pos_x`` where all are called so,
-and ``hip_x [mm]`` or ``hip_x_mm``, which tells the unit; columns in several units are each taken in their own.
-Velocities, rotations and the like of joints are passed
-over. Besides these there may be
+and ``hip_x [mm]`` or ``hip_x_mm``, which tells the unit; columns in several units are each taken in
+their own. Velocities, rotations and the like of joints are passed over. Besides these there may be
 
 - the time: ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or ``seconds``,
   with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``: numbers or dates, see
