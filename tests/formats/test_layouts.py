@@ -1,5 +1,6 @@
 """Files laid out as programs write them, made from arrays."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -99,3 +100,56 @@ def test_boris_names_the_points_that_it_leaves_out(tmp_path: Path) -> None:
     path.write_text(BORIS)
     with pytest.warns(kineme.KinemeWarning, match=r"left out: clap \(1\)"):
         kineme.read_segments(path, fps=10)
+
+
+def test_ultralytics_people_by_frame(tmp_path: Path) -> None:
+    """A frame without anybody keeps its place."""
+    x = [100.0 + 10 * (i % 3) for i in range(17)]
+    y = [50.0 + 20 * i for i in range(17)]
+    box = {"x1": 0, "y1": 0, "x2": 1, "y2": 1}
+    keypoints = {"x": x, "y": y, "visible": [0.9] * 17}
+    person = {"name": "person", "box": box, "track_id": 1, "keypoints": keypoints}
+    path = tmp_path / "take.json"
+    path.write_text(json.dumps([[person] if i != 5 else [] for i in range(40)]))
+    motion = kineme.read(path, fps=30)
+    assert motion.n_frames == 40
+    assert isinstance(motion, kineme.Motion)
+    assert "left_knee" in motion.skeleton.names
+
+
+def test_freemocap_counts_nanoseconds(tmp_path: Path) -> None:
+    joints = ("nose", "left_hip", "right_hip", "left_ankle", "right_ankle")
+    heights = (1600, 900, 900, 100, 100)
+    names = [f"body_{joint}_{axis}" for joint in joints for axis in "xyz"]
+    rows = (
+        ",".join(
+            [f"{1e11 + i * 1e9 / 30:.1f}", *(f"{i % 3},{10 * k},{heights[k]}" for k in range(5))]
+        )
+        for i in range(60)
+    )
+    path = tmp_path / "take.csv"
+    path.write_text("\n".join([",".join(["timestamp", *names]), *rows]))
+    motion = kineme.read(path)
+    assert isinstance(motion, kineme.Motion)
+    assert motion.fps == pytest.approx(30)
+    head = motion.positions[0, motion.skeleton.names.index("nose")]
+    assert head[1] == pytest.approx(1.6)
+
+
+def test_motive_strays_hide_no_rigid_bodies(tmp_path: Path) -> None:
+    columns = [("Rigid Body", name) for name in ("Hips", "Head")]
+    columns += [("Marker", "Hips:Marker1"), ("Marker", "Stray")]
+    head = ["Format Version,1.23,Export Frame Rate,60,Length Units,Meters", ""]
+    for label, cells in (
+        ("Type", [kind for kind, _ in columns]),
+        ("Name", [name for _, name in columns]),
+        ("", ["Position"] * 4),
+    ):
+        head.append(f",{label}," + ",".join(cell for cell in cells for _ in range(3)))
+    head.append("Frame,Time (Seconds)," + ",".join(["X,Y,Z"] * 4))
+    rows = [f"{i},{i / 60},0,0.9,0,0,1.6,0,0.1,0.9,0,,," for i in range(60)]
+    path = tmp_path / "take.csv"
+    path.write_text("\n".join([*head, *rows]))
+    motion = kineme.read(path)
+    assert isinstance(motion, kineme.Motion)
+    assert motion.skeleton.names == ("Hips", "Head")
