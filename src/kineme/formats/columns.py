@@ -2,9 +2,8 @@
 
 A joint is two or three columns that differ in their last letter: ``hip_x hip_y
 hip_z``, ``hip.x``, ``hip x`` or ``hipX``, in any order; ``hip_pos_x`` where all are called so,
-and ``hip_x [mm]``, which tells the unit; columns in several units are each taken in their own.
-Velocities, rotations and the like of joints are passed
-over. Besides these there may be
+and ``hip_x [mm]`` or ``hip_x_mm``, which tells the unit; columns in several units are each taken in
+their own. Velocities, rotations and the like of joints are passed over. Besides these there may be
 
 - the time: ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or ``seconds``,
   with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``: numbers or dates, see
@@ -32,7 +31,7 @@ from kineme.formats.gaps import split_at
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import is_timing, numbers_in, table_timing
-from kineme.formats.units import metres
+from kineme.formats.units import METRIC, metres
 from kineme.recordings import Motion, Note
 from kineme.recordings.coordinates import COORDINATE, axes_by_point, beginnings, is_body
 
@@ -130,9 +129,18 @@ def _in_one_unit(
     if len(units) < 2:
         if not (units and silent):
             return (units[0] if units else None), []
-        remark = f"columns of {counted(len(silent), 'point')} tell no unit, and are taken in that"
-        return units[0], [Note(f"{remark} of the others, {units[0]}", "warning")]
+        unit = _unit_like(positions, [joint in silent for joint in joints], units[0])
+        remark = f"columns of {counted(len(silent), 'point')} tell no unit, and are taken in"
+        if unit == units[0]:
+            return unit, [Note(f"{remark} that of the others, {unit}", "warning")]
+        told = [j for j, joint in enumerate(joints) if joint not in silent]
+        positions[:, told] *= metres(units[0]) / metres(unit)
+        return unit, [
+            Note(f"{remark} {unit}, as large as they are; others in {units[0]}", "warning")
+        ]
     listed = " and ".join(units)
+    if "pixel" in units:
+        raise content.error(f"columns are in {listed}, which no scale relates: keep those of one")
     if silent:
         column = next(iter(joints[silent[0]].values()))
         raise content.error(
@@ -145,10 +153,25 @@ def _in_one_unit(
     return "m", [f"columns are in {listed}, each taken in its own"]
 
 
+def _unit_like(positions: Floats, is_silent: list[bool], told: str) -> str:
+    """Return the unit that makes silent points about as far from the origin as the others."""
+    if told not in METRIC:
+        return told
+    distance = np.linalg.norm(positions, axis=2)
+    silent = np.array(is_silent)
+    known, unknown = (np.nanmedian(distance[:, part]) for part in (~silent, silent))
+    if not (known > 0 and unknown > 0):
+        return told
+    # a step from one metric unit to the next is a factor of 10 at least
+    off = {unit: abs(np.log10(unknown * metres(unit) / (known * metres(told)))) for unit in METRIC}
+    return told if off[told] < 0.7 else min(off, key=lambda unit: off[unit])
+
+
 def _units_of(axes: Mapping[str, str]) -> dict[str, str | None]:
     """The unit of each axis of a point; where one tells none, that of the others if it is one."""
     matches = {axis: COORDINATE.fullmatch(column.strip()) for axis, column in axes.items()}
     by_axis = {axis: match[5] if match else None for axis, match in matches.items()}
+    by_axis = {axis: "pixel" if unit == "px" else unit for axis, unit in by_axis.items()}
     units = {unit for unit in by_axis.values() if unit}
     other = min(units) if len(units) == 1 else None
     return {axis: unit or other for axis, unit in by_axis.items()}

@@ -11,7 +11,7 @@ from __future__ import annotations
 import csv
 import re
 from array import array
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cached_property
@@ -84,6 +84,12 @@ class DelimitedText:
         Frames per second, where a line above the names tells it.
     notes : tuple of str
         On lines that were passed over.
+    hidden : frozenset of str
+        Columns that are channels only where they are asked for, as a device's counters are.
+    clocks : mapping of str to str, optional
+        The columns of times, as `times` has them, where a device tells them.
+    day_before_month : bool, optional
+        How a header says that dates are written.
     """
 
     content: FileContent
@@ -97,6 +103,9 @@ class DelimitedText:
     units: Sequence[str] = ()
     rate: float | None = None
     notes: tuple[str, ...] = ()
+    hidden: frozenset[str] = frozenset()
+    clocks: Mapping[str, str] | None = None
+    day_before_month: bool | None = None
 
     @cached_property
     def rows(self) -> Sequence[str]:
@@ -127,6 +136,8 @@ class DelimitedText:
     @cached_property
     def times(self) -> dict[str, str]:
         """The columns that tell times or a rate, and their names as `table_timing` knows them."""
+        if self.clocks is not None:
+            return {name: self.clocks[name] for name in self.names if name in self.clocks}
         units = dict(zip(self.names, self.units, strict=False))
         named = {
             name: with_unit(name, units.get(name, "")) for name in self.names if is_timing(name)
@@ -136,6 +147,8 @@ class DelimitedText:
     @cached_property
     def day_first(self) -> bool | None:
         """Whether its dates name the day before the month; None where they do not tell."""
+        if self.day_before_month is not None:
+            return self.day_before_month
         first = (self.first_cells[i] for i in self.dates)
         if not any(map(is_ambiguous, first)):
             return None
@@ -165,7 +178,8 @@ class DelimitedText:
         return [
             name
             for name, cell in zip(self.names, first, strict=False)
-            if cell.lower() in EMPTY or name in dates or is_finite(cell)
+            if name not in self.hidden
+            and (cell.lower() in EMPTY or name in dates or is_finite(cell))
         ]
 
     def texts(self, column: int) -> list[str]:

@@ -52,6 +52,7 @@ DIALECTS: Registry[Dialect] = Registry(
         "markers.capture_tables:NEXUS",
         "markers.capture_tables:MOTIVE",
         "markers.capture_tables:QTM",
+        "devices.freemocap:DIALECT",
         "keypoints.deeplabcut:DIALECT",
         "keypoints.sleap:DIALECT",
         "keypoints.mediapipe_tables:WIDE",

@@ -26,10 +26,11 @@ from kineme._counts import counted
 from kineme._files import head_of, tail_of
 from kineme.errors import ReadError
 from kineme.formats.columns import joint_names
+from kineme.formats.devices import find_table
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import frame_files
+from kineme.formats.label_tables import program_of_labels
 from kineme.formats.registry import speaks, supported_formats
-from kineme.formats.sniffing import sniff
 from kineme.formats.timing import is_timing
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
@@ -136,8 +137,10 @@ def _is_recording(path: Path) -> bool:
 
 
 def _names_spans(path: Path) -> bool:
+    if program_of_labels(head_of(path).decode(errors="replace")):
+        return True
     try:
-        names = sniff(FileContent(path, head_of(path))).names
+        names = find_table(FileContent(path, head_of(path))).names
     except ReadError:  # not a line: an error for who reads it
         return False
     return any(name.lower().encode() in SPANS for name in names)

@@ -111,6 +111,7 @@ FORMATS: Registry[Format] = Registry(
         "keypoints.pose_json:MMPOSE",
         "keypoints.pose_json:COCO",
         "keypoints.pose_json:MEDIAPIPE",
+        "keypoints.pose_json:ULTRALYTICS",
         "keypoints.sleap:FORMAT",
         "arrays.mat:FORMAT",
         "arrays.numpy_files:NPY",

@@ -7,8 +7,6 @@
 - Below the names there may be two lines of words: units, what kind of numbers these are, or second
   names, where the first ones are those of several columns.
 - Names may be missing: rows of numbers then stand at the top, or below lines of fewer cells.
-- Empatica's wristbands write when a recording began in the first row, and its frame rate in the
-  second, once for each column. What the columns are only the name of the file tells.
 """
 
 from __future__ import annotations
@@ -31,9 +29,6 @@ from kineme.formats.delimited import (
 )
 from kineme.formats.files import FileContent
 from kineme.formats.timing import is_date, is_timing
-
-SINCE_2001 = 1e9
-"""Seconds since 1970: a first row of these tells when a recording began."""
 
 HIGHEST = 200
 """Lines above the names at most."""
@@ -79,12 +74,6 @@ def sniff(content: FileContent) -> DelimitedText:
     if not full:
         raise content.error("has no lines of numbers")
     separator = declared[1] if declared else None
-    if (rate := _rate_below_start(lines, full)) is not None:
-        width = len(cells_of(lines[full[2]], ","))
-        axes = [f"_{axis}" for axis in "xyz"] if width == 3 else [f"_{i + 1}" for i in range(width)]
-        called = content.path.stem.lower()
-        names = [called] if width == 1 else [f"{called}{axis}" for axis in axes]
-        return DelimitedText(content, lines, names, full[2], full[2], ",", rate=rate)
     first = _first_line(lines, full, separator)
     head = full[first]
     separator = separator or separator_of(lines[head])
@@ -192,7 +181,7 @@ def _first_of_nameless(lines: Sequence[str], full: Sequence[int], separator: str
         sep = separator or separator_of(line)
         rows = [cells_of(lines[i], sep) for i in full[at : at + 3]]
         width = len(rows[0])
-        if width > 1 and all(_fits(row, width) and _is_row(row) for row in rows):
+        if width > 1 and all(_fits(row, width) and is_row(row) for row in rows):
             above = [len(cells_of(lines[i], sep)) for i in full[:at]]
             return at if max(above) < width and (at > 1 or above[0] == 1) else 0
     return 0
@@ -228,7 +217,8 @@ def _fits(cells: Sequence[str], width: int) -> bool:
     return len(cells) == width or (len(cells) == width + 1 and not cells[-1])
 
 
-def _is_row(cells: Sequence[str]) -> bool:
+def is_row(cells: Sequence[str]) -> bool:
+    """Return whether cells hold numbers, dates or nothing, and a number at least."""
     return any(map(is_number, cells)) and all(
         is_number(cell) or is_date(cell) or cell.lower() in EMPTY for cell in cells
     )
@@ -238,18 +228,6 @@ def _are_names(cells: Sequence[str]) -> bool:
     """Whether most cells of a line hold something, and not all of them the same."""
     full = [cell for cell in cells if cell]
     return 2 * len(full) > len(cells) and (len(cells) == 1 or len(set(full)) > 1)
-
-
-def _rate_below_start(lines: Sequence[str], full: Sequence[int]) -> float | None:
-    """The rate in a second row of one number, below a first one of seconds since 1970."""
-    rows = [cells_of(lines[i], ",") for i in full[:3]]
-    if len(rows) < 3 or len({len(row) for row in rows}) > 1 or not all(map(_is_row, rows)):
-        return None
-    starts, rates = ({float(cell) if is_finite(cell) else 0.0 for cell in row} for row in rows[:2])
-    start, rate = max(starts), max(rates)
-    if len(starts) > 1 or len(rates) > 1 or start < SINCE_2001:
-        return None
-    return rate if 0 < rate < start else None
 
 
 def _rate_in(lines: Sequence[str]) -> float | None:

@@ -22,19 +22,21 @@ from kineme.formats.channels.reading import rate_above, text_channels, to_signal
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.columns import columns_to_motion, is_used
 from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, named
+from kineme.formats.devices import find_table
 from kineme.formats.dialects import dialect_of, hold_channels
 from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
 from kineme.formats.gaps import unseen
+from kineme.formats.label_tables import refuse_labels
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.formats.sniffing import sniff
 from kineme.formats.timing import NO_TIMES, RATE, is_date, is_timing
 from kineme.recordings import Motion, Signals
 
 
 def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """The joints or keypoints in a text table, or its channels where there are none."""
-    table = sniff(content)
+    refuse_labels(content)
+    table = find_table(content)
     dialect = dialect_of(table.names, table.lines)
     if options.channels:
         if dialect and not dialect.channels:
@@ -49,7 +51,7 @@ def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
 
 def read_mot(content: FileContent, options: ReadOptions) -> Signals:
     """The channels in a MOT or STO file."""
-    channels = text_channels(sniff(content), options.columns or None)
+    channels = text_channels(find_table(content), options.columns or None)
     return to_signals(content, OPENSIM.name, channels, options.fps)
 
 

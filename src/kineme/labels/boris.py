@@ -7,20 +7,22 @@ frame rate and length of the recording on every row, the level as
 
 Read are the tabular events of old and new versions (header line below a
 preamble or on top; START and STOP under ``Behavior type`` or ``Status``) and
-the aggregated ones (``Start (s)``, ``Stop (s)``). POINT events are no
-segments. Rows of several subjects or observations must not overlap.
+the aggregated ones (``Start (s)``, ``Stop (s)``). POINT events last no
+time and are left out with a warning. Rows of several subjects or observations must not overlap.
 
 Source: BORIS user guide, "Export events".
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError
+from kineme.formats.label_tables import is_boris_table
 from kineme.labels.delimited import number, read_rows, write_rows
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
@@ -48,7 +50,7 @@ COLUMNS = (
     "Comment",
 )
 RATES = ("FPS (frame/s)", "FPS")
-LENGTHS = ("Media duration (s)", "Total length")
+LENGTHS = ("Media duration (s)", "Observation duration", "Total length")
 Cells = dict[str, str]
 
 
@@ -78,7 +80,10 @@ def read(path: Path) -> Labels:
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = list(read_rows(file, path, headers))
     spans = list(_paired(rows, path) if rows and "Time" in rows[0][1] else _aggregated(rows, path))
-    return Labels(spans, "seconds", _fact(rows, RATES), _fact(rows, LENGTHS))
+    points = Counter(cells["Behavior"] for _, cells in rows if _kind(cells) == "POINT")
+    listed = ", ".join(f"{name} ({count})" for name, count in points.items())
+    notes = (f"point events last no time and are left out: {listed:.200}",) if points else ()
+    return Labels(spans, "seconds", _fact(rows, RATES), _fact(rows, LENGTHS), notes)
 
 
 def _events(row: Segment) -> Iterator[dict[str, Any]]:
@@ -96,7 +101,7 @@ def _paired(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
     """Each STOP with the START of the same behavior before it."""
     starts: dict[tuple[str, ...], float] = {}
     for line, cells in rows:
-        kind = (cells.get("Behavior type") or cells.get("Status") or "").strip().upper()
+        kind = _kind(cells)
         if kind == "POINT":
             continue
         same = ("Observation id", "Subject", "Behavior", "Behavioral category")
@@ -115,11 +120,15 @@ def _paired(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
 
 def _aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
     for line, cells in rows:
-        if cells.get("Behavior type", "").strip().upper() == "POINT":
+        if _kind(cells) == "POINT":
             continue
         start = number(cells["Start (s)"], "Start (s)", path, line)
         stop = number(cells["Stop (s)"], "Stop (s)", path, line)
         yield Span(start, stop, cells["Behavior"], _level(cells))
+
+
+def _kind(cells: Cells) -> str:
+    return (cells.get("Behavior type") or cells.get("Status") or "").strip().upper()
 
 
 def _level(cells: Cells) -> Level:
@@ -145,5 +154,5 @@ FORMAT = LabelFormat(
     holds="levels",
     read=read,
     write=write,
-    recognises=lambda path: b"Behavior," in head(path),
+    recognises=lambda path: is_boris_table(head(path).decode(errors="replace")),
 )

@@ -24,6 +24,7 @@ FORMATS: Registry[LabelFormat] = Registry(
         "csv_table:FORMAT",
         "json_table:FORMAT",
         "parquet_table:FORMAT",
+        "elan_table:FORMAT",
         "audacity:FORMAT",
         "elan:FORMAT",
         "textgrid:FORMAT",

@@ -1,6 +1,6 @@
 """Coordinates of points by the names of their columns: ``hip_x hip_y hip_z``.
 
-A unit of length may follow: ``hip x [mm]``.
+A unit of length may follow: ``hip x [mm]``, ``hip_x_mm``, ``hip_x_px``.
 
 Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.
 """
@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 
 COORDINATE = re.compile(
-    r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:[\s_]*[\[(](m|cm|mm)[\])])?"
+    r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:(?:[\s_]*[\[(]|[\s_]+)(m|cm|mm|px)[\])]?)?"
 )
 """A point and its axis, in two ways, and a unit."""
 

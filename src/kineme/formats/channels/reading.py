@@ -69,6 +69,7 @@ class ChannelTable:
     rate: float | None = None  # the file's own
     notes: tuple[str, ...] = ()  # on what was left out
     hint: str = ""  # on what may tell the rate, where nothing does
+    nominal: float | None = None  # what a header says beside times
 
     def timed(self, content: FileContent, fps: float | None) -> Timing:
         """Frames per second, pauses, and what was seen of the times."""
@@ -76,7 +77,11 @@ class ChannelTable:
             return Timing(fps or self.rate or 0.0)
         if not self.timing:
             raise content.error(f"nothing in it tells the frame rate: give fps (--fps){self.hint}")
-        return table_timing(content, self.timing)
+        timing = table_timing(content, self.timing)
+        # times rounded to milliseconds miss the rate by a little
+        if self.nominal and abs(timing.fps - self.nominal) <= 0.005 * self.nominal:
+            return timing._replace(fps=self.nominal)
+        return timing
 
 
 def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float | None) -> Signals:
@@ -100,7 +105,7 @@ def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> Channel
     table = channel_table(text.content, names, read, columns, times)
     notes = (*text.remarks, *table.notes)
     if times or text.rate is None:
-        return replace(table, notes=notes)
+        return replace(table, notes=notes, nominal=text.rate)
     return replace(table, rate=text.rate, notes=(*notes, rate_above(text.rate)))
 
 

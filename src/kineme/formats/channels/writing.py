@@ -29,9 +29,9 @@ from kineme.errors import ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.reading import ChannelTable, text_channels
 from kineme.formats.delimited import as_text, dotted, named
+from kineme.formats.devices import find_table
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import covered
-from kineme.formats.sniffing import sniff
 from kineme.formats.timing import RATE, is_rate, is_timing
 from kineme.recordings import Signals
 
@@ -102,7 +102,7 @@ class _TextRows:
     @classmethod
     def of(cls, content: FileContent, n_rows: int) -> _TextRows:
         """The first rows of a file, blank lines left out."""
-        table = sniff(content).numbered()
+        table = find_table(content).numbered()
         text = (
             content.text
             if content.is_utf16
@@ -196,7 +196,7 @@ def _source_table(content: FileContent, signals: Signals) -> ChannelTable | None
         if signals.provenance.format == PARQUET:
             table = parquet_channels(content, parquet_file(content), signals.names)
         elif signals.provenance.format in TEXT:
-            table = text_channels(sniff(content), signals.names)
+            table = text_channels(find_table(content), signals.names)
         else:
             return None
     except ReadError:  # channels of other names

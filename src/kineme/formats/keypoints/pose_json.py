@@ -13,17 +13,20 @@ from kineme.formats.keypoints.openpose import (
     read_openpose,
     read_openpose_folder,
 )
+from kineme.formats.keypoints.ultralytics import is_ultralytics, read_ultralytics
 from kineme.formats.keypoints.video import parsed_json
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
 _SEVERAL = re.compile(rb'\s*(\[|\{\s*"\d+"\s*:)')
+_FRAMES = re.compile(rb"\s*\[\s*\[")
 _READERS = (
     (is_openpose, read_openpose),
     (is_coco, read_coco),
     (is_mmpose, read_mmpose),
     (is_mediapipe, read_mediapipe),
+    (is_ultralytics, read_ultralytics),
 )
 """What tells whose a file is, in this order, and what reads it."""
 
@@ -38,7 +41,7 @@ def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
             return read(content, data, options)
     raise content.error(
         "no keypoints found in it: JSON is read as OpenPose ('people'), COCO ('keypoints' and "
-        "'image_id'), MMPose ('instances') or MediaPipe (33 landmarks per frame)"
+        "'image_id'), MMPose ('instances'), MediaPipe (33 landmarks per frame) or Ultralytics"
     )
 
 
@@ -68,9 +71,15 @@ def begins_mediapipe(head: bytes) -> bool:
     return b'landmarks":' in head.lower().replace(b" ", b"")
 
 
+def begins_ultralytics(head: bytes) -> bool:
+    """Return whether JSON begins as a list of frames that list people with boxes."""
+    return _FRAMES.match(head) is not None and b'"box"' in head
+
+
 OPENPOSE = Format(
     "OpenPose", (".json",), begins_openpose, read_pose_json, read_folder=read_openpose_folder
 )
 MMPOSE = Format("MMPose", (".json",), begins_mmpose, read_pose_json)
 COCO = Format("COCO", (".json",), begins_coco, read_pose_json)
 MEDIAPIPE = Format("MediaPipe", (".json",), begins_mediapipe, read_pose_json)
+ULTRALYTICS = Format("Ultralytics", (".json",), begins_ultralytics, read_pose_json)

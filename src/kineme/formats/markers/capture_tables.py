@@ -7,7 +7,8 @@ One name stands for three columns ``X,Y,Z``.
   of their own, which are passed over.
 - Motive: a line ``Format Version,…`` of facts, the rate and the unit among them; below it what
   the columns are of (markers, bones, rigid bodies), their names, perhaps more, and whether they
-  are positions or rotations. Markers are taken, or bones where there are none.
+  are positions or rotations. Markers are taken where as many are named as there are bones or rigid
+  bodies; else these.
 - QTM: lines ``NO_OF_FRAMES``, ``FREQUENCY``, ``MARKER_NAMES`` and more, each with what it names
   behind a tab; then perhaps a line ``Frame, Time, LASI X, …``, and rows of millimetres. A marker
   that is exactly at the origin was not seen.
@@ -137,7 +138,7 @@ def _motive(content: FileContent, lines: Sequence[str]) -> Capture:
         raise content.error("kinds, names and 'Position' expected above the axes", axes + 1)
     kinds, names, quantities = above[1], above[2], above[-1]
     kinds = [kind.lower() for kind in kinds]
-    points = next(({kind} for kind in ("marker", "bone") if kind in kinds), set(kinds))
+    points = _points_of(kinds, names)
     cells = cells_of(lines[axes], separator)
     places = [
         axis if kind in points and quantity.lower() == "position" else ""
@@ -147,6 +148,27 @@ def _motive(content: FileContent, lines: Sequence[str]) -> Capture:
     rate = facts.get("export frame rate") or facts.get("capture frame rate", "")
     unit = facts.get("length units", "")
     return Capture(cells, separator, axes + 1, columns, rate, unit)
+
+
+def _points_of(kinds: Sequence[str], names: Sequence[str]) -> set[str]:
+    """Return the kind of column that holds the body.
+
+    A body has more markers than bones. Fewer are strays, and so are those without a name and the
+    markers of a rigid body, ``Hips:Marker1``, which tell no more than it does.
+    """
+    found: dict[str, set[str]] = {}
+    for kind, name in zip(kinds, names, strict=False):
+        found.setdefault(kind, set()).add(name)
+    rigid = found.get("rigid body", set())
+    markers = {
+        name
+        for name in found.get("marker", set())
+        if not is_nameless(name) and name.rpartition(":")[0] not in rigid
+    }
+    solid = next((kind for kind in ("bone", "rigid body") if kind in found), None)
+    if "marker" in found and (solid is None or len(markers) >= len(found[solid])):
+        return {"marker"}
+    return {solid} if solid else set(kinds)
 
 
 def _qtm(content: FileContent, lines: Sequence[str]) -> Capture:

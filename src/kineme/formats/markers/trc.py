@@ -34,7 +34,8 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     if len(lines) <= _HEADER_LINES:
         raise content.error("the file ends within its five header lines: there is no motion")
     separator = separator_of(lines[3])
-    names = _names(lines[3].split(separator)[2:])
+    row = next(filter(str.strip, lines[_HEADER_LINES:]), "")
+    names = _names(lines[3].split(separator)[2:], len(row.split(separator)) - 2)
     if not names:
         raise content.error("no marker is named after 'Frame#' and 'Time'", 4)
     columns = ["frame", "seconds", *(f"{name}_{axis}" for name in names for axis in "xyz")]
@@ -76,8 +77,15 @@ def write_trc(motion: Motion, path: Path) -> None:
     save(path, [head, *lines])
 
 
-def _names(cells: list[str]) -> list[str]:
-    """One name for each three cells, as far as there are any."""
+def _names(cells: list[str], width: int) -> list[str]:
+    """Return one name for each three of the ``width`` columns of coordinates.
+
+    Programs leave a varying number of tabs between names. Where there is a name for every marker,
+    their order tells the columns; else every third cell has a name or stands for a nameless marker.
+    """
+    given = [cell.strip() for cell in cells if cell.strip()]
+    if given and 0 <= width - 3 * len(given) <= 1:  # a row may end in one more separator
+        return given
     triples = [cells[i].strip() for i in range(0, len(cells), 3)]
     while triples and not triples[-1]:
         triples.pop()

@@ -1,0 +1,51 @@
+"""FreeMoCap: joints by trajectory, ``body_nose_x``, …, in millimetres with z up.
+
+The column ``timestamp`` counts nanoseconds from any beginning; in other versions it has seconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from kineme.formats.columns import columns_to_motion, joint_names
+from kineme.formats.delimited import DelimitedText
+from kineme.formats.dialects import Dialect
+from kineme.formats.options import ReadOptions
+from kineme.recordings import Motion
+
+_BODY = "body_"
+_OTHERS = ("left_hand_", "right_hand_", "face_")
+_NANOSECONDS = 1e5  # a step of a clock at or above it is no number of seconds
+
+
+def recognises(names: Sequence[str], _: Sequence[str]) -> bool:
+    """Return whether the columns are a time stamp and coordinates of ``body_`` joints."""
+    body = [name for name in joint_names(names) if name.startswith(_BODY)]
+    return "timestamp" in names and f"{_BODY}nose" in body
+
+
+def read(table: DelimitedText, options: ReadOptions) -> Motion:
+    """Read the joints of the body; those of hands and face are left out."""
+    used = [
+        i
+        for i, name in enumerate(table.names)
+        if name == "timestamp" or (name.startswith(_BODY) and name[-2:] in ("_x", "_y", "_z"))
+    ]
+    values = table.numbers(used)
+    columns = {
+        table.names[i].removeprefix(_BODY): column for i, column in zip(used, values.T, strict=True)
+    }
+    times = columns.pop("timestamp")
+    if not options.fps:
+        unit = "ns" if np.nanmedian(np.diff(times)) >= _NANOSECONDS else "s"
+        columns[f"timestamp ({unit})"] = times
+    options = replace(options, unit=options.unit or "mm", up=options.up or "z")
+    left = any(name.startswith(_OTHERS) for name in table.names)
+    notes = ["hands and face are left out"] if left else []
+    return columns_to_motion(table.content, "FreeMoCap table", columns, options).noted(*notes)
+
+
+DIALECT = Dialect("FreeMoCap", recognises, read)

@@ -1,0 +1,45 @@
+"""Recognise tables of labels, which share suffixes with recordings, by their first bytes."""
+
+from __future__ import annotations
+
+import re
+
+from kineme._files import HEAD
+from kineme.formats.files import FileContent
+
+_ELAN_HEADER = re.compile(r"(?:begin|end) time - (?:hh:mm:ss\.ms|ss\.msec|msec|\S+)", re.IGNORECASE)
+_CLOCK_TIME = r"\d+:\d\d:\d\d\.\d{1,3}"
+_SECONDS = r"\d+(?:\.\d+)?"
+_ELAN_ROW = re.compile(
+    # tier, participant perhaps empty, then begin, end and perhaps duration, then the text
+    rf"(?!{_SECONDS}\t)[^\t]+\t[^\t]*(?:\t(?:{_CLOCK_TIME}|{_SECONDS})){{2,}}\t[^\t]*[^\d\s][^\t]*"
+)
+
+
+def is_elan_table(head: str) -> bool:
+    """Return whether a text begins as ELAN exports tab-delimited text, with or without names."""
+    lines = [line.strip("\r") for line in head.splitlines() if line.strip()]
+    lines = [line for line in lines if not line.startswith('"#')]
+    if not lines:
+        return False
+    return len(_ELAN_HEADER.findall(lines[0])) >= 2 or all(map(_ELAN_ROW.fullmatch, lines[:2]))
+
+
+def is_boris_table(head: str) -> bool:
+    """Return whether a text begins as BORIS exports events, a preamble above the names perhaps."""
+    cells = {cell.strip('"') for cell in re.split(r"[,\t\r\n]", head)}
+    return "Behavior" in cells and ("Time" in cells or {"Start (s)", "Stop (s)"} <= cells)
+
+
+def program_of_labels(head: str) -> str | None:
+    """Return whose table of labels a text begins, or None."""
+    return "ELAN" if is_elan_table(head) else "BORIS" if is_boris_table(head) else None
+
+
+def refuse_labels(content: FileContent) -> None:
+    """Raise ReadError where a file of text holds labels."""
+    if program := program_of_labels(content.text[:HEAD]):
+        raise content.error(
+            f"holds labels as {program} exports them, not a recording: read it with "
+            "kineme.read_segments, or kineme convert it to a table of labels with --fps"
+        )
