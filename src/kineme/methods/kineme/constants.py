@@ -118,12 +118,21 @@ class KinemeConstants(Preset):
         "repetitions are two movements where means of the first and of the last ones leave less "
         "than this share of what one mean leaves", limits=SHARE, fine=True, default=0.65,
     )  # fmt: skip
+    same_channels: float = constant(
+        "repetitions are two movements where means of which channels move, of the first and of the "
+        "last ones, leave less than this share of what one mean leaves", limits=SHARE, fine=True,
+        default=0.45,
+    )  # fmt: skip
     chance_count: float = constant(
         "repetitions that may be similar by chance", limits=SOME_FACTOR, fine=True, default=4.0
     )
+    chance_duration: float = constant(
+        "fewer repetitions than `chance_count` are not chance if together they last longer than "
+        "this", unit="s", limits=SOME_TIME, fine=True, default=14.0,
+    )  # fmt: skip
     chance_period: float = constant(
         "shorter repetitions make no difference between samples, and save nothing", unit="s",
-        limits=SOME_TIME, fine=True, default=1.7,
+        limits=SOME_TIME, fine=True, default=1.6,
     )  # fmt: skip
     max_repetition: float = constant(
         "longest repetition; what lasts longer is a series of activities", unit="s",

@@ -4,11 +4,13 @@ There are two descriptions of a segment. By its samples it costs half their mean
 other. If it repeats, one repetition describes the others as well. That is so if the mean of all
 others explains most of each, whatever its size. Then this share of the cost is saved:
 
-    (1 - max((chance_period / period)², chance_count / count)) · evenness
+    (1 - max((chance_period / period)², few)) · evenness
+    few = min(chance_count / count, chance_duration / (count · period), 1)
 
 Fast repetitions save little, as means over a second do not show them. Few repetitions save little,
-as they may be similar by chance. Two movements one after the other save nothing: these are
-segments where two means, of the first repetitions and of the last, leave far less than one mean.
+as they may be similar by chance, unless they last long. Two movements one after the other save
+nothing. They are found twice by two means, of the first repetitions and of the last, that leave
+far less than one mean: once of the repetitions' shapes, once of which channels move in each.
 
 The method is ours; see ``docs/method.md``.
 """
@@ -100,14 +102,42 @@ class Repeating:
             return 0.0
         fast = min(preset.chance_period / float(durations.mean()), 1.0) ** 2
         even = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
-        share = even * (1 - max(fast, min(preset.chance_count / count, 1.0)))
+        chance = min(preset.chance_count, preset.chance_duration / float(durations.mean()))
+        share = even * (1 - max(fast, min(chance / count, 1.0)))
         if share <= 0:
             return 0.0
         repetitions = repetitions_between(movement.poses, movement.path, visits, PLACES)
         kernels.center(repetitions)
         explained = kernels.explained(movement.poses, movement.path, visits, repetitions)
         share *= _beyond(explained, preset.min_explained)
-        return share and share * _beyond(kernels.best_parting(repetitions), preset.two_movements)
+        share = share and share * _beyond(kernels.best_parting(repetitions), preset.two_movements)
+        return share and share * _beyond(
+            kernels.best_parting(channel_energies(repetitions)), preset.same_channels
+        )
+
+
+def channel_energies(centered: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how strongly each channel moves in each repetition, whatever the repetition's size.
+
+    Parameters
+    ----------
+    centered : (repetitions, places, dims) array
+        Repetitions, each with a mean of 0.
+
+    Returns
+    -------
+    (repetitions, 1, dims) array
+        Root mean squares over the places, divided by their norm over the channels.
+
+    Examples
+    --------
+    >>> channel_energies(np.array([[[3.0, 4.0], [-3.0, -4.0]]])).tolist()
+    [[[0.6, 0.8]]]
+    """
+    energies = np.sqrt((centered**2).mean(axis=1, keepdims=True))
+    norms = np.linalg.norm(energies, axis=2, keepdims=True)
+    energies /= np.maximum(norms, 1e-12)  # a repetition without movement has no channels
+    return np.ascontiguousarray(energies)
 
 
 def _beyond(share: float, threshold: float) -> float:
