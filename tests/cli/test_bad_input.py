@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import kineme as package
 from kineme.datasets import bundled_recording
 
 HIERARCHY = """HIERARCHY
@@ -178,3 +182,29 @@ def test_what_is_printed_to_a_full_disk_is_one_sentence(tmp_path: Path, argument
         )
     assert done.returncode == 1
     assert done.stderr == "error: what is printed cannot be written: No space left on device\n"
+
+
+MORE_CHANNELS = "there are more channels (3000) than samples (3)"
+
+
+def test_a_table_the_wrong_way_round_is_warned_of(kineme_process, tmp_path) -> None:
+    values = np.random.default_rng(0).normal(size=(3, 3000))
+    names = ",".join(f"c{k}" for k in range(3000))
+    np.savetxt(tmp_path / "turned.csv", values, "%.3f", ",", header=names, comments="")
+    ran = kineme_process("segment", "turned.csv", "--fps", "30", "-q")
+    assert ran.returncode == 0, ran.stderr
+    assert MORE_CHANNELS in " ".join(ran.stderr.split())
+    with pytest.warns(package.KinemeWarning, match=re.escape(MORE_CHANNELS)):
+        package.segment(package.Signals(values, 30.0))
+
+
+def test_memory_does_not_grow_with_the_square_of_the_columns() -> None:
+    values = np.random.default_rng(0).normal(size=(40, 12_000))
+    tracemalloc.start()
+    try:
+        with pytest.warns(package.KinemeWarning, match="more channels"):
+            package.segment(package.Signals(values, 30.0))
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 12_000**2 * 8 / 4  # a quarter of one matrix of channels × channels

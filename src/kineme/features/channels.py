@@ -27,16 +27,41 @@ FILTERED = 16
 """Channels that are filtered at once: that takes several times the memory that they do."""
 
 
+class Reduction(NamedTuple):
+    """A linear map that shrinks some directions of the space of channels, then scales channels.
+
+    It is kept as these directions, since the matrix would have channels² entries.
+
+    Attributes
+    ----------
+    directions : (channels, shrunk) array
+        Orthonormal columns.
+    factors : (shrunk,) array
+        What each direction is multiplied by; the others stay.
+    scales : (channels,) array
+        What each channel is multiplied by afterwards.
+    """
+
+    directions: Floats
+    factors: Floats
+    scales: Floats
+
+    def apply(self, rows: Floats) -> Floats:
+        """Return the rows (samples, channels), each mapped."""
+        shrunk = (rows @ self.directions) * (self.factors - 1)
+        return np.asarray((rows + shrunk @ self.directions.T) * self.scales, np.float64)
+
+
 class Mixture(NamedTuple):
-    """Some channels, as they are or multiplied by a matrix."""
+    """Some channels, as they are or with what they share reduced."""
 
     channels: Ints
-    by: Floats | None = None
+    reduction: Reduction | None = None
 
     def of(self, rows: Floats) -> Floats:
-        """The mixture of the columns of an array."""
+        """Return the mixture of the columns of an array."""
         chosen = rows if len(self.channels) == rows.shape[1] else rows[:, self.channels]
-        return chosen if self.by is None else np.asarray(chosen @ self.by, np.float64)
+        return chosen if self.reduction is None else self.reduction.apply(chosen)
 
 
 def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:

@@ -7,6 +7,7 @@ they meet here.
 from __future__ import annotations
 
 import time
+import warnings
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from kineme._checks import as_features
 from kineme._version import __version__
-from kineme.errors import ParameterError
+from kineme.errors import KinemeWarning, ParameterError
 from kineme.features.effectors import Names
 from kineme.methods.base import Columns, Found, Leveled, Mirror, Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
@@ -29,6 +30,9 @@ from kineme.segmentation.views import View
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import segment_table
+
+FEW_CHANNELS = 20
+"""So many channels are no sign of a transposed table, however short it is."""
 
 
 def segment(
@@ -171,6 +175,14 @@ def segmented(
     segmented = recording if given is None else as_channels(recording, given, options.feature_fps)
     chosen = options.resolved(signals=isinstance(segmented, Signals)).at_most(segmented.fps)
     if isinstance(segmented, Signals):
+        n_frames, n_channels = segmented.values.shape
+        if n_channels > max(n_frames, FEW_CHANNELS):
+            warnings.warn(
+                f"there are more channels ({n_channels}) than samples ({n_frames}); if the table "
+                "has a row for each channel, transpose it",
+                KinemeWarning,
+                stacklevel=2,
+            )
         scaled = given is None if options.standardize is None else options.standardize
         view = view_of_signals(
             segmented, chosen, emg=options.emg, standardize=scaled, unit=options.unit

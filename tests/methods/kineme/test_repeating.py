@@ -14,7 +14,7 @@ from kineme.datasets import random_recording
 from kineme.methods.kineme import _repeating_kernels as kernels
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.kineme.repeating import Repeating
+from kineme.methods.kineme.repeating import Repeating, channel_energies
 
 seconds = settings(max_examples=60)
 FPS = round(KINEME.working_fps)
@@ -166,6 +166,25 @@ def test_two_movements_one_after_the_other_save_nothing_as_one(seed: int) -> Non
         start, stop = found.start / KINEME.rate, found.stop / KINEME.rate
         assert 0 <= start < stop <= end + 1 / KINEME.rate
         assert found.share < 0.05 or min(border - start, stop - border) < 2
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_four_slow_repetitions_save_some(seed: int) -> None:
+    assert share_saved(squats(4, seed=seed, period=5.5)) > 0.25
+
+
+def parting_of_channels(*sizes: np.ndarray) -> float:
+    """Of repetitions of one shape whose channels have these sizes, repetition by repetition."""
+    angle = np.linspace(0, 2 * np.pi, 16, endpoint=False)
+    repetitions = np.array([np.outer(np.sin(angle), size) for size in sizes])
+    return float(kernels.best_parting(channel_energies(repetitions)))
+
+
+def test_other_channels_are_another_movement_and_another_size_is_not() -> None:
+    arms, legs = np.array([1.0, 0.8, 0.1, 0.0]), np.array([0.1, 0.0, 1.0, 0.6])
+    assert parting_of_channels(arms, arms, arms, legs, legs, legs) < KINEME.same_channels - 0.1
+    shrinking = [size * arms for size in np.linspace(1, 0.1, 6)]
+    assert parting_of_channels(*shrinking) > KINEME.same_channels + 0.1
 
 
 def test_what_is_too_short_or_too_long_saves_nothing() -> None:

@@ -18,7 +18,7 @@ from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.kineme import tree
 from kineme.methods.kineme.preset import SENSORS
 from kineme.methods.kineme.tree import part_ends
-from kineme.methods.kineme.views import common_reduced, mutual_information, views_of
+from kineme.methods.kineme.views import mutual_information, reduce_shared, views_of
 
 FPS = 50.0
 
@@ -199,10 +199,24 @@ def test_what_channels_share_is_held_down() -> None:
         return float(np.linalg.eigvalsh(np.corrcoef(of.T))[-1])
 
     assert shared(channels) > 4.5
-    held = channels @ common_reduced(channels, 0.3)
+    held = reduce_shared(channels, 0.3).apply(channels)
     assert shared(held) < 1.5
     np.testing.assert_allclose(held.std(axis=0), 1.0)
-    assert common_reduced(channels, 1e4) is None
+    assert reduce_shared(channels, 1e4) is None
+
+
+@pytest.mark.parametrize("shape", [(400, 12), (12, 400)])
+@pytest.mark.parametrize("most", [0.3, 1.0, 5.0])
+def test_reducing_shared_variance_equals_the_whole_matrix(shape, most) -> None:
+    rng = np.random.default_rng(1)
+    channels = rng.standard_normal(shape) + rng.standard_normal((shape[0], 1))
+    channels = (channels - channels.mean(axis=0)) / channels.std(axis=0)
+    covariance = channels.T @ channels / len(channels)
+    variances, directions = np.linalg.eigh(covariance)
+    mixing = (directions * np.sqrt(most / np.maximum(variances, most))) @ directions.T
+    mixed = channels @ mixing
+    expected = mixed / mixed.std(axis=0)
+    np.testing.assert_allclose(reduce_shared(channels, most).apply(channels), expected, atol=1e-9)
 
 
 def test_the_order_of_channels_changes_nothing() -> None:

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.features.channels import Mixture, in_mixtures, sampled_at
+from kineme.features.channels import Mixture, Reduction, in_mixtures, sampled_at
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -153,7 +153,7 @@ def _in_scales(
     """A view for each request of channels and a scale, with velocities if they have a weight."""
     mixtures = {
         (channels.tobytes(), scale.shared): Mixture(
-            channels, common_reduced(scaled[:, channels], scale.shared)
+            channels, reduce_shared(scaled[:, channels], scale.shared)
         )
         for channels, scale in requested
     }
@@ -180,10 +180,10 @@ def _in_scales(
     return found
 
 
-def common_reduced(scaled: Floats, most: float) -> Floats | None:
-    """A matrix that reduces what channels have in common, each with a deviation of 1 as before.
+def reduce_shared(scaled: Floats, most: float) -> Reduction | None:
+    """Return what reduces the variance that channels share; each keeps a deviation of 1.
 
-    None where nothing is reduced.
+    None where nothing is reduced. Memory grows with the smaller side of the array, squared.
 
     Parameters
     ----------
@@ -192,13 +192,23 @@ def common_reduced(scaled: Floats, most: float) -> Floats | None:
     most : float
         Largest variance in any direction of the space of channels.
     """
-    if most >= scaled.shape[1]:  # they cannot share more
+    frames, channels = scaled.shape
+    if most >= channels:  # they cannot share more
         return None
-    covariance = scaled.T @ scaled / len(scaled)
-    variances, directions = np.linalg.eigh(covariance)
-    mixing = (directions * np.sqrt(most / np.maximum(variances, most))) @ directions.T
-    left = np.sqrt(np.maximum(np.einsum("ij,ik,kj->j", mixing, covariance, mixing), 0.0))
-    return np.asarray(mixing / np.where(left > TINY, left, 1.0), np.float64)
+    if channels <= frames:
+        variances, directions = np.linalg.eigh(scaled.T @ scaled / frames)
+        large = variances > most
+        variances, directions = variances[large], directions[:, large]
+    else:  # the frames' Gram matrix has the same eigenvalues, and is smaller
+        variances, weights = np.linalg.eigh(scaled @ scaled.T / frames)
+        large = variances > most
+        variances = variances[large]
+        directions = scaled.T @ (weights[:, large] / np.sqrt(frames * variances))
+    factors = np.sqrt(most / variances)
+    # Variance of each channel, less what its large directions lose.
+    left = (scaled**2).mean(axis=0) - directions**2 @ (variances - most)
+    left = np.sqrt(np.maximum(left, 0.0))
+    return Reduction(directions, factors, 1 / np.where(left > TINY, left, 1.0))
 
 
 def by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np.float32]:
