@@ -209,5 +209,5 @@ def test_a_recording_gives_equal_results_each_time() -> None:
 
 
 def test_detail_is_asked_of_the_result() -> None:
-    with pytest.raises(ParameterError, match=r"segment\(\.\.\.\)\.level\(0\.5\)"):
+    with pytest.raises(ParameterError, match=r"segment\(\.\.\.\)\.at_detail\(0\.5\)"):
         segment(recording(0), detail=0.5)
