@@ -80,8 +80,8 @@ def with_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dic
             chosen |= {f"{side}_ankle": marker} if marker >= 0 else {}
         elif ankle is not None and min(map(len, bodies)) >= LEAST:
             ends = hips[side], places[:, ankle]
-            knee = _knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
-            made |= {} if knee is None else {f"{side}_knee": knee}
+            found = _knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
+            made |= {} if found is None else {f"{side}_knee": found}
     if not made and not centres:
         return motion, chosen
     made |= {f"{side}_hip": hip for side, hip in hips.items()}
@@ -96,10 +96,10 @@ def with_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dic
     chosen |= {part: n + place for place, part in enumerate(made)}
     for side in SIDES:
         if f"{side}_knee" in chosen:
-            ends = tuple(positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
+            hip, knee = (positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
             markers = [j for j, (part, of) in enumerate(names)
                        if of == side and "thi" in part and j not in chosen.values()]  # fmt: skip
-            aside = [remove_along(places[:, j] - ends[1], ends[1] - ends[0]) for j in markers]
+            aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
             far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
             other = chosen[f"{SIDES[side == SIDES[0]]}_hip"]
             chosen[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
