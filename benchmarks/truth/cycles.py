@@ -10,6 +10,9 @@
 3. *People.* ``bodies/uiprmd``: repetitions cut by people, where the count is right. They cut from
    border to border, so pauses are added to what is measured.
 4. *Angles.* Knees, hips and elbows of a figure against the angles that made it.
+5. *Laboratory.* ``gait/overground``: knees and ankles of walks against the angles of Plug-in Gait
+   in the same files: ranges, and over time the mean difference and what is left without it. Knees
+   also without the markers of thighs and the centres of hips that a file may lack.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
 
@@ -33,6 +37,8 @@ from kineme.cycles import channels_of
 from kineme.cycles.table import Cycles
 from kineme.datasets import Action, synthesize
 from kineme.datasets.figure import ANGLES, figure, joint_rotations
+from kineme.formats.files import load
+from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample
 
@@ -43,6 +49,8 @@ RATES = (60.0, 80.0, 120.0, 240.0)
 SETS = ("uiprmd", "uiprmd_incorrect")
 NEAR_S = 0.25
 """Borders of two readings that are nearer than this are one."""
+STANDING = "01"
+"""End of the name of each person's static trial."""
 SPEED = ("LeftFoot.speed",)
 """What is measured where only borders count."""
 
@@ -181,6 +189,51 @@ def angles() -> bool:
     return kept
 
 
+def laboratory() -> bool:
+    folder = DATA / "gait" / "overground"
+    if not folder.is_dir():
+        print("gait/overground: not there")
+        return True
+    walks = [path for path in sorted(folder.glob("*.c3d")) if path.stem[-2:] != STANDING]
+    kept = True
+    for part, lacking, most in (
+        ("knee", (), 2.0),
+        ("knee", ("LTHI", "RTHI", "LHJC", "RHJC"), 4.0),
+        ("ankle", (), 4.0),
+    ):
+        ranges, offsets, rests = [], [], []
+        for path in walks:
+            file = parse_c3d(load(path))
+            motion = rename(kineme.read(path), lacking)
+            for side in "LR":
+                label = f"{side}{part.title()}Angles"
+                true = file.points[:, file.labels.index(label), 0]
+                own = channels_of(motion, [f"{part}_{side.lower()}"])[0].values()
+                ranges.append(np.ptp(own) - np.ptp(true))
+                offsets.append((own - true).mean())
+                rests.append((own - true).std())
+        name = f"{part}, markers only" if lacking else part
+        mean, deviation = float(np.mean(ranges)), float(np.std(ranges))
+        offset, rest = float(np.mean(offsets)), float(np.mean(rests))
+        print(f"Plug-in Gait, {name}: range {mean:+.1f} ± {deviation:.1f}°, offset {offset:+.1f}°, "
+              f"without it {rest:.1f}° ({len(ranges)} legs of {len(walks)} walks)")  # fmt: skip
+        key = f"cycles.laboratory.{name.replace(', ', '_').replace(' ', '_')}"
+        for what, value in (("range", mean), ("range_deviation", deviation), ("offset", offset),
+                            ("rest", rest)):  # fmt: skip
+            record(f"{key}.{what}", round(value, 1), unit="°")
+        kept &= abs(mean) <= most
+    record("cycles.laboratory.walks", len(walks))
+    return kept
+
+
+def rename(motion: Motion, lacking: Sequence[str]) -> Motion:
+    """Take the names from some markers, as if the file did not have them."""
+    skeleton = motion.skeleton
+    names = tuple(f"spare{i}" if name in lacking else name
+                  for i, name in enumerate(skeleton.names))  # fmt: skip
+    return replace(motion, skeleton=replace(skeleton, names=names))
+
+
 def main() -> int:
     parser = command_line(__doc__)
     parser.add_argument("--seeds", type=int, default=few(50, 1))
@@ -188,6 +241,7 @@ def main() -> int:
     seeds = parser.parse_args().seeds
     results = {
         "angles": angles(),
+        "laboratory": laboratory(),
         "jitter": jitter(few(max(1, seeds // 5), 1)),
         "people": people(few(1, 25)),
         "durations": durations(seeds),

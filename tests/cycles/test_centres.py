@@ -6,12 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from posed_figures import posed
 
 import kineme
 from kineme import _rotations as rot
 from kineme.cycles import channels_of, landmarks
 from kineme.cycles.centres import with_centres
 from kineme.datasets import Action, synthesize
+from kineme.formats.files import load
+from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import world_rotations
 
@@ -59,6 +62,53 @@ def test_a_knee_that_is_not_bent_has_no_centre() -> None:
 def test_a_body_that_has_knees_stays_as_it_is() -> None:
     motion = synthesize([Action("walk", 2)], fps=60, seed=2).motion
     assert with_centres(motion, landmarks(motion))[0] is motion
+
+
+def skin(motion: Motion) -> Motion:
+    """Centres of hips of a figure, and markers beside thighs, knees and ankles, on its skin."""
+    turned = world_rotations(motion.skeleton, motion.rotations)
+    places: dict[str, np.ndarray] = {"pelvis": motion.positions[:, 0]}
+    for side, outwards in (("Left", 1), ("Right", -1)):
+        for name, joint, offset in (
+            ("HJC", "UpLeg", (0, 0, 0)),
+            ("THI", "UpLeg", (0.1, -0.2, -0.03)),
+            ("KNE", "Leg", (0.06, 0, 0)),
+            ("ANK", "Leg", (0.05, -0.4, 0)),
+        ):
+            j = motion.skeleton.joint(f"{side}{joint}")
+            local = np.broadcast_to(np.array(offset) * [outwards, 1, 1], (motion.n_frames, 3))
+            places[f"{side[0]}{name}"] = motion.positions[:, j] + rot.rotate(turned[:, j], local)
+    skeleton = Skeleton(tuple(places), [-1, *[0] * (len(places) - 1)], np.zeros((len(places), 3)))
+    return Motion(skeleton, np.stack([*places.values()], axis=1), motion.fps)
+
+
+@pytest.mark.parametrize("spread", [0.0, 25.0])
+def test_a_marker_beside_the_knee_does_not_bend_a_straight_leg(spread: float) -> None:
+    true = 25 - 35 * np.cos(np.linspace(0, 4 * np.pi, 200))  # from -10, bent the other way, to 60
+    motion = posed(left_knee=true, right_knee=true, left_spread=np.array([spread]))
+    found = channels_of(skin(motion), ["knee_l"])[0].values()
+    assert np.sqrt(np.mean((found - true) ** 2)) < 2
+    assert np.ptp(found) == pytest.approx(70, abs=2)
+
+
+def test_a_knee_that_hardly_moves_is_bent_about_the_line_of_the_hips() -> None:
+    found = channels_of(skin(posed(left_knee=np.full(50, -8.0))), ["knee_l"])[0].values()
+    np.testing.assert_allclose(found, -8, atol=1.5)
+
+
+def test_knees_of_walks_are_those_of_plug_in_gait(data_dir: Path) -> None:
+    """All walks, and ankles, too: a benchmark."""
+    folder = data_dir / "gait" / "overground"
+    if not folder.is_dir():
+        pytest.skip("no gait/overground among the recordings")
+    for name in ("HC030A05", "HC038A11"):
+        path = folder / f"{name}.c3d"
+        file = parse_c3d(load(path))
+        for side in "LR":
+            true = file.points[:, file.labels.index(f"{side}KneeAngles"), 0]
+            found = channels_of(kineme.read(path), [f"knee_{side.lower()}"])[0].values()
+            assert np.ptp(found) == pytest.approx(np.ptp(true), abs=4)
+            assert np.sqrt(np.mean((found - true) ** 2)) < 4
 
 
 def test_a_walk_agrees_with_opensim(data_dir: Path) -> None:

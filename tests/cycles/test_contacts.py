@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections import defaultdict
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -23,7 +24,7 @@ from kineme.cycles import (
 )
 from kineme.datasets import Action, synthesize
 from kineme.errors import KinemeWarning, ParameterError
-from kineme.recordings import Signals
+from kineme.recordings import Motion, Signals
 
 FPS = 100.0
 
@@ -124,6 +125,65 @@ def test_a_walk_has_steps_of_both_feet_in_turn() -> None:
     assert values["step_s"] == pytest.approx(0.55, abs=0.04)
     assert 0.5 < values["stride_m"] < 2.5
     assert abs(table["asymmetry_percent"][0]) < 5
+
+
+def on_a_belt(walk: Motion, speed: float) -> Motion:
+    """The same walk seen from a room in which the ground moves back at the walker's speed."""
+    seconds = np.arange(walk.n_frames)[:, None, None] / walk.fps
+    forward = walk.positions[-1, 0] - walk.positions[0, 0]
+    forward = forward * [1, 0, 1] / np.linalg.norm(forward * [1, 0, 1])
+    return replace(walk, positions=walk.positions - seconds * speed * forward, rotations=None)
+
+
+def test_a_walk_on_a_treadmill_has_the_contacts_of_the_same_walk_overground() -> None:
+    walk = synthesize([Action("walk", 8)], fps=100, seed=1).motion
+    travel = (walk.positions[-1, 0] - walk.positions[0, 0]) * [1, 0, 1]
+    belt = on_a_belt(walk, float(np.linalg.norm(travel)) / walk.duration)
+    overground, carried = foot_events(walk), foot_events(belt)
+    for name in {*overground.names.tolist()}:
+        np.testing.assert_allclose(carried.at(name), overground.at(name), atol=0.03)
+    tables = [gait(overground, walk), gait(carried, belt)]
+    lengths = [dict(zip(t["measure"], t["left_mean"], strict=True))["stride_m"] for t in tables]
+    assert lengths[1] == pytest.approx(lengths[0], rel=0.05)
+
+
+def test_contacts_on_a_treadmill_are_those_that_its_file_marks(data_dir: Path) -> None:
+    path = data_dir / "gait" / "treadmill" / "treadmill_events.c3d"
+    if not path.is_file():
+        pytest.skip("no gait/treadmill among the recordings")
+    motion = kineme.read(path)
+    events = foot_events(motion)
+    near = [np.abs(events.at(name) - at).min() <= 0.05 for at, name in motion.provenance.events]
+    assert len(near) == 43
+    assert sum(near) >= 41
+    assert len(events) <= 45
+
+
+def test_contacts_of_markers_are_near_those_of_plates(data_dir: Path) -> None:
+    folder = data_dir / "gait" / "overground"
+    if not folder.is_dir():
+        pytest.skip("no gait/overground among the recordings")
+    apart = []
+    for name in ("HC030A05", "HC032A03", "HC038A11"):
+        path = folder / f"{name}.c3d"
+        plates = foot_events(kineme.read(path, columns=["Fz*"]), left="Fz1", right="Fz2")
+        found = foot_events(kineme.read(path))
+        apart += [np.abs(found.at(event) - at).min()
+                  for at, event in zip(plates.times, plates.names, strict=True)]  # fmt: skip
+    assert len(apart) == 12
+    assert max(apart) < 0.05
+
+
+def test_a_gait_that_nobody_has_is_warned_of() -> None:
+    walk = synthesize([Action("walk", 8)], fps=100, seed=1).motion
+    events = foot_events(walk)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", KinemeWarning)
+        gait(events)
+    missed = events.names == "left foot off"
+    times = events.times - np.where(missed, 0.6, 0)  # a stance of 10 %
+    with pytest.warns(KinemeWarning, match="left foot stands for .* Check"):
+        gait(replace(events, times=times))
 
 
 def test_events_become_labels(tmp_path: Path) -> None:

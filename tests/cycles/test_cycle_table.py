@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import kineme
-from kineme.cycles import Cycles
+from kineme.cycles import Cycles, foot_events
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
@@ -266,6 +266,21 @@ def test_seconds_and_events_of_the_file_are_anchors(walks) -> None:
     np.testing.assert_allclose(by_name.columns["start_s"][rows], middles)
     with pytest.raises(ParameterError, match="no event 'deepst'; there are Deepest, left foot"):
         kineme.cycles(marked, walks.truth, anchor="deepst")
+
+
+def test_an_event_of_the_file_corrects_the_contact_near_it_and_the_others_stay(walks) -> None:
+    found = foot_events(walks.motion).at("left foot strike")
+    marked_at = float(found[2]) + 0.05
+    provenance = walks.motion.provenance.marked([(marked_at, "Left Foot Strike")])
+    marked = replace(walks.motion, provenance=provenance)
+    before, after = (
+        kineme.cycles(motion, walks.truth, channels=["knee_r"], anchor="left foot strike")
+        for motion in (walks.motion, marked)
+    )
+    starts = [each.columns["start_s"][rows_of(each, "walk")] for each in (before, after)]
+    moved = np.isclose(starts[0], found[2])
+    assert moved.sum() == 1
+    np.testing.assert_allclose(starts[1], np.where(moved, marked_at, starts[0]))
 
 
 def test_what_does_not_belong_together_is_refused(walks) -> None:

@@ -19,6 +19,7 @@ from kineme.cycles.channels import channels_of
 from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
 from kineme.cycles.runs import Repetition, movement
 from kineme.errors import ParameterError
+from kineme.labels.c3d_events import SAME_S
 from kineme.recordings import Motion, Signals
 
 Floats = NDArray[np.float64]
@@ -131,16 +132,37 @@ def _times(
         values, fps = _curve(recording, crossing["channel"], beside)
         return _crossings(values, float(crossing["level"]), rises=crossing["sign"] == ">") / fps
     name = plain_name(anchor)
-    marked = [at for at, text in recording.provenance.events if plain_name(text) == name]
-    if marked:
-        return np.sort(np.array(marked, np.float64))
+    marked = np.array(
+        [at for at, text in recording.provenance.events if plain_name(text) == name], np.float64
+    )
     if name.endswith((STRIKE, OFF)):
-        return foot_events(recording).at(name)
+        return _correct(_contacts(recording, name, needed=len(marked) == 0), marked)
+    if len(marked):
+        return np.sort(marked)
     names = sorted({text for _, text in recording.provenance.events})
     raise ParameterError(
         f"no event {anchor!r}; there are {', '.join([*names, 'left foot strike, and so on'])}; "
         "of a channel give its largest value or a threshold, as in 'knee_r max', 'knee_r > 40'"
     )
+
+
+def _contacts(recording: Motion | Signals, name: str, *, needed: bool) -> Floats:
+    """Return the foot contacts found, none where there is no foot and none is needed."""
+    try:
+        return foot_events(recording).at(name)
+    except ParameterError:
+        if needed:
+            raise
+        return np.empty(0)
+
+
+def _correct(found: Floats, marked: Floats) -> Floats:
+    """Return marked events, and those found that none marked is near.
+
+    A laboratory often marks the contacts on its force plates only.
+    """
+    apart = np.abs(found[:, None] - marked).min(axis=1, initial=np.inf)
+    return np.sort(np.concatenate([found[apart >= SAME_S], marked]))
 
 
 def _crossings(values: Floats, level: float, *, rises: bool) -> Floats:

@@ -1,8 +1,10 @@
 """Angles of joints in degrees, from where points are and from how joints are turned.
 
-From positions an angle is the one between two limbs, by which a straight limb is bent: a knee is
-0 degrees when thigh and shank are in line, whatever plane it bends in. From rotations it is how
-far a joint is turned from the pose of rest, as the skeleton has it.
+From positions of joints an angle is the one between two limbs, by which a straight limb is bent: a
+knee is 0 degrees when thigh and shank are in line, whatever plane it bends in. Markers on the skin
+are beside the joints, so that a straight leg has an angle between its limbs, too. There a knee is
+bent about its axis, and below 0 degrees if it is bent the other way. From rotations it is how far
+a joint is turned from the pose of rest, as the skeleton has it.
 """
 
 from __future__ import annotations
@@ -13,6 +15,9 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 
 Floats = NDArray[np.float64]
+
+MOVES = 0.1
+"""Radians by which a hinge deviates from its mean, at least, for its axis to be seen."""
 
 
 def bend(before: Floats, joint: Floats, after: Floats) -> Floats:
@@ -76,11 +81,69 @@ def about(axis: Floats, first: Floats, second: Floats) -> Floats:
     >>> about(x, y, z).round(6), about(x, z, y).round(6)
     (array([90.]), array([-90.]))
     """
-    axis = axis / np.maximum(np.linalg.norm(axis, axis=-1, keepdims=True), 1e-12)
-    flat = [v - (v * axis).sum(axis=-1, keepdims=True) * axis for v in (first, second)]
-    sine = (np.cross(flat[0], flat[1]) * axis).sum(axis=-1)
+    flat = [remove_along(vectors, axis) for vectors in (first, second)]
+    sine = (np.cross(flat[0], flat[1]) * normalize(axis)).sum(axis=-1)
     cosine = (flat[0] * flat[1]).sum(axis=-1)
     return np.asarray(np.degrees(np.arctan2(sine, cosine)))
+
+
+def hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats) -> Floats | None:
+    """Return the axis of a hinge such as a knee, which is fixed to the upper limb.
+
+    The lower limb moves in a plane, as seen from the upper one. The axis is what is most at right
+    angles to it in all frames, so markers need not be at the centre of the joint.
+
+    Parameters
+    ----------
+    upper, joint, lower : (frames, 3) array
+        Hip, knee and ankle.
+    beside : (frames, 3) array
+        A point that tells how the upper limb is turned, such as a marker of the thigh.
+
+    Returns
+    -------
+    (frames, 3) array or None
+        Unit vectors, of either sign; None where the hinge hardly moves.
+
+    Examples
+    --------
+    >>> turn = np.linspace(0, 1, 50)[:, None]
+    >>> x, y, z = (np.repeat(axis[None], 50, axis=0) for axis in np.eye(3))
+    >>> lower = -np.cos(turn) * y - np.sin(turn) * z
+    >>> np.abs(hinge_axis(y, 0 * y, lower, x + y)[0]).round(6).tolist()
+    [1.0, 0.0, 0.0]
+    """
+    along, limb = normalize(joint - upper), normalize(lower - joint)
+    aside = normalize(remove_along(beside - joint, along))
+    frame = np.stack([aside, np.cross(along, aside), along], axis=1)
+    seen = np.einsum("fij,fj->fi", frame, limb)
+    spreads, axes = np.linalg.eigh(seen.T @ seen / len(seen))
+    if spreads[1] < MOVES**2:
+        return None
+    return np.asarray(np.einsum("fij,i->fj", frame, axes[:, 0]))
+
+
+def remove_along(vectors: Floats, direction: Floats) -> Floats:
+    """Return vectors without what they have in a direction.
+
+    Examples
+    --------
+    >>> remove_along(np.array([[3.0, 4.0, 0.0]]), np.array([[0.0, 2.0, 0.0]])).tolist()
+    [[3.0, 0.0, 0.0]]
+    """
+    direction = normalize(direction)
+    return np.asarray(vectors - (vectors * direction).sum(axis=-1, keepdims=True) * direction)
+
+
+def normalize(vectors: Floats) -> Floats:
+    """Return vectors of length 1; those without a length stay 0.
+
+    Examples
+    --------
+    >>> normalize(np.array([[0.0, 2.0, 0.0]])).tolist()
+    [[0.0, 1.0, 0.0]]
+    """
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12))
 
 
 def continuous(angle: Floats) -> Floats:

@@ -1,10 +1,12 @@
-"""Centres of hips and knees, of legs that have markers on thigh and shank and none on the knee.
+"""Centres of hips and knees, of bodies that are markers on the skin.
 
 *Hip.* From the depth and the width of the pelvis, by the regression of Harrington et al. 2007,
 "Prediction of the hip joint centre in adults, children, and patients with cerebral palsy based on
-magnetic resonance imaging".
+magnetic resonance imaging"; or where the file has it (``LHJC``).
 
-*Knee.* Thigh and shank are rigid bodies, each fitted to its markers. Both have one point in common,
+*Knee.* A marker on it is beside its centre, which does not matter to an angle about the axis of the
+knee (`kineme.cycles.angles.hinge_axis`), as long as the ankle is a marker at the same side. Without
+one, thigh and shank are rigid bodies, each fitted to its markers. Both have one point in common,
 about which they turn (Ehrig et al. 2006, "A survey of formal methods for determining the centre of
 rotation of ball joints", section 2.2.2). A knee turns about an axis, so that this point may lie
 anywhere on it: that one is taken which is in line with hip and ankle, as seen from the front. A
@@ -19,6 +21,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.cycles.angles import normalize, remove_along
 from kineme.cycles.landmarks import SIDES
 from kineme.features.naming import part_and_side
 from kineme.recordings import Motion, Skeleton
@@ -27,8 +30,11 @@ Floats = NDArray[np.float64]
 
 LEAST = 3
 """Markers of a rigid body."""
-FRONT, BACK, SACRUM = ("asis", "asi", "ias"), ("psis", "psi", "ips"), ("vsacral", "sacr", "sacral")
+FRONT, BACK = ("asis", "asi", "ias", "fwt"), ("psis", "psi", "ips", "bwt")
+SACRUM = ("vsacral", "sacr", "sacral")
 """Names of markers on the pelvis."""
+HIP, ANKLE = ("hjc",), ("ank", "ankleout", "anklelat", "lmal", "fal", "lm")
+"""Names of centres of hips in a file, and of markers at the outer side of an ankle."""
 DEPTH, WIDTH_DOWN, WIDTH_OUT = (-0.24, -0.0099), (-0.30, -0.0109), (0.33, 0.0073)
 """How far ahead, up and to its side a hip is of the middle of the front: factor, and metres."""
 PULL = 0.05
@@ -42,7 +48,9 @@ MOST = 4000
 def with_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
     """The motion with centres of hips and knees as more joints, and the joints by part and side.
 
-    Both are as they were where knees have markers, or nothing tells where their centres are.
+    Both are as they were where nothing tells where centres are. Of markers on the skin,
+    ``left_thigh`` is the point that tells with hip and knee how a thigh is turned: the marker of
+    the thigh that is farthest from their line, else the other hip.
 
     Parameters
     ----------
@@ -53,26 +61,29 @@ def with_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dic
     names = [part_and_side(name) for name in motion.skeleton.names]
     places = motion.positions
     made: dict[str, Floats] = {}
-    if motion.rotations is not None or any(f"{side}_knee" in joints for side in SIDES):
+    if motion.rotations is not None:
         return motion, dict(joints)
-    hips = _hips(places, names) or {
+    centres = _hips(places, names)
+    hips = centres or {
         side: places[:, joints[f"{side}_hip"]] for side in SIDES if f"{side}_hip" in joints
     }
     if len(hips) < len(SIDES):
         return motion, dict(joints)
     to_left = hips["left"] - hips["right"]
+    chosen = dict(joints)
     for side in SIDES:
         ankle = joints.get(f"{side}_ankle")
         bodies = [[j for j, (part, of) in enumerate(names) if of == side and part.startswith(word)]
                   for word in ("thigh", "shank")]  # fmt: skip
-        if ankle is None or min(map(len, bodies)) < LEAST:
-            continue
-        ends = hips[side], places[:, ankle]
-        knee = _knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
-        if knee is not None:
-            made[f"{side}_knee"] = knee
-    if not made:
-        return motion, dict(joints)
+        if f"{side}_knee" in joints:
+            marker = _first(names, ANKLE, side) if centres else -1
+            chosen |= {f"{side}_ankle": marker} if marker >= 0 else {}
+        elif ankle is not None and min(map(len, bodies)) >= LEAST:
+            ends = hips[side], places[:, ankle]
+            found = _knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
+            made |= {} if found is None else {f"{side}_knee": found}
+    if not made and not centres:
+        return motion, chosen
     made |= {f"{side}_hip": hip for side, hip in hips.items()}
     skeleton, n = motion.skeleton, motion.skeleton.n_joints
     extended = Skeleton(
@@ -82,12 +93,24 @@ def with_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dic
         skeleton.end_sites,
     )
     positions = np.concatenate([places, np.stack([*made.values()], axis=1)], axis=1)
-    added = {part: n + place for place, part in enumerate(made)}
-    return replace(motion, skeleton=extended, positions=positions), {**joints, **added}
+    chosen |= {part: n + place for place, part in enumerate(made)}
+    for side in SIDES:
+        if f"{side}_knee" in chosen:
+            hip, knee = (positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
+            markers = [j for j, (part, of) in enumerate(names)
+                       if of == side and "thi" in part and j not in chosen.values()]  # fmt: skip
+            aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
+            far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
+            other = chosen[f"{SIDES[side == SIDES[0]]}_hip"]
+            chosen[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
+    return replace(motion, skeleton=extended, positions=positions), chosen
 
 
 def _hips(places: Floats, names: Sequence[tuple[str, str]]) -> dict[str, Floats]:
-    """Both centres, from the markers of the pelvis; none where these are not there."""
+    """Both centres, from the file or the markers of the pelvis; none where these are not there."""
+    given = [_first(names, HIP, side) for side in SIDES]
+    if min(given) >= 0:
+        return {side: places[:, j] for side, j in zip(SIDES, given, strict=True)}
     fronts = [_first(names, FRONT, side) for side in SIDES]
     backs = [_first(names, BACK, side) for side in SIDES]
     sacrum = _first(names, SACRUM, "")
@@ -98,8 +121,8 @@ def _hips(places: Floats, names: Sequence[tuple[str, str]]) -> dict[str, Floats]
     front, back = places[:, fronts].mean(axis=1), places[:, backs].mean(axis=1)
     across, ahead = places[:, fronts[0]] - places[:, fronts[1]], front - back
     width, depth = (float(np.median(np.linalg.norm(each, axis=1))) for each in (across, ahead))
-    left = _unit(across)
-    forward = _unit(ahead - (ahead * left).sum(axis=1, keepdims=True) * left)
+    left = normalize(across)
+    forward = normalize(remove_along(ahead, left))
     up = np.cross(forward, left)
     middle = front + (DEPTH[0] * depth + DEPTH[1]) * forward
     middle = middle + (WIDTH_DOWN[0] * width + WIDTH_DOWN[1]) * up
@@ -109,11 +132,6 @@ def _hips(places: Floats, names: Sequence[tuple[str, str]]) -> dict[str, Floats]
 
 def _first(names: Sequence[tuple[str, str]], words: Sequence[str], side: str) -> int:
     return next((names.index((word, side)) for word in words if (word, side) in names), -1)
-
-
-def _unit(vectors: Floats) -> Floats:
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(vectors / np.maximum(lengths, 1e-12))
 
 
 def _knee(
@@ -132,7 +150,9 @@ def _knee(
         np.concatenate([both, PULL * pulled]), np.concatenate([apart, PULL * apart / 2])
     )[0]
     at = (_moved(upper, found[:3]) + _moved(lower, found[3:])) / 2
-    axis = _unit(np.einsum("fji,fj->fi", upper[0], _unit(to_left)).mean(axis=0, keepdims=True))[0]
+    axis = normalize(
+        np.einsum("fji,fj->fi", upper[0], normalize(to_left)).mean(axis=0, keepdims=True)
+    )[0]
     axis = np.einsum("fij,j->fi", upper[0], axis)
     aside = (((ends[0] + ends[1]) / 2 - at) * axis).sum(axis=1)
     return np.asarray(at + float(np.median(aside)) * axis)

@@ -3,7 +3,8 @@
 Left and right stand at the end of a name, as in ``knee_l``. Angles of a body:
 
 =============== ===============================================================================
-``knee_l``      by how much thigh and shank are bent against each other; ``elbow_l`` the same
+``knee_l``      by how much thigh and shank are bent against each other, of markers about the axis
+                of the knee; ``elbow_l`` between both limbs
 ``hip_l``       thigh forward: against the pelvis where rotations tell it, else against the trunk
 ``ankle_l``     toes up: 90 degrees less the angle between shank and foot
 ``shoulder_l``  between upper arm and trunk: 0 where the arm hangs
@@ -29,7 +30,16 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme._checks import as_texts
-from kineme.cycles.angles import about, bend, between, cardan, continuous
+from kineme.cycles.angles import (
+    about,
+    bend,
+    between,
+    cardan,
+    continuous,
+    hinge_axis,
+    normalize,
+    remove_along,
+)
 from kineme.cycles.centres import with_centres
 from kineme.cycles.events import foot_of, stance_of
 from kineme.cycles.landmarks import SIDES, landmarks
@@ -48,6 +58,8 @@ DEGREES = "°"
 CONTACT = "contact"
 ANGLE, CHANNEL = "angle", "channel"
 """Groups that are measured where nobody says which."""
+ALIKE = 0.7
+"""Cosine between the axis of a knee and that of the hips, at least: 45 degrees."""
 _SHOWN = 8
 
 
@@ -244,8 +256,13 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     for name, parts, less in bent:
         for side in SIDES:
             chain = [joints.get(f"{side}_{part}", -1) for part in parts]
+            thigh = joints.get(f"{side}_thigh")
+            compute = partial(_bend, places, chain, less)
+            if name == "knee" and thigh is not None:
+                hips = [joints[f"{each}_hip"] for each in SIDES]
+                compute = partial(_flexion, places, chain, thigh, hips)
             if min(chain) >= 0:
-                add(f"{name}_{side[0]}", DEGREES, ANGLE, chain, partial(_bend, places, chain, less))
+                add(f"{name}_{side[0]}", DEGREES, ANGLE, chain, compute)
     hips = [joints.get(f"{side}_hip", -1) for side in SIDES]
     shoulders = [joints.get(f"{side}_shoulder", -1) for side in SIDES]
     if min(hips) < 0:
@@ -291,6 +308,18 @@ def _add_hip(
 
 def _bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
     return bend(*(places[:, joint] for joint in chain)) + less
+
+
+def _flexion(places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[int]) -> Floats:
+    """By how much a knee is bent about its axis, or that of the hips if it hardly moves."""
+    hip, knee, ankle = (places[:, joint] for joint in chain)
+    to_left = normalize(remove_along(places[:, hips[0]] - places[:, hips[1]], ankle - hip))
+    axis = hinge_axis(hip, knee, ankle, places[:, thigh])
+    alike = np.zeros(1) if axis is None else (axis * to_left).sum(axis=1)
+    if axis is None or np.median(np.abs(alike)) < ALIKE:
+        return about(to_left, knee - hip, ankle - knee)
+    axis = axis * np.sign(alike)[:, None]  # in each frame: a thigh marker may be mistaken in some
+    return about(axis, knee - hip, ankle - knee)
 
 
 def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:

@@ -8,6 +8,7 @@ one. The two shares were chosen on recordings of which people checked every cont
 neither is early or late.
 
 *Positions.* Heel and toe each stand while they are low and slow; the foot while one of them does.
+Speed is measured against the ground, which on a treadmill is the belt.
 
 *Force.* While a plate bears more than a threshold, above what it tells when nobody stands on it.
 """
@@ -188,10 +189,49 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     paths = [_columns(each, "points", 3) for each in points]
     if len({len(path) for path in paths}) > 1:
         raise ParameterError("the points of a foot must be of the same frames")
+    carried = np.arange(len(paths[0]))[:, None] / fps * ground_velocity(paths, fps)
     stands = np.zeros(len(paths[0]), bool)
     for path in paths:
-        stands |= low_and_slow(path, fps, height=LOW, speed=SLOW)
+        stands |= low_and_slow(path - carried, fps, height=LOW, speed=SLOW)
     return _lasting(stands, fps)
+
+
+def ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
+    """Return the velocity of what carries a foot: of the belt of a treadmill, else 0.
+
+    A foot is low mostly while it stands, so the median velocity of its low points is the ground's.
+    On a belt the foot comes back to where it was; overground it travels with the body.
+
+    Parameters
+    ----------
+    points : sequence of (frames, 3) array
+        Heel and toe of one foot in metres, y up.
+    fps : float
+        Frames per second.
+
+    Returns
+    -------
+    (3,) array
+        Metres per second; level.
+
+    Examples
+    --------
+    >>> t = np.arange(0, 4, 0.01)
+    >>> forward = 0.6 - 0.5 * (t % 1)  # carried back for a second, lifted forward at once
+    >>> path = np.stack([forward, 0 * t, 0 * t], axis=1)
+    >>> ground_velocity([path], 100.0).round(3).tolist()
+    [-0.5, 0.0, 0.0]
+    """
+    if len(points[0]) < 2:
+        return np.zeros(3)
+    low = [low_and_slow(path, fps, height=LOW, speed=np.inf) for path in points]
+    velocities = [np.gradient(path, axis=0)[each] * fps
+                  for path, each in zip(points, low, strict=True)]  # fmt: skip
+    belt = np.median(np.concatenate(velocities), axis=0) * [1, 0, 1]
+    travel = np.mean([path[-1] - path[0] for path in points], axis=0) * [1, 0, 1]
+    travel *= fps / (len(points[0]) - 1)
+    is_belt = np.linalg.norm(travel) < np.linalg.norm(belt) / 2
+    return np.asarray(belt if is_belt else np.zeros(3))
 
 
 def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) -> Floats:

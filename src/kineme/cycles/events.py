@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -15,13 +16,14 @@ from numpy.typing import NDArray
 from kineme._checks import check_type
 from kineme._counts import counted, listed
 from kineme.cycles.contacts import (
+    ground_velocity,
     stands_from_force,
     stands_from_positions,
     swings_from_gyroscope,
 )
 from kineme.cycles.landmarks import SIDES, landmarks
 from kineme.cycles.table import Columns
-from kineme.errors import ParameterError
+from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 
@@ -30,6 +32,8 @@ Floats = NDArray[np.float64]
 STRIKE, OFF = "foot strike", "foot off"
 LONGEST = 1.8
 """Of the median stride: a longer one is a stop, or a step between that was missed."""
+STANCE, ASYMMETRY = (40.0, 85.0), 50.0
+"""Per cent of a stride, and of the mean of both feet, that a walk stays within."""
 NAMED = 20
 """Channels that a message names before it only counts."""
 _FOOT = {"left": ("lf", "leftfoot", "footleft", "lfoot", "footl"),
@@ -227,8 +231,11 @@ def _points(motion: Motion, side: str) -> list[str]:
 
 
 def _stands(motion: Motion, points: Sequence[str]) -> Floats:
-    places = [motion.positions[:, motion.skeleton.joint(name)] for name in points]
-    return stands_from_positions(places, motion.fps)
+    return stands_from_positions(_paths(motion, points), motion.fps)
+
+
+def _paths(motion: Motion, points: Sequence[str]) -> list[Floats]:
+    return [motion.positions[:, motion.skeleton.joint(name)] for name in points]
 
 
 def _of_sensors(signals: Signals, side: str, pattern: str | None) -> Found | None:
@@ -352,7 +359,30 @@ def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
     left, right = (np.array(columns[f"{side}_mean"], np.float64) for side in SIDES)
     means = {name: np.array(column) for name, column in columns.items()}
     means["asymmetry_percent"] = 100 * (left - right) / ((left + right) / 2)
+    _warn_implausible(means)
     return means
+
+
+def _warn_implausible(gait: Columns) -> None:
+    """Warn of means that no walk has, so that missed contacts do not pass for a finding."""
+    means = zip(gait["measure"].tolist(), gait["left_mean"].tolist(), gait["right_mean"].tolist(),
+                gait["asymmetry_percent"].tolist(), strict=True)  # fmt: skip
+    said, unequal = [], []
+    for measure, left, right, asymmetry in means:
+        if measure == "stance_percent":
+            said += [f"the {side} foot stands for {stance:.0f} % of a stride"
+                     for side, stance in (("left", left), ("right", right))
+                     if stance < STANCE[0] or stance > STANCE[1]]  # fmt: skip
+        if abs(asymmetry) > ASYMMETRY:
+            unequal.append(f"{measure} differs by {abs(asymmetry):.0f} % between the feet")
+    said += unequal[:1]
+    if said:
+        warnings.warn(
+            f"implausible for walking: {', '.join(said)}. Check the recording's unit and which "
+            "points or channels the feet were found from.",
+            KinemeWarning,
+            stacklevel=3,
+        )
 
 
 def strides(events: Events, recording: Motion | Signals | None = None) -> Columns:
@@ -416,7 +446,9 @@ def _strides(events: Events, side: str, recording: Motion | Signals | None) -> C
         if foot is not None:
             frames = np.clip(np.rint(np.stack([start, stop]) * recording.fps), 0,
                              recording.n_frames - 1).astype(np.intp)  # fmt: skip
-            ends = recording.positions[frames, foot][..., [0, 2]]
-            found["stride_m"] = np.linalg.norm(ends[1] - ends[0], axis=1)
+            ends = recording.positions[frames, foot]
+            ground = ground_velocity(_paths(recording, _points(recording, side)), recording.fps)
+            walked = (ends[1] - ends[0]) - stride[:, None] * ground
+            found["stride_m"] = np.linalg.norm(walked[:, [0, 2]], axis=1)
             found["speed_m_per_s"] = found["stride_m"] / stride
     return found

@@ -22,15 +22,27 @@ UNEQUAL = 0.5
 """Natural logarithm of the ratio of two bones of one limb, at most."""
 NAMES = {
     "hip": ("hip", "hjc", "upleg", "upperleg", "thigh", "femur"),
-    "knee": ("knee", "kne", "kjc", "kneeout", "kneelat", "leg", "lowerleg", "shin", "calf"),
+    "knee": (
+        "knee",
+        "kne",
+        "kjc",
+        "kneeout",
+        "kneelat",
+        "lek",
+        "fle",
+        "leg",
+        "lowerleg",
+        "shin",
+        "calf",
+    ),
     "ankle": ("ankle", "ank", "ajc", "ankleout", "anklelat", "foot"),
-    "heel": ("heel", "hee", "calcaneus"),
-    "toe": ("toe", "toebase", "toes", "bigtoe", "toetip", "footindex", "mt5", "foot"),
+    "heel": ("heel", "hee", "calcaneus", "fcc"),
+    "toe": ("toe", "toebase", "toes", "bigtoe", "toetip", "footindex", "mt", "mtp", "fm", "foot"),
     "shoulder": ("shoulder", "sho", "sjc", "acromium", "acr", "upperarm", "arm"),
     "elbow": ("elbow", "elb", "ejc", "elbowout", "elblat", "forearm"),
     "wrist": ("wrist", "wra", "wjc", "wristout", "hand"),
-}
-"""Names of points without their side, the preferred ones first."""
+}  # fmt: skip
+"""Names of points without side and numbers (``LMT5`` is ``mt``), the preferred ones first."""
 _TURNS = frozenset({"twist", "roll"})
 """In the name of a joint that only turns a bone about itself."""
 
