@@ -11,8 +11,9 @@ import stat
 import sys
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from kineme.errors import FileError, KinemeError, ReadError, WriteError
@@ -159,8 +160,54 @@ def reading(path: str | os.PathLike[str]) -> Iterator[None]:
         raise ReadError(path, f"cannot be understood, it is damaged ({reason})") from error
 
 
+@dataclass(frozen=True)
+class OwnedFolder:
+    """A folder in which kineme writes and deletes files.
+
+    Nothing below `root` is written or deleted through a link, and only files with names that
+    kineme gives are deleted. The root itself may be a link: a person named it.
+    """
+
+    root: Path
+
+    def path(self, *names: str) -> Path:
+        """Return a path below the folder; raise WriteError if any part of it is a link."""
+        path = self.root
+        for name in names:
+            path = path / name
+            refuse_link(path)
+        return path
+
+    def make(self, *names: str) -> Path:
+        """Make a folder below this one, with the folders around it, and return its path."""
+        path = self.path(*names)
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise WriteError(path, f"cannot be made: {error.strerror or error}") from error
+        return path
+
+    def delete(self, *names: str, is_ours: Callable[[str], object]) -> None:
+        """Delete the files in a folder below this one whose names are kineme's.
+
+        Links, folders and other people's files stay. Nothing is deleted through a link.
+        """
+        with suppress(OSError, WriteError):
+            for path in [*self.path(*names).iterdir()]:
+                if is_ours(path.name) and path.is_file() and not path.is_symlink():
+                    with suppress(OSError):
+                        path.unlink(missing_ok=True)
+
+
+def is_draft(name: str) -> bool:
+    """Return whether `atomic_write` gives such names to what is not written to its end yet."""
+    return _DRAFT.fullmatch(name) is not None
+
+
 def refuse_link(path: Path) -> None:
-    """WriteError where a file or folder is a link, through which others would choose the place."""
+    """Raise WriteError if a file or folder is a link: others would choose where it leads."""
+    if hasattr(path, "protocol"):  # of universal_pathlib: there are no links
+        return
     try:
         found = path.lstat()
     except (FileNotFoundError, NotADirectoryError):

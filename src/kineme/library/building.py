@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from kineme._checks import check_type, is_number
+from kineme._files import OwnedFolder, is_draft
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.library.edits import read_edits
@@ -16,7 +18,7 @@ from kineme.library.gathering import gather
 from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import VOCABULARY, Settings
 from kineme.library.sources import listed, names_of
-from kineme.library.storage.analyses import has_analysis
+from kineme.library.storage.analyses import KEY_LENGTH, has_analysis, is_analysis
 from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import (
     ANALYSES,
@@ -29,8 +31,8 @@ from kineme.library.storage.layout import (
     write_json,
     writer_lock,
 )
-from kineme.library.storage.places import lies_in, place, reaching, remove_folder
-from kineme.library.storage.tables import read_table, write_tables
+from kineme.library.storage.places import lies_in, place, reaching
+from kineme.library.storage.tables import is_table, is_tables, read_table, write_tables
 from kineme.library.vocabulary.numbering import read_removed, removed_after, write_removed
 
 Head = Mapping[str, Any]
@@ -245,13 +247,14 @@ def _written(
 
 
 def _clean(folder: Path, keys: set[str], tables: str) -> None:
-    """Remove what nothing names any more, and drafts of builds that were ended."""
-    for path in (folder / ANALYSES).iterdir():
-        if path.suffix not in (".npy", ".parquet") or path.name.partition(".")[0] not in keys:
-            path.unlink(missing_ok=True)
-    for path in (folder / TABLES).iterdir():
-        if path.name != tables:
-            remove_folder(path)
-    for home in (folder, folder / TABLES / tables):
-        for path in home.glob(".kineme-*"):
-            path.unlink(missing_ok=True)
+    """Delete files of earlier builds that nothing names, and drafts of builds that were ended."""
+    owned = OwnedFolder(folder)
+    for home in ((), (ANALYSES,), (TABLES, tables)):
+        owned.delete(*home, is_ours=is_draft)
+    owned.delete(ANALYSES, is_ours=lambda name: is_analysis(name) and name[:KEY_LENGTH] not in keys)
+    with suppress(OSError):
+        for path in [*(folder / TABLES).iterdir()]:
+            if path.name != tables and is_tables(path.name):
+                owned.delete(TABLES, path.name, is_ours=is_table)
+                with suppress(OSError):  # somebody keeps a file in it
+                    path.rmdir()

@@ -22,6 +22,7 @@ from typing import NamedTuple
 from threadpoolctl import threadpool_limits
 
 from kineme._checks import is_text
+from kineme._files import refuse_pipe
 from kineme._threads import map_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.formats import read_quietly
@@ -178,10 +179,11 @@ def _sample(task: Task) -> str:
     if task.path.is_dir():
         return "folder"
     try:
+        refuse_pipe(task.path)
         with task.path.open("rb") as file:
             file.seek(max(task.size - SAMPLE, 0) // 2)
             return sha256(file.read(SAMPLE)).hexdigest()
-    except OSError:
+    except (OSError, ReadError):  # whoever works on it will say so
         return ""
 
 

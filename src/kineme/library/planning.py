@@ -9,9 +9,10 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from kineme._files import OwnedFolder
 from kineme.errors import ParameterError, WriteError
 from kineme.library.settings import Settings
-from kineme.library.storage.layout import ANALYSES, HEAD, read_head, read_json
+from kineme.library.storage.layout import ANALYSES, HEAD, TABLES, read_head, read_json
 from kineme.library.storage.places import is_remote, place
 
 AnyPath = str | PathLike[str]
@@ -92,8 +93,11 @@ def sources_after(
 def opened(into: AnyPath, named: Sequence[Path]) -> Path:
     """The folder of a library, made where there is none, unless nothing is named."""
     folder = place(into, "build")
+    owned = OwnedFolder(folder)
+    owned.path(ANALYSES)
+    owned.path(TABLES)
     if (folder / HEAD).is_file():
-        read_head(folder)
+        owned.path(TABLES, read_head(folder)["tables"])
         return folder
     unfinished = (folder / ANALYSES).is_dir()  # by a build that was ended before its first head
     try:

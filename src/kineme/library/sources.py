@@ -11,6 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from kineme._files import refuse_pipe
 from kineme.errors import FileError, ReadError
 from kineme.formats import read
 from kineme.formats.keypoints.openpose import frame_files
@@ -53,6 +54,7 @@ def content_digest(path: Path, skeleton: AnyPath | None) -> str:
     digest = sha256(path.suffix.lower().encode())
     try:
         for file in files_of(path, skeleton):
+            refuse_pipe(file)
             of_file = sha256()
             with file.open("rb") as content:
                 while chunk := content.read(CHUNK):

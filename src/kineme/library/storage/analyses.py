@@ -30,6 +30,9 @@ from kineme.segments.table import COLUMNS, SegmentTable
 
 METADATA = b"kineme.library"
 FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
+KEY_LENGTH = 32
+"""Characters of the name of an analysis; see `kineme.library.settings.Settings.key`."""
+_FILE = re.compile(rf"[0-9a-f]{{{KEY_LENGTH}}}(\.parquet|(\.windows|\.moments)?\.npy)")
 LARGEST = 1e30
 """Sum of the squares of all features of a recording; no distance overflows below it."""
 LARGEST_SAMPLE = 1e18
@@ -87,6 +90,11 @@ def write_analysis(
         parquet.write_table(
             table.replace_schema_metadata({METADATA: facts}), draft, compression="zstd"
         )
+
+
+def is_analysis(name: str) -> bool:
+    """Return whether a file of an analysis is named so."""
+    return _FILE.fullmatch(name) is not None
 
 
 def has_analysis(folder: Path, key: str) -> bool:

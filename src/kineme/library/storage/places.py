@@ -116,14 +116,3 @@ def near(path: Path) -> Path:
         with atomic_write(copy) as draft:
             draft.write_bytes(content)
     return copy
-
-
-def remove_folder(folder: Path) -> None:
-    """Remove a folder with all that is in it, as far as that can be done."""
-    import shutil
-
-    if is_remote(folder):
-        remote: Any = folder
-        remote.fs.rm(remote.path, recursive=True)
-    else:
-        shutil.rmtree(folder, ignore_errors=True)

@@ -6,6 +6,7 @@ of what it holds; the head of the library names the valid one.
 
 from __future__ import annotations
 
+import re
 import secrets
 import shutil
 from collections.abc import Mapping
@@ -16,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._files import atomic_write, reading
+from kineme._files import OwnedFolder, atomic_write, is_draft, reading
 from kineme.errors import ReadError, WriteError
 from kineme.library.storage.layout import EMBEDDED, TABLES, arrow, as_array, as_column
 from kineme.library.storage.places import is_remote, written
@@ -63,11 +64,27 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
 }
 """The columns of each table, edits applied, and what is in them."""
 
+_FOLDER = re.compile(r"[0-9a-f]{16}|\.[0-9a-f]{12}")
+"""Name of the tables of a build, or of a draft of them."""
+_WINDOWS = re.compile(r"windows\.\d+\.npy")
+
 LARGEST = 1e30
 """Of any number in a table."""
 
 ADDED = ("label", "action_label")
 """Columns that come with the edits, where a table has none."""
+
+
+def is_tables(name: str) -> bool:
+    """Return whether the folder of the tables of a build is named so."""
+    return _FOLDER.fullmatch(name) is not None
+
+
+def is_table(name: str) -> bool:
+    """Return whether a file in such a folder is named so: a table, an index or a draft."""
+    stem, _, suffix = name.partition(".")
+    table = stem in DESCRIBED and suffix == "parquet"
+    return table or is_draft(name) or _WINDOWS.fullmatch(name) is not None
 
 
 def table_of(name: str, columns: Mapping[str, Any]) -> Any:
@@ -122,7 +139,7 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
                 parquet.write_table(table, file, compression="zstd")
             digest.update((draft / f"{name}.parquet").read_bytes())
         named = digest.hexdigest()[:16]
-        if not (home / named).is_dir():
+        if not OwnedFolder(folder).path(TABLES, named).is_dir():
             draft.rename(home / named)
     except OSError as error:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error

@@ -31,7 +31,7 @@ from kineme.labels import json_table
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.identities import Identities
-from kineme.studio.storage.sidecars import FOLDER, read_sidecar, write_file
+from kineme.studio.storage.sidecars import FOLDER, delete_file, read_sidecar, write_file
 from kineme.studio.storage.tables import content_of
 from kineme.web.requests import Edit
 
@@ -210,8 +210,7 @@ class Journal:
         forgotten = self._record.steps.keys() - record.steps.keys()
         self._record, self._unsaved = record, {}
         for number in forgotten:
-            with suppress(OSError):
-                self._path(number).unlink()
+            delete_file(self._path(number))
 
     def _write(self, record: Record) -> None:
         for number in self._unsaved.keys() & record.steps.keys():

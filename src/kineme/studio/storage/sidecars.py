@@ -20,9 +20,9 @@ from typing import Annotated, Any, TypedDict, TypeVar
 
 from msgspec import Meta, Struct
 
-from kineme._files import atomic_write, refuse_link, video_beside
+from kineme._files import OwnedFolder, atomic_write, video_beside
 from kineme._json import loaded
-from kineme.errors import KinemeError, ReadError, WriteError
+from kineme.errors import KinemeError, ReadError
 from kineme.formats import ReadOptions
 from kineme.studio.storage.listed import ListedRecording
 from kineme.web.messages import Video
@@ -162,19 +162,22 @@ def write_file(path: Path, content: bytes) -> None:
 
     WriteError where it cannot be; it, ``.kineme`` or a folder between is a link.
     """
-    _make_folder(path.parent)
+    root = _root_of(path)
+    OwnedFolder(root).make(*path.parent.relative_to(root).parts)
     with atomic_write(path) as draft:
         draft.write_bytes(content)
 
 
-def _make_folder(folder: Path) -> None:
-    if folder.name != FOLDER:
-        _make_folder(folder.parent)
-    refuse_link(folder)
-    try:
-        folder.mkdir(exist_ok=True)
-    except OSError as error:
-        raise WriteError(folder, f"cannot be made: {error.strerror or error}") from error
+def delete_file(path: Path) -> None:
+    """Delete a file of ``.kineme``, unless it or a folder around it is a link."""
+    root = _root_of(path)
+    folder = path.parent.relative_to(root).parts
+    OwnedFolder(root).delete(*folder, is_ours=lambda name: name == path.name)
+
+
+def _root_of(path: Path) -> Path:
+    """Return the folder of recordings that holds the ``.kineme`` of a path."""
+    return next(folder.parent for folder in path.parents if folder.name == FOLDER)
 
 
 def _reading(recording: Path) -> tuple[Reading, list[str]]:
