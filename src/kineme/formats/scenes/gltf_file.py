@@ -22,7 +22,7 @@ from msgspec import Struct, field
 
 from kineme._arrays import Floats
 from kineme._json import decoded
-from kineme.formats.files import FileContent, load
+from kineme.formats.files import FileContent, find_beside, load
 
 Part = TypeVar("Part")
 
@@ -203,7 +203,7 @@ class GLTFFile:
         name = unquote(place)
         if Path(name).is_absolute() or ".." in Path(name).parts or ":" in name:
             raise self.content.error(f"has a buffer in {name!r:.60}: put that file beside it")
-        data = load(self.content.path.parent / name).data
+        data = load(find_beside(self.content, name)).data
         self.beside += len(data)
         return data
 
