@@ -107,17 +107,17 @@ def serve() -> None:
 def _answer(path: Path, options: ReadOptions) -> Motion | KinemeError:
     from pxr import Tf
 
-    content = load(path)
     try:
         with reading(path):
+            content = load(path)
             try:
                 return _read(content, options)
             except Tf.ErrorException as error:
                 raise content.error("is no whole USD file: truncated or damaged") from error
-    except ReadError as error:
-        if type(error) is not ReadError:  # it lists the people
-            return error
-        return content.error("; ".join([error.reason, *content.remarks]))
+            except ReadError as error:
+                if content.remarks and type(error) is ReadError:  # none that lists people
+                    raise content.error("; ".join([error.reason, *content.remarks])) from error
+                raise
     except KinemeError as error:
         return error
 
