@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -206,6 +207,14 @@ def test_the_skeleton_is_found(data_dir: Path, tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="none of the 2 ASF files.*skeleton="):
         read(tmp_path / "figure_01.amc")
     assert read(tmp_path / "figure_01.amc", skeleton=tmp_path / "other.asf").n_frames == 3
+
+
+def test_folders_and_pipes_are_no_skeletons(tmp_path: Path) -> None:
+    path = pair(tmp_path, asf_name="anything.asf")
+    (tmp_path / "figure_01.asf").mkdir()
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(tmp_path / "figure.asf")
+    assert read(path).n_frames == 3
 
 
 def test_one_take_as_amc_and_as_bvh(data_dir: Path) -> None:

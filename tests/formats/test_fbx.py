@@ -76,6 +76,17 @@ def test_text_says_the_same(tmp_path: Path, encoding: str) -> None:
     np.testing.assert_allclose(motion.positions, expected.positions, atol=1e-9)
 
 
+@pytest.mark.parametrize("key", ["Pre-Extrapolation", "Größe", "3D.Size", "a|b", "Post-Extra "])
+def test_keys_of_texts_hold_any_letters(tmp_path: Path, key: str) -> None:
+    """Extrapolated curves have such keys, as Autodesk's programs write them."""
+    expected = motion_of(walker().text(), tmp_path)
+    more = f'KeyVer: 4009\n{key}: {{\n\tType: "C"\n\tRepetition: -1\n}}\n'
+    text = walker().text().decode()
+    assert "KeyVer: 4009\n" in text
+    motion = motion_of(text.replace("KeyVer: 4009\n", more).encode(), tmp_path)
+    assert (motion.positions == expected.positions).all()
+
+
 def test_a_file_of_blender(tmp_path: Path) -> None:
     """Five bones, 13 frames at 30 Hz, by Blender 5.0 with z up; made from this motion."""
     t = np.arange(13) / 30

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import struct
 import tempfile
 import warnings
@@ -251,6 +252,9 @@ def endless() -> File:
         (leg(), "holds no animation of its skeleton"),
         (beyond(), "accessor 0 is longer than its buffer: truncated"),
         (changed(asset={"version": "1.0"}), "is glTF of version 1.0: export glTF 2.0"),
+        (changed(asset={"version": "1.0"}, nodes={"a": {}}), "is glTF of version 1.0: export"),
+        (changed(asset={"version": 1}, accessors={"a": {}}), "is glTF of version 1: export"),
+        (changed(asset={}, accessors={"a": {}}), "is glTF of version 1.0: export"),
         (changed(accessors=[]), "accessor 1 is not in the file|accessor 0 is not in the file"),
         (changed(nodes=[{"children": [0]}]), "holds no skeleton"),
         (endless(), "claims 3 joints in"),
@@ -270,6 +274,62 @@ def test_buffers_elsewhere_are_not_opened(tmp_path: Path) -> None:
     (tmp_path / "a.gltf").write_text(json.dumps(changed(buffers=[{"uri": "a.bin"}]).tree))
     with pytest.raises(ReadError, match=r"a\.bin: cannot be opened"):
         read_quietly(tmp_path / "a.gltf")
+
+
+def test_buffers_that_are_links_or_pipes_are_not_opened(tmp_path: Path) -> None:
+    folder = tmp_path / "scene"
+    folder.mkdir()
+    file = leg().animate("a", (2, "rotation", TENTHS, [TURN] * 11, "LINEAR"))
+    (tmp_path / "a.bin").write_bytes(file.data)
+    (folder / "a.bin").symlink_to(tmp_path / "a.bin")
+    (folder / "a.gltf").write_text(json.dumps({**file.tree, "buffers": [{"uri": "a.bin"}]}))
+    with pytest.raises(ReadError, match=r"names 'a\.bin', which leads out of its folder"):
+        read_quietly(folder / "a.gltf")
+    (folder / "a.bin").rename(folder / "link")
+    (folder / "b.bin").write_bytes(file.data)
+    (folder / "a.bin").symlink_to("b.bin")
+    assert read_quietly(folder / "a.gltf").n_frames == 11
+    if hasattr(os, "mkfifo"):
+        (folder / "a.bin").unlink()
+        os.mkfifo(folder / "a.bin")
+        with pytest.raises(ReadError, match="is a pipe or a device"):
+            read_quietly(folder / "a.gltf")
+
+
+def test_accessors_without_a_view_are_zeros(tmp_path: Path) -> None:
+    file = leg().animate("a", (1, "translation", TENTHS, [[0, 90, 0]] * 11, "LINEAR"))
+    output = file.tree["accessors"][file.tree["animations"][0]["samplers"][0]["output"]]
+    dense = read_quietly(file.save(tmp_path / "a.glb"))
+    del output["bufferView"]
+    zeros = read_quietly(file.save(tmp_path / "a.glb"))
+    assert dense.positions - zeros.positions == pytest.approx(
+        np.broadcast_to([0, 0.9, 0], dense.positions.shape)
+    )
+    rows, values = file.array([3, 10], "<u2"), file.array([[1, 2, 3], [4, 5, 6]])
+    views = [file.tree["accessors"][number]["bufferView"] for number in (rows, values)]
+    output["sparse"] = {
+        "count": 2,
+        "indices": {"bufferView": views[0], "componentType": 5123},
+        "values": {"bufferView": views[1]},
+    }
+    root = (read_quietly(file.save(tmp_path / "a.glb")).positions - zeros.positions)[:, 0] * 100
+    assert root == pytest.approx(
+        np.eye(11)[3][:, None] * [1, 2, 3] + np.eye(11)[10][:, None] * [4, 5, 6]
+    )
+    # The same in place of values that are stored.
+    output["bufferView"] = 0
+    root = (read_quietly(file.save(tmp_path / "a.glb")).positions - dense.positions)[:, 0] * 100
+    assert root[[3, 10]] == pytest.approx(np.array([[1, -88, 3], [4, -85, 6]]))
+    assert np.abs(np.delete(root, [3, 10], axis=0)).max() < 1e-9
+    output["count"] = 10**9
+    with pytest.raises(ReadError, match="longer than its buffer"):
+        read_quietly(file.save(tmp_path / "a.glb"))
+    del output["bufferView"]
+    with pytest.raises(ReadError, match="claims an accessor of 1000000000"):
+        read_quietly(file.save(tmp_path / "a.glb"))
+    output["count"] = 10
+    with pytest.raises(ReadError, match="has values outside of it"):
+        read_quietly(file.save(tmp_path / "a.glb"))
 
 
 def test_truncated_files(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -81,6 +82,28 @@ def test_a_suit_comes_back(tmp_path: Path) -> None:
     at = [again.joint(name) for name in NAMES]
     assert np.allclose(again.positions[:, at], motion.positions, atol=1e-4)
     kineme.pose_features(found)
+
+
+def test_positions_without_orientations(tmp_path: Path) -> None:
+    motion = suit()
+    text = re.sub(r'(type="normal">)<orientation>.*?</orientation>', r"\1", mvnx(motion))
+    found = read(tmp_path, text)
+    assert (found.fps, found.skeleton.names, found.rotations) == (60, NAMES, None)
+    assert found.skeleton.parents == motion.skeleton.parents
+    assert np.allclose(found.positions, motion.positions, atol=1e-9)
+    assert np.abs(read(tmp_path, text, unit="cm").positions).max() < 0.1
+    with pytest.raises(ReadError, match="some frames have orientations and others none"):
+        read(
+            tmp_path,
+            mvnx(motion).replace("<orientation>", "<x>", 3).replace("</orientation>", "</x>", 3),
+        )
+
+
+def test_a_layout_without_orientations(data_dir: Path) -> None:
+    motion = kineme.read(data_dir / "layouts" / "mvnx_no_orientation.mvnx")
+    assert (motion.skeleton.n_joints, motion.fps, motion.rotations) == (23, 60, None)
+    places = {name: motion.positions[:, motion.joint(name), 1] for name in ("Head", "Pelvis")}
+    assert (places["Head"] > places["Pelvis"] + 0.3).all()  # metres, and y is up
 
 
 def test_a_prop_and_a_missing_segment(tmp_path: Path) -> None:

@@ -145,3 +145,159 @@ def test_without_the_package_it_is_named(tmp_path: Path) -> None:
     command = [sys.executable, "-c", program, str(tmp_path / "a.usda")]
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=os.environ)
     assert "pip install 'kineme[usd]'" in done.stdout
+
+
+HEAD = "#usda 1.0\n"
+
+
+@pytest.fixture
+def character(tmp_path: Path) -> Path:
+    """A character of 9 frames in a folder below another."""
+    path = tmp_path / "scene" / "parts" / "char.usda"
+    path.parent.mkdir(parents=True)
+    write(read_motion(kineme.bundled_recording())[:9], path)
+    return path
+
+
+def reference(place: str | Path) -> str:
+    return f'{HEAD}def "A" (references = @{place}@</char>) {{}}\n'
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        reference("./parts/char.usda"),
+        reference("parts/char.usda"),
+        f'{HEAD}def "A" (payload = @parts/char.usda@</char>) {{}}\n',
+        f"{HEAD}(subLayers = [@parts/char.usda@])\n",
+    ],
+)
+def test_layers_in_the_folder_of_a_stage_are_part_of_it(character: Path, text: str) -> None:
+    scene = character.parent.parent / "scene.usda"
+    scene.write_text(text)
+    motion = read_motion(scene, unit="m")
+    assert (motion.n_frames, motion.provenance.warnings) == (9, ())
+    assert np.abs(motion.positions - read_motion(character).positions).max() < 1e-6
+
+
+def test_layers_from_elsewhere_are_refused(character: Path, tmp_path: Path) -> None:
+    folder = character.parent.parent
+    outside = character.rename(tmp_path / "char.usda")
+    (folder / "link.usda").symlink_to(outside)
+    (folder / "folder").symlink_to(tmp_path)
+    places = [outside, "../char.usda", "parts/../../char.usda", "link.usda", "folder/char.usda"]
+    for place in places:
+        (folder / "scene.usda").write_text(reference(place))
+        with pytest.raises(ReadError, match="which leads out of its folder"):
+            read_quietly(folder / "scene.usda")
+    # What a layer in the folder names is held to the same folder.
+    (folder / "between.usda").write_text(f"{HEAD}(subLayers = [@../char.usda@])\n")
+    (folder / "scene.usda").write_text(f"{HEAD}(subLayers = [@between.usda@])\n")
+    with pytest.raises(ReadError, match="which leads out of its folder"):
+        read_quietly(folder / "scene.usda")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Windows has no pipes in folders")
+def test_a_layer_that_is_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.usda")
+    (tmp_path / "a.usda").write_text(reference("pipe.usda"))
+    with pytest.raises(ReadError, match="is a pipe or a device"):
+        read_quietly(tmp_path / "a.usda")
+    stage = Usd.Stage.CreateNew(str(tmp_path / "b.usda"))
+    variants = stage.DefinePrim("/A").GetVariantSets().AddVariantSet("kind")
+    variants.AddVariant("one")
+    variants.SetVariantSelection("one")
+    with variants.GetVariantEditContext():
+        UsdGeom.Xform.Define(stage, "/A/B")
+    stage.Save()
+    text = (tmp_path / "b.usda").read_text()
+    text = text.replace('def Xform "B"', 'def Xform "B" (payload = @./pipe.usda@)')
+    assert "pipe" in text
+    (tmp_path / "c.usda").write_text(text)
+    with pytest.raises(ReadError, match="is a pipe or a device"):
+        read_quietly(tmp_path / "c.usda")
+
+
+def test_missing_layers_are_left_out_with_a_warning(
+    character: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(character.parent)  # where the library would find it
+    scene = character.parent.parent / "scene.usda"
+    scene.write_text(f"{HEAD}(subLayers = [@parts/char.usda@, @char.usda@])\n")
+    motion = read_quietly(scene)
+    assert motion.n_frames == 9
+    assert motion.provenance.warnings == ("the layer 'char.usda' is missing or not USD: left out",)
+    scene.write_text(reference("char.usda"))
+    with pytest.raises(ReadError, match=r"holds no skeleton.*'char\.usda' is missing"):
+        read_quietly(scene)
+
+
+def test_what_the_library_prints_becomes_a_warning(
+    character: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    scene = character.parent.parent / "scene.usda"
+    scene.write_text(
+        f"{HEAD}(subLayers = [@parts/char.usda@])\n"
+        'def "B" (references = [</nowhere>, </C>]) {}\ndef "C" (references = </B>) {}\n'
+    )
+    with pytest.warns(kineme.KinemeWarning, match=r"the USD library warns: In </[BC]>") as caught:
+        assert kineme.read(scene).n_frames == 9
+    assert "\n" not in str(caught[0].message)
+    assert capfd.readouterr() == ("", "")
+
+
+def nested(depth: int) -> str:
+    """Each level holds the next one four times."""
+    inner = [f'def "c{k}" (references = </L%d>) {{}}' for k in range(4)]
+    lines = [
+        f'def "L{d}" {{\n' + "\n".join(line % (d + 1) for line in inner) + "\n}"
+        for d in range(depth)
+    ]
+    return "\n".join([HEAD, *lines, f'def "L{depth}" {{}}'])
+
+
+def doubled(depth: int) -> str:
+    """Each prim of a level is made of both of the next one."""
+    lines = [
+        f'def "P{d}{k}" (references = [</P{d + 1}a>, </P{d + 1}b>]) {{}}'
+        for d in range(depth)
+        for k in "ab"
+    ]
+    return "\n".join([HEAD, *lines, f'def "P{depth}a" {{}}', f'def "P{depth}b" {{}}'])
+
+
+def chain(depth: int) -> str:
+    lines = [f'def "P{d}" (references = </P{d + 1}>) {{}}' for d in range(depth)]
+    return "\n".join([HEAD, *lines, f'def "P{depth}" {{}}'])
+
+
+@pytest.mark.parametrize("text", [nested(30), doubled(30), chain(3000)])
+def test_references_that_multiply_are_refused(tmp_path: Path, text: str) -> None:
+    (tmp_path / "a.usda").write_text(text)
+    with pytest.raises(ReadError, match="its references multiply to more than 100000 prims"):
+        read_quietly(tmp_path / "a.usda")
+
+
+def test_sublayers_that_multiply_are_refused(tmp_path: Path) -> None:
+    for d in range(20):
+        for k in "ab":
+            text = f"{HEAD}(subLayers = [@L{d + 1}a.usda@, @L{d + 1}b.usda@])\n"
+            (tmp_path / f"L{d}{k}.usda").write_text(text if d < 19 else HEAD)
+    with pytest.raises(ReadError, match="its sublayers multiply to more than"):
+        read_quietly(tmp_path / "L0a.usda")
+
+
+def test_a_file_that_crashes_the_library_is_an_error(tmp_path: Path) -> None:
+    depth = 200_000
+    (tmp_path / "a.usda").write_text(HEAD + 'def "a" {\n' * depth + "}\n" * depth)
+    with pytest.raises(ReadError, match="the USD library crashed or ran out of memory"):
+        read_quietly(tmp_path / "a.usda")
+
+
+def test_clips_of_values_which_are_files_are_refused(tmp_path: Path) -> None:
+    stage = new_stage(tmp_path / "a.usda")
+    animate(stage, skeleton_on(stage, "/Ann"), "wave", [0.0, 1.0])
+    Usd.ClipsAPI(stage.GetPrimAtPath("/Ann")).SetClipAssetPaths(["/elsewhere.usda"])
+    stage.Save()
+    with pytest.raises(ReadError, match="has its animation in value clips"):
+        read_quietly(tmp_path / "a.usda")

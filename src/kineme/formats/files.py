@@ -11,6 +11,7 @@ from functools import cached_property
 from hashlib import sha256
 from math import isfinite
 from os import PathLike
+from os.path import realpath
 from pathlib import Path
 
 import numpy as np
@@ -120,6 +121,21 @@ def load(path: str | PathLike[str]) -> FileContent:
         raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
     except ValueError as error:  # a null byte in the name
         raise ReadError(path, f"cannot be opened: {error}") from error
+
+
+def find_beside(content: FileContent, place: str | PathLike[str]) -> Path:
+    """Return the path of a file that ``content`` names; ReadError where others chose the place.
+
+    It lies in the folder of ``content``, also once links are followed, and is no pipe.
+    """
+    folder = content.path.parent
+    path = folder / place
+    if not Path(realpath(path)).is_relative_to(realpath(folder)):
+        raise content.error(
+            f"names {str(place)!r:.90}, which leads out of its folder: put that file in it"
+        )
+    refuse_pipe(path)
+    return path
 
 
 def numbers(words: Sequence[str | bytes]) -> list[float]:

@@ -20,7 +20,7 @@ TEXT = re.compile(rb"^(\xef\xbb\xbf)?\s*;\s*FBX\s+\d|^FBXHeaderExtension\s*:", r
 
 _TOKEN = re.compile(
     rb"""\s*+ (?: ; [^\n]*+ \s*+ )*+ (?:
-    (?P<text> "[^"]*" ) | (?P<name> [A-Za-z_][\w|]* ) [ \t]* : | (?P<mark> [{},] ) |
+    (?P<text> "[^"]*" ) | (?P<name> [^\s,{}":;*]++ ) [ \t]*+ : | (?P<mark> [{},] ) |
     \* (?P<count> \d+ ) | (?P<word> [^\s,{}":;*]+ ) )""",
     re.VERBOSE,
 )
@@ -61,7 +61,7 @@ class _Text:
         kind = match.lastgroup or ""
         value, at = match[kind], match.start(kind)
         if kind == "name":
-            self.node = FBXNode(value.decode())
+            self.node = FBXNode(value.decode("utf-8", "replace"))
             self.open_nodes[-1].children.append(self.node)
             self.count += 1
             claim_nodes(self.content, self.count)

@@ -19,10 +19,11 @@ from urllib.parse import unquote
 
 import numpy as np
 from msgspec import Struct, field
+from numpy.typing import NDArray
 
 from kineme._arrays import Floats
 from kineme._json import decoded
-from kineme.formats.files import FileContent, load
+from kineme.formats.files import FileContent, find_beside, load
 
 Part = TypeVar("Part")
 
@@ -41,8 +42,15 @@ HEADER, CHUNK = struct.Struct("<4sII"), struct.Struct("<II")
 class Asset(Struct):
     """What the file is."""
 
-    version: str
+    version: Any = "1.0"
+    """A text since glTF 2.0."""
     extras: Any = None
+
+
+class Head(Struct):
+    """What the JSON of each version has."""
+
+    asset: Asset
 
 
 class Buffer(Struct):
@@ -61,8 +69,24 @@ class BufferView(Struct, rename="camel"):
     extensions: dict[str, Any] = field(default_factory=dict)
 
 
+class SparsePart(Struct, rename="camel"):
+    """The rows or the values that take the place of others."""
+
+    buffer_view: int
+    byte_offset: int = 0
+    component_type: int = 5125
+
+
+class Sparse(Struct):
+    """Which elements of an accessor have other values, and which."""
+
+    count: int
+    indices: SparsePart
+    values: SparsePart
+
+
 class Accessor(Struct, rename="camel"):
-    """An array in a view."""
+    """An array in a view; zeros where there is none."""
 
     component_type: int
     count: int
@@ -70,7 +94,7 @@ class Accessor(Struct, rename="camel"):
     buffer_view: int | None = None
     byte_offset: int = 0
     normalized: bool = False
-    sparse: Any = None
+    sparse: Sparse | None = None
 
 
 class SceneObject(Struct):
@@ -143,10 +167,10 @@ class GLTFFile:
         text, self._chunk = content.data, b""
         if text.startswith(MAGIC):
             text, self._chunk = _chunks(content)
-        self.tree = decoded(text, content.path, Tree)
-        if not self.tree.asset.version.startswith("2"):
-            version = self.tree.asset.version
+        version = str(decoded(text, content.path, Head).asset.version)
+        if not version.startswith("2"):
             raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
+        self.tree = decoded(text, content.path, Tree)
         self.beside = 0
         """Bytes of files beside it."""
         self._buffers: dict[int, bytes] = {}
@@ -163,29 +187,51 @@ class GLTFFile:
         code, width = COMPONENTS.get(accessor.component_type), WIDTHS.get(accessor.type)
         if code is None or width is None:
             raise self.content.error(f"accessor {number} is of a type that glTF does not know")
-        if accessor.sparse is not None or accessor.buffer_view is None:
-            raise self.content.error(f"accessor {number} is sparse, which is not read")
-        view = self.part(self.tree.buffer_views, accessor.buffer_view, "buffer view")
-        if "EXT_meshopt_compression" in view.extensions:
-            raise self.content.error("its keys are packed by meshopt: export them unpacked")
-        data = self._buffer(view.buffer)
-        size = np.dtype(code).itemsize
-        step = view.byte_stride or size * width
-        start = view.byte_offset + accessor.byte_offset
-        stop = min(view.byte_offset + view.byte_length, len(data))
-        last = start + (accessor.count - 1) * step + size * width
-        if min(view.byte_offset, accessor.byte_offset) < 0 or accessor.count < 1 or step < size:
-            raise self.content.error(f"accessor {number} is nowhere in its buffer: damaged")
-        if last > stop:
-            raise self.content.error(f"accessor {number} is longer than its buffer: truncated")
-        strides = step, size
-        stored = np.ndarray((accessor.count, width), code, data, start, strides)
+        if accessor.count < 1:
+            raise self.content.error(f"accessor {number} has no elements: damaged")
+        shape = accessor.count, width
+        if accessor.buffer_view is None:
+            self.content.claim(8 * accessor.count * width, f"an accessor of {accessor.count}")
+            stored = np.zeros(shape, code)
+        else:
+            place = accessor.buffer_view, accessor.byte_offset
+            stored = self._stored_array(number, *place, shape, code)
+        if (sparse := accessor.sparse) is not None:
+            stored = stored.copy()
+            kind = COMPONENTS.get(sparse.indices.component_type, "<f4")
+            where, what = sparse.indices, sparse.values
+            rows = self._stored_array(
+                number, where.buffer_view, where.byte_offset, (sparse.count, 1), kind
+            )[:, 0]
+            if rows.dtype.kind != "u" or rows.max() >= accessor.count:
+                raise self.content.error(f"accessor {number} has values outside of it: damaged")
+            stored[rows] = self._stored_array(
+                number, what.buffer_view, what.byte_offset, (sparse.count, width), code
+            )
         values = stored.astype(np.float64)
         if accessor.normalized and stored.dtype.kind in "iu":
             values = np.maximum(values / np.iinfo(stored.dtype).max, -1.0)
         if not np.isfinite(values).all():
             raise self.content.error(f"accessor {number} has values that are not finite: damaged")
         return values
+
+    def _stored_array(
+        self, number: int, view_number: int, offset: int, shape: tuple[int, int], code: str
+    ) -> NDArray[Any]:
+        """The elements that an accessor of this number has in a view, from ``offset`` on."""
+        view = self.part(self.tree.buffer_views, view_number, "buffer view")
+        if "EXT_meshopt_compression" in view.extensions:
+            raise self.content.error("its keys are packed by meshopt: export them unpacked")
+        data = self._buffer(view.buffer)
+        size, (count, width) = np.dtype(code).itemsize, shape
+        step = view.byte_stride or size * width
+        start = view.byte_offset + offset
+        stop = min(view.byte_offset + view.byte_length, len(data))
+        if min(view.byte_offset, offset) < 0 or count < 1 or step < size:
+            raise self.content.error(f"accessor {number} is nowhere in its buffer: damaged")
+        if start + (count - 1) * step + size * width > stop:
+            raise self.content.error(f"accessor {number} is longer than its buffer: truncated")
+        return np.ndarray(shape, code, data, start, (step, size))
 
     def _buffer(self, number: int) -> bytes:
         if number not in self._buffers:
@@ -203,7 +249,7 @@ class GLTFFile:
         name = unquote(place)
         if Path(name).is_absolute() or ".." in Path(name).parts or ":" in name:
             raise self.content.error(f"has a buffer in {name!r:.60}: put that file beside it")
-        data = load(self.content.path.parent / name).data
+        data = load(find_beside(self.content, name)).data
         self.beside += len(data)
         return data
 

@@ -5,12 +5,21 @@ others that move joints of its. Unit and up axis are the stage's, and so is the 
 in a second, over those between two samples. Between samples USD itself interpolates, which is what
 ``fps=`` asks it for. Joints that the animation does not move are as at rest. Needs ``usd-core``.
 
+The file is read in a process of its own: the library can crash, hang or print on damaged files.
+
 Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
 """
 
 from __future__ import annotations
 
+import os
+import pickle
+import re
+import subprocess
+import sys
 from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,7 +27,9 @@ import numpy as np
 from kineme import _rotations as rot
 from kineme._arrays import Floats
 from kineme._checks import needed
-from kineme.formats.files import FileContent, unique
+from kineme._files import reading
+from kineme.errors import KinemeError, ReadError
+from kineme.formats.files import FileContent, load, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import (
@@ -29,6 +40,7 @@ from kineme.formats.scenes.assembly import (
     quaternions,
 )
 from kineme.formats.scenes.characters import SceneNode, character_of, choose_take, is_end
+from kineme.formats.scenes.usd_layers import LONGEST, SUFFIXES, open_stage
 from kineme.formats.scenes.usd_writer import END_SITES, write_usd
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
@@ -41,21 +53,89 @@ _EVEN = 0.02  # share of their median by which steps between samples may differ 
 _ROUNDED = 0.1  # of a frame, by which the last sample may miss it
 _MOST_FRAMES = 1e12
 
+_PROGRAM = """
+import pickle, sys
+sys.path[:] = pickle.load(sys.stdin.buffer)
+from kineme.formats.scenes.usd import serve
+serve()
+"""
+# Threads would take memory before anything is read.
+_SINGLE_THREADED = {"PXR_WORK_THREAD_LIMIT": "1", "OPENBLAS_NUM_THREADS": "1"}
+_MESSAGE = re.compile(r"^Warning: in .* -- (.*)", re.MULTILINE)
+
 
 def read_usd(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of a skeleton in a USD file."""
+    """Read the motion of a skeleton in a USD file."""
     with needed("usd-core", "usd"):
-        from pxr import Tf
+        import pxr  # noqa: F401
+    request = pickle.dumps(sys.path) + pickle.dumps((content.path, options))
     try:
-        return _read(content, options)
-    except Tf.ErrorException as error:
-        raise content.error("is no whole USD file: truncated or damaged") from error
+        done = subprocess.run(  # noqa: S603
+            [sys.executable, "-I", "-c", _PROGRAM],
+            input=request,
+            capture_output=True,
+            timeout=LONGEST,
+            env=os.environ | _SINGLE_THREADED,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        raise content.error(
+            f"takes the USD library more than {LONGEST:.0f} s: flatten it"
+        ) from None
+    if done.returncode:
+        raise content.error(
+            "the USD library crashed or ran out of memory on it: it is damaged, or nested too deep"
+        )
+    found = pickle.loads(done.stdout)  # noqa: S301 (written by `serve`)
+    complaints = _complaints(done.stderr)
+    if isinstance(found, Motion):
+        return replace(found, provenance=found.provenance.noted(*complaints))
+    if type(found) is ReadError:
+        found = content.error("; ".join([found.reason, *complaints]))
+    raise found
+
+
+def serve() -> None:
+    """Answer `read_usd`, from standard input to standard output: a motion or an error."""
+    answer = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what the library prints
+    path, options = pickle.load(sys.stdin.buffer)  # noqa: S301 (written by `read_usd`)
+    with answer:
+        pickle.dump(_answer(path, options), answer)
+
+
+def _answer(path: Path, options: ReadOptions) -> Motion | KinemeError:
+    from pxr import Tf
+
+    try:
+        with reading(path):
+            content = load(path)
+            try:
+                return _read(content, options)
+            except Tf.ErrorException as error:
+                raise content.error("is no whole USD file: truncated or damaged") from error
+            except ReadError as error:
+                if content.remarks and type(error) is ReadError:  # none that lists people
+                    raise content.error("; ".join([error.reason, *content.remarks])) from error
+                raise
+    except KinemeError as error:
+        return error
+
+
+def _complaints(printed: bytes) -> list[Note]:
+    """Return what the library printed as one warning: its first message, and how many others."""
+    texts = dict.fromkeys(_MESSAGE.findall(printed.decode(errors="replace")))
+    if not texts:
+        return []
+    first = "".join(letter for letter in next(iter(texts)) if letter.isprintable())
+    more = f", and {len(texts) - 1} more" if len(texts) > 1 else ""
+    return [Note(f"the USD library warns: {first:.160}{more}", "warning")]
 
 
 def _read(content: FileContent, options: ReadOptions) -> Motion:
-    from pxr import Usd, UsdGeom, UsdSkel
+    from pxr import UsdGeom, UsdSkel
 
-    stage = Usd.Stage.Open(str(content.path))
+    stage, beside = open_stage(content)
     skeletons = [_Skeleton(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Skeleton)]
     nodes, homes = _nodes(skeletons)
     character = character_of(content, nodes, options.person)
@@ -66,7 +146,7 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
     fitting = skeleton.fitting(animations)
     names = unique(each.GetPrim().GetName() for each in fitting)
     number, notes = choose_take(content, names, range(len(fitting)), options.take)
-    fps, codes, rated = _frames(content, stage, fitting[number], len(nodes), options)
+    fps, codes, rated = _frames(content, stage, fitting[number], len(nodes), options, beside)
     pose = skeleton.pose(fitting[number], codes)
     up = options.up or ("z" if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z else "y")
     carrier = _carrier(UsdGeom.Xformable(skeleton.prim), codes)
@@ -158,7 +238,7 @@ def _nodes(
 
 
 def _frames(
-    content: FileContent, stage: Any, animation: Any, joints: int, options: ReadOptions
+    content: FileContent, stage: Any, animation: Any, joints: int, options: ReadOptions, beside: int
 ) -> tuple[float, Floats, list[str]]:
     """Frames per second, the time code of each frame, and what to say of them."""
     attributes = (
@@ -183,7 +263,7 @@ def _frames(
         raise content.error("tells no time that could be: give fps= (--fps)")
     step = a_second / fps
     count = min((times[-1] - times[0]) / step + 1 + _ROUNDED, _MOST_FRAMES)
-    claim_frames(content, joints, int(count))
+    claim_frames(content, joints, int(count), beside=beside)
     return fps, times[0] + step * np.arange(int(count)), notes
 
 
@@ -225,7 +305,7 @@ def _transform(matrices: Floats) -> Transform:
 
 FORMAT = Format(
     "USD",
-    (".usda", ".usdc", ".usd"),
+    SUFFIXES,
     lambda head: head.startswith(HEADS),
     read_usd,
     write_usd,

@@ -102,7 +102,7 @@ def find_skeleton(path: Path) -> Path:
     stems = ["_".join(parts[:n]).lower() for n in range(len(parts), 0, -1)]
     candidates: list[Path] = []
     for folder in (path.parent, path.parent / "asf", path.parent.parent / "asf"):
-        found = sorted(p for p in folder.glob("*") if p.suffix.lower() == ".asf")
+        found = sorted(p for p in folder.glob("*") if p.suffix.lower() == ".asf" and p.is_file())
         by_stem = {p.stem.lower(): p for p in found}
         for stem in stems:
             if stem in by_stem:

@@ -4,7 +4,8 @@ A ``subject`` has ``segments`` with labels, a ``frameRate``, and ``frames``. Eac
 type ``normal`` has the ``position`` of the origin of each segment (metres, z up) and its
 ``orientation`` (quaternions w, x, y, z, from the segment to the world). Frames of other types are
 poses of calibration. The origin of a segment is the joint that it hangs on. The 23 segments of the
-body are read; props, fingers, sensors and joint angles are passed over.
+body are read; props, fingers, sensors and joint angles are passed over. Where no orientations were
+exported, the motion has positions only.
 
 Source: Xsens, "MVN User Manual", chapter on the file format MVNX.
 """
@@ -25,6 +26,7 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.persons import chosen_person
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.placing import place
+from kineme.formats.units import metres, upright
 from kineme.recordings import Motion, Skeleton
 
 KINDS = ("position", "orientation")
@@ -65,23 +67,10 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     if "Pelvis" not in names:
         raise content.error("none of its segments is a 'Pelvis'")
     n, chosen = len(subject.segments), [subject.segments.index(name) for name in names]
-    positions = _stacked(content, subject, "position", 3 * n).reshape(-1, n, 3)
-    world = _stacked(content, subject, "orientation", 4 * n).reshape(-1, n, 4)
-    if len(positions) != len(world):
-        raise content.error("not all frames have positions and orientations: export both")
-    positions, world = positions[:, chosen], world[:, chosen]
-    lengths = np.linalg.norm(world, axis=2, keepdims=True)
-    if not (np.isfinite(positions).all() and np.isfinite(lengths).all() and (lengths > 0).all()):
-        raise content.error("positions or orientations are not all numbers")
-    world = world / lengths
     parents = [_parent(name, names) for name in names]
-    local, offsets = world.copy(), np.zeros((len(names), 3))
-    for joint, parent in enumerate(parents):
-        if parent >= 0:
-            back = rot.conjugate(world[:, parent])
-            local[:, joint] = rot.multiply(back, world[:, joint])
-            apart = rot.rotate(back, positions[:, joint] - positions[:, parent])
-            offsets[joint] = np.median(apart, axis=0)
+    positions = _stacked(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
+    if not np.isfinite(positions).all():
+        raise content.error("positions are not all numbers")
     fps = options.fps or subject.rate
     if not fps > 0:
         raise content.error("it tells no frameRate: give fps= (--fps)")
@@ -90,6 +79,26 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     provenance = content.provenance("MVNX", notes)
     if len(people) > 1:
         provenance = provenance.of_person(who, called)
+    if not subject.values["orientation"]:
+        positions = metres(options.unit or "m") * upright(positions, options.up or "z")
+        tallest = positions[np.ptp(positions[:, :, 1], axis=1).argmax()]  # bones at full length
+        offsets = tallest - np.where(np.array(parents)[:, None] < 0, tallest, tallest[parents])
+        skeleton = Skeleton(tuple(names), tuple(parents), offsets)
+        return Motion(skeleton, positions, fps, None, provenance)
+    world = _stacked(content, subject, "orientation", 4 * n).reshape(-1, n, 4)[:, chosen]
+    if len(positions) != len(world):
+        raise content.error("some frames have orientations and others none: export all with them")
+    lengths = np.linalg.norm(world, axis=2, keepdims=True)
+    if not (np.isfinite(lengths).all() and (lengths > 0).all()):
+        raise content.error("orientations are not all numbers")
+    world = world / lengths
+    local, offsets = world.copy(), np.zeros((len(names), 3))
+    for joint, parent in enumerate(parents):
+        if parent >= 0:
+            back = rot.conjugate(world[:, parent])
+            local[:, joint] = rot.multiply(back, world[:, joint])
+            apart = rot.rotate(back, positions[:, joint] - positions[:, parent])
+            offsets[joint] = np.median(apart, axis=0)
     return place(
         Skeleton(tuple(names), tuple(parents), offsets),
         local,
