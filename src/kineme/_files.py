@@ -255,6 +255,19 @@ def of_person(path: Path, person: str) -> Path:
     return path.with_name(f"{path.name.removesuffix(suffix)}{ending_of(person)}{suffix}")
 
 
+def as_display_name(name: str | os.PathLike[str]) -> str:
+    r"""Return the name of a file as text that every output can hold.
+
+    Bytes that are not UTF-8 become the replacement character.
+
+    Examples
+    --------
+    >>> as_display_name("take\udcff") == "take\ufffd"
+    True
+    """
+    return os.fspath(name).encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+
+
 def ending_of(person: str) -> str:
     """What the names of files end in that are of one person: ``_anna``; nothing for nobody."""
     name = re.sub(r"[^\w.-]+", "_", person).encode(errors="ignore")[:LONGEST_PERSON]

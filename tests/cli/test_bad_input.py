@@ -208,3 +208,24 @@ def test_memory_does_not_grow_with_the_square_of_the_columns() -> None:
     finally:
         tracemalloc.stop()
     assert peak < 12_000**2 * 8 / 4  # a quarter of one matrix of channels × channels
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        "cycles -o out.csv", "cycles -o out.mat", "cycles -o out.nc", "cycles -o out.parquet",
+        "cycles -o out.xlsx", "segment --plot out.png", "segment -o out.csv",
+        "segment -o out.parquet", "segment --report out.html", "events -o out.csv", "report",
+        "split -o clips", "info --json",
+    ],
+)  # fmt: skip
+def test_a_name_that_is_not_utf8_costs_no_output(kineme_process, tmp_path, arguments) -> None:
+    name = os.fsdecode(b"take\xff.bvh")
+    (tmp_path / name).write_bytes(Path(bundled_recording()).read_bytes())
+    command, *options = arguments.split()
+    ran = kineme_process(command, name, *options)
+    assert ran.returncode == 0, ran.stderr
+    assert "Traceback" not in ran.stderr
+    written = [option for option in options if option.startswith("out.")]
+    assert all((tmp_path / each).stat().st_size for each in written)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import as_indices, check_flag, check_one_of, check_type
-from kineme._files import ending_of
+from kineme._files import as_display_name, ending_of
 from kineme._version import __version__
 from kineme.cycles.align import ALIGNMENTS, LINEAR, aligned
 from kineme.cycles.anchors import anchored
@@ -238,7 +238,7 @@ def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
         each.provenance.person if len(each.provenance.people) > 1 else "" for each in recordings
     ]
     names = [
-        path.stem + ending_of(person or "") * (counts[path.stem] > 1)
+        as_display_name(path.stem) + ending_of(person or "") * (counts[path.stem] > 1)
         for path, person in zip(files, people, strict=True)
     ]
     counts = Counter(names)

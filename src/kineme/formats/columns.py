@@ -148,8 +148,8 @@ def _in_one_unit(
             f"'{column} [{units[0]}]', or give unit= (--unit) for all of them"
         )
     for j, axes in enumerate(by_joint.values()):
-        for axis, unit in axes.items():
-            positions[:, j, "xyz".index(axis)] *= metres(unit or "m")
+        for axis, stated in axes.items():
+            positions[:, j, "xyz".index(axis)] *= metres(stated or "m")
     return "m", [f"columns are in {listed}, each taken in its own"]
 
 

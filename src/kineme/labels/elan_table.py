@@ -50,7 +50,7 @@ def read(path: Path) -> Labels:
 
 def _under_names(rows: Sequence[tuple[int, list[str]]], path: Path) -> Iterator[Annotation]:
     names = rows[0][1]
-    times = {}
+    times: dict[str, tuple[int, bool]] = {}
     for i, name in enumerate(names):
         if (match := _TIMES.fullmatch(name.strip())) and "hh:mm:ss:ff" not in name.lower():
             times.setdefault(match[1].lower(), (i, match[2].strip().lower() == "msec"))

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from kineme._checks import check_path, check_type
 from kineme._colors import NO_CLUSTER, cluster_color, label_colors
-from kineme._files import atomic_write
+from kineme._files import as_display_name, atomic_write
 from kineme.errors import WriteError
 from kineme.segmentation.spans import in_time
 from kineme.segments.segmentation import Segmentation
@@ -289,5 +289,9 @@ def _graph_of(graph: Any, caller: str) -> NeighborGraph:
 def _title(segmentation: Segmentation) -> str:
     source = segmentation.provenance.get("input", {}).get("path") or "recording"
     preset = segmentation.provenance.get("preset")
-    parts = [Path(source).name, segmentation.describe(), *([preset] if preset else [])]
+    parts = [
+        as_display_name(Path(source).name),
+        segmentation.describe(),
+        *([preset] if preset else []),
+    ]
     return "  ·  ".join(parts)

@@ -14,6 +14,7 @@ from scipy.optimize import linear_sum_assignment
 
 from kineme._checks import as_texts, check_type, is_one_of
 from kineme._colors import label_colors
+from kineme._files import as_display_name
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
@@ -161,7 +162,7 @@ def _names(results: Sequence[Segmentation]) -> list[str]:
     numbers = [f"result {number}" for number in range(1, len(results) + 1)]
     presets = [result.provenance.get("preset") for result in results]
     paths = [(result.provenance.get("input") or {}).get("path") for result in results]
-    files = [Path(path).name if isinstance(path, str) else None for path in paths]
+    files = [as_display_name(Path(path).name) if isinstance(path, str) else None for path in paths]
     for names in (presets, files):
         chosen = [name or number for name, number in zip(names, numbers, strict=True)]
         if len(set(chosen)) == len(chosen):

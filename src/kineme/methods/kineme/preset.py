@@ -44,7 +44,7 @@ OF_SENSORS: Mapping[str, Any] = {
     "weights": (0.5, 1.0, 1.0) * 3,
     "restless_over": (0.0, 0.0, 1.0) * 3,
     "min_explained": 0.8,
-    "chance_duration": 32.0,  # few slow repetitions may be chance: sitting down twice is no exercise
+    "chance_duration": 32.0,  # sitting down twice is no exercise
     "centering": 0.4,
     "min_similarity": 1.0,
     "event_scale": 0.0,

@@ -146,7 +146,7 @@ def _split(chance: Chance, table: Segmentation) -> dict[str, Any]:
 
 
 def _merge(chance: Chance, table: Segmentation) -> dict[str, Any]:
-    rows = list(table.level(_level(chance, table)))  # type: ignore[call-overload]
+    rows = list(table.level(_level(chance, table)))  # type: ignore[arg-type]
     first = chance.randrange(len(rows))
     last = min(first + chance.choice([1, 1, 2]), len(rows) - 1)
     frames = {"start_frame": rows[first].start_frame, "stop_frame": rows[last].stop_frame}
@@ -170,7 +170,7 @@ def _order(chance: Chance, table: Segmentation) -> dict[str, Any]:
 
 
 def _checked(chance: Chance, table: Segmentation) -> dict[str, Any]:
-    rows = list(table.level(_level(chance, table)))  # type: ignore[call-overload]
+    rows = list(table.level(_level(chance, table)))  # type: ignore[arg-type]
     frames = [row.start_frame for row in chance.sample(rows, min(2, len(rows)))]
     return {"level": rows[0].level, "frames": frames, "checked": chance.random() < 0.7}
 
