@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme._arrays import Floats
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import forward_kinematics, local_translations
+from kineme.recordings.kinematics import forward_kinematics, local_translations, world_rotations
 
 NEAR_S = 0.035
 """Seconds of a clip that tell how it ends and begins."""
@@ -80,13 +80,25 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
         free = np.ones(motion.positions.shape[1], bool)
         positions = _closed_places(motion.positions, fps, carry, free)
         return replace(motion, positions=positions, provenance=provenance), carry
-    roots = np.array(motion.skeleton.parents) < 0
-    rotations = _closed_rotations(motion.rotations, fps, carry, roots)
-    translations = _closed_places(
-        local_translations(motion.skeleton, motion.positions, motion.rotations), fps, carry, roots
-    )
-    positions = forward_kinematics(motion.skeleton, rotations, translations=translations)
-    return Motion(motion.skeleton, positions, fps, rotations, provenance), carry
+    skeleton, hips = motion.skeleton, motion.skeleton.carrier
+    above = skeleton.parents[hips]
+    free = np.array(skeleton.parents) < 0
+    rotations = np.array(motion.rotations)
+    translations = local_translations(skeleton, motion.positions, motion.rotations)
+    if above >= 0:  # root bones stay where they are: the carry is of the hips, in world axes
+        free = np.arange(skeleton.n_joints) == hips
+        around = world_rotations(skeleton, rotations)[:, above]
+        rotations[:, hips] = rot.multiply(around, rotations[:, hips])
+        translations[:, hips] = motion.positions[:, hips]
+    rotations = _closed_rotations(rotations, fps, carry, free)
+    translations = _closed_places(translations, fps, carry, free)
+    if above >= 0:
+        positions = forward_kinematics(skeleton, rotations, translations=translations)
+        back = rot.conjugate(world_rotations(skeleton, rotations)[:, above])
+        rotations[:, hips] = rot.multiply(back, rotations[:, hips])
+        translations[:, hips] = rot.rotate(back, translations[:, hips] - positions[:, above])
+    positions = forward_kinematics(skeleton, rotations, translations=translations)
+    return Motion(skeleton, positions, fps, rotations, provenance), carry
 
 
 def with_first_again(motion: Motion, carry: Carry) -> Motion:
@@ -110,7 +122,7 @@ def carry_of(motion: Motion) -> Carry:
     """What brings the pose half a frame before the first closest to that after the last."""
     if motion.n_frames < 2:
         return Carry(0.0, 0.0, 0.0)
-    before, after = seam_sides(motion.positions, motion.fps)
+    before, after = seam_sides(motion.positions[:, motion.skeleton.body], motion.fps)
     first, last = after[0], before[0]
     (x, _, z), (u, _, w) = (pose.mean(axis=0) for pose in (first, last))
     a, b = first - first.mean(axis=0), last - last.mean(axis=0)

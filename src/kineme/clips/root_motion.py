@@ -59,7 +59,7 @@ def without_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotio
     """The motion in place, at the origin and facing +z, and what was taken out, in its axes."""
     start = root_motion(motion, carry)
     unmoved = _on_path(motion, carry, np.zeros(3))
-    x, _, z = unmoved.positions[:, _root(motion)].mean(axis=0)
+    x, _, z = unmoved.positions[:, motion.skeleton.carrier].mean(axis=0)
     facing, center = _facing(unmoved), np.array([x, 0.0, z])
     settled = _turned(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
     # The speed of the point that comes to lie at the origin, not that of the root in frame 0.
@@ -135,13 +135,9 @@ def _facing(motion: Motion) -> float:
     return atan2(float(np.sin(angles).mean()), float(np.cos(angles).mean()))
 
 
-def _root(motion: Motion) -> int:
-    return motion.skeleton.parents.index(-1) if -1 in motion.skeleton.parents else 0
-
-
 def _start(motion: Motion) -> Floats:
-    """Where on the floor the first root begins."""
-    x, _, z = motion.positions[0, _root(motion)]
+    """Return where on the floor the hips begin."""
+    x, _, z = motion.positions[0, motion.skeleton.carrier]
     return np.array([x, 0.0, z])
 
 

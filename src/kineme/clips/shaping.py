@@ -147,21 +147,24 @@ def played_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
 
 def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
     """By index of the segment the quality of each loop; transitions have none."""
-    usual, found = usual_steps(motion.positions), dict[int, LoopQuality]()
+    body = list(motion.skeleton.body)  # a root bone that stays still would count as closed
+    usual, found = usual_steps(motion.positions[:, body]), dict[int, LoopQuality]()
     for members in _candidates(rows).values():
         shapes = []
         for index in members:
             clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
-            shapes.append(without_root_motion(clip, carry_of(clip))[0].positions)
+            shapes.append(without_root_motion(clip, carry_of(clip))[0].positions[:, body])
         for index, unlike in zip(members, distances(shapes), strict=True):
             row = rows[index]
             clip = cut(motion, row.start_frame, row.stop_frame)
             closed, carry = loop(clip)
-            of_clip = [(points, mask[row.start_frame : row.stop_frame]) for points, mask in
-                       feet.values()]  # fmt: skip
+            of_clip = [
+                ([body.index(point) for point in points], mask[row.start_frame : row.stop_frame])
+                for points, mask in feet.values()
+            ]
             found[index] = loop_quality(
-                clip.positions,
-                closed.positions,
+                clip.positions[:, body],
+                closed.positions[:, body],
                 carry,
                 motion.fps,
                 usual=usual,
@@ -255,8 +258,7 @@ def _poses(clip: Motion) -> dict[str, dict[str, Any]] | None:
         relative = body_frame(clip, ends.indices)[[0, -1]]
     except (EndEffectorError, MotionError):
         return None
-    root = clip.skeleton.parents.index(-1)
-    heights = clip.positions[[0, -1], root, 1]
+    heights = clip.positions[[0, -1], clip.skeleton.carrier, 1]
     return {
         name: {"height_m": float(height), **dict(zip(PARTS, pose.tolist(), strict=True))}
         for name, height, pose in zip(("first", "last"), heights, relative, strict=True)

@@ -41,10 +41,10 @@ def body_size(motion: Motion, effectors: EndEffectors) -> float:
 
 
 def _chain(motion: Motion, joint: int) -> float:
-    """Length of the bones from a joint up to its root."""
+    """Return the length of the bones from a joint up to the hips."""
     length = 0.0
     parent = motion.skeleton.parents[joint]
-    while parent >= 0:
+    while parent >= 0 and joint != motion.skeleton.carrier:
         if motion.rotations is None:
             bone = motion.positions[:, joint] - motion.positions[:, parent]
             length += float(np.median(np.linalg.norm(bone, axis=-1)))

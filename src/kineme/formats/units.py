@@ -153,12 +153,16 @@ def rate_from_period(word: str) -> tuple[float, str | None]:
 
 
 def _longest_path(skeleton: Skeleton, lengths: Floats) -> float:
-    """The longest path between two joints along the bones."""
+    """Return the longest path between two joints along the bones of the body.
+
+    Bones above the hips are left out: their length is how far somebody walked.
+    """
+    body = set(skeleton.body) - {skeleton.carrier}
     reach = [0.0] * skeleton.n_joints
     longest = 0.0
     for joint in range(skeleton.n_joints - 1, -1, -1):
         parent = skeleton.parents[joint]
-        if parent >= 0:
+        if parent >= 0 and joint in body:
             branch = reach[joint] + float(lengths[joint])
             longest = max(longest, reach[parent] + branch)
             reach[parent] = max(reach[parent], branch)

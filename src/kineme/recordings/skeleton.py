@@ -27,6 +27,9 @@ from kineme.recordings.arrays import assign, frozen
 
 Floats = NDArray[np.float64]
 
+LIMB = 2
+"""Bones below the first joint of a leg, at least: knee to ankle, ankle to toes."""
+
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
@@ -118,6 +121,46 @@ class Skeleton:
             if parent >= 0:
                 lists[parent].append(joint)
         return tuple(map(tuple, lists))
+
+    @cached_property
+    def carrier(self) -> int:
+        """The joint that carries the body: the hips, also where root bones lie above them.
+
+        It is the first joint from the root down, always into the largest branch, that has two
+        limbs: children with the same number of joints below them, two bones or more deep. Where
+        there are no limbs it is the first root.
+
+        Examples
+        --------
+        >>> legs = ("root", "hips", "knee_l", "foot_l", "toe_l", "knee_r", "foot_r", "toe_r")
+        >>> parents = (-1, 0, 1, 2, 3, 1, 5, 6)
+        >>> Skeleton(legs, parents, np.zeros((8, 3))).carrier
+        1
+        """
+        below, depth = [1] * self.n_joints, [0] * self.n_joints
+        for joint in range(self.n_joints - 1, 0, -1):
+            if (parent := self.parents[joint]) >= 0:
+                below[parent] += below[joint]
+                depth[parent] = max(depth[parent], depth[joint] + 1)
+        roots = [joint for joint, parent in enumerate(self.parents) if parent < 0]
+        joint = max(roots, key=lambda root: below[root])
+        while branches := self.children[joint]:
+            limbs = [below[each] for each in branches if depth[each] >= LIMB]
+            if len(limbs) > len(set(limbs)):
+                return joint
+            joint = max(branches, key=lambda branch: below[branch])
+        return roots[0]
+
+    @cached_property
+    def body(self) -> tuple[int, ...]:
+        """The joints of the body: all but those that lie above the carrier or beside it."""
+        if self.parents[self.carrier] < 0:
+            return tuple(range(self.n_joints))
+        inside = {self.carrier}
+        for joint, parent in enumerate(self.parents):  # parents come first
+            if parent in inside:
+                inside.add(joint)
+        return tuple(sorted(inside))
 
     @cached_property
     def _index(self) -> dict[str, int]:

@@ -46,7 +46,7 @@ def jumps(
     rate = POSES.working_fps
     slow = [resample(motion, rate) for motion in motions]
     firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
-    points = np.concatenate([motion.positions for motion in slow])
+    points = np.concatenate([motion.positions[:, motion.skeleton.body] for motion in slow])
     features = np.concatenate([motion_features(motion, POSES) for motion in motions])
     half = round(window * rate / 2)
     ratio = motions[0].fps / rate

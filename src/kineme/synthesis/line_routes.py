@@ -115,7 +115,8 @@ def line_route(
     if not tolerance > 0:
         raise ParameterError(f"the tolerance must be metres above 0, not {tolerance}")
     points = spaced(line)
-    floors = [m.positions[:, 0, 0] + 1j * m.positions[:, 0, 2] for m in motions]
+    hips = [motion.positions[:, motion.skeleton.carrier] for motion in motions]
+    floors = [path[:, 0] + 1j * path[:, 2] for path in hips]
     found = _search(graph, floors, points, _allowed(graph, actions))
     if found is None:
         raise ParameterError(
