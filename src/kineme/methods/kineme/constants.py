@@ -132,7 +132,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     chance_period: float = constant(
         "shorter repetitions make no difference between samples, and save nothing", unit="s",
-        limits=SOME_TIME, fine=True, default=1.6,
+        limits=SOME_TIME, fine=True, default=1.7,
     )  # fmt: skip
     max_repetition: float = constant(
         "longest repetition; what lasts longer is a series of activities", unit="s",
