@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from test_c3d_events import GAIT, c3d
 from typer.testing import CliRunner
@@ -128,6 +128,7 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
     assert not (tmp_path / "copy.c3d").exists()
 
 
+@example(1049, 0)  # the record of labels is lost
 @given(st.integers(1, 3000), st.integers(0, 255))
 @settings(max_examples=60)
 def test_a_damaged_file_is_refused_or_read_as_before(tmp_path_factory, place, value) -> None:

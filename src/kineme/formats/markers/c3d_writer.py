@@ -108,7 +108,8 @@ def _is_kept(before: Parameters, after: Parameters, table: dict[str, list[Any]])
 def _table(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, list[Any]]:
     """By parameter the values of all events: those of the file first, in its order."""
     parameters, first = layout.parameters, (layout.first_frame - 1) / layout.rate
-    used = int(parameters.number(EVENT, "USED", 0))
+    # An event without a label is none for the reader either.
+    used = min(int(parameters.number(EVENT, "USED", 0)), len(parameters.texts(EVENT, "LABELS")))
     times = parameters.numbers(EVENT, "TIMES")
     pairs = list(zip(times[::2], times[1::2], strict=False))[:used]
     table: dict[str, list[Any]] = {"TIMES": pairs}
