@@ -105,7 +105,7 @@ def test_a_library_keeps_segments_of_the_detail_asked_for(tmp_path: Path) -> Non
         assert build(kineme.bundled_recording(), folder, settings=Settings(detail=detail)).new == 1
         assert build((), folder).new == 0
         (row,) = Library(folder).query(asked).to_pylist()
-        assert row["n"] == len(found.level(detail).level("activity"))
+        assert row["n"] == len(found.at_detail(detail).level("activity"))
         counts.append(row["n"])
     assert counts[0] < counts[1]
 
