@@ -129,3 +129,31 @@ def test_a_border_dragged_past_its_neighbour_stops_where_both_can_be_seen(page):
     width = box_of(page.locator(".lanes canvas"))["width"] - 78
     pixels = (shortest["stop_s"] - shortest["start_s"]) / screen.state["duration"] * width
     assert pixels > 5
+
+
+def test_a_frame_typed_while_playing_is_the_one_that_is_sought(page):
+    """The field keeps its draft while the playhead moves on."""
+    screen = Screen(page)
+    field = page.get_by_label("Frame", exact=True)
+    for wanted in (1206, 77, 1800):
+        if not screen.state["playing"]:
+            page.keyboard.press("Space")
+        before = screen.state["frame"]
+        screen.wait(f"k.frame > {before} + 20")
+        field.select_text()
+        for digit in str(wanted):
+            page.wait_for_timeout(150)  # several frames are played between two digits
+            page.keyboard.press(digit)
+        assert field.input_value() == str(wanted)
+        page.keyboard.press("Enter")
+        screen.wait(f"k.frame >= {wanted} && k.frame < {wanted} + 300")
+
+
+def test_escape_leaves_the_frame_as_it_was(page):
+    screen = Screen(page)
+    page.get_by_label("Frame", exact=True).select_text()
+    page.keyboard.type("1206")
+    page.keyboard.press("Escape")
+    page.wait_for_timeout(200)
+    assert screen.state["frame"] == 0
+    assert page.get_by_label("Frame", exact=True).input_value() == "0"

@@ -2,6 +2,7 @@
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import { useCalm } from "../canvas/calm";
+import { NumberInput } from "../layout/NumberInput";
 import { togglePlay } from "../player";
 import { clock } from "../view";
 import { IconButton } from "./icons";
@@ -97,18 +98,12 @@ function Clock(): JSX.Element {
       </output>
       <label class="clock-frame quiet">
         frame
-        <input
-          type="number"
-          class="number"
-          aria-label="Frame"
+        <NumberInput
+          label="Frame"
           min={0}
           max={Math.max((store.recording.value?.n_frames ?? 1) - 1, 0)}
           value={frame}
-          onChange={(event) => {
-            const number = event.currentTarget.valueAsNumber;
-            if (Number.isFinite(number)) store.seek(Math.round(number) / store.fps.value);
-          }}
-          onKeyDown={(event) => event.key === "Enter" && event.currentTarget.blur()}
+          onNumber={(number) => store.seek(Math.round(number) / store.fps.value)}
         />
       </label>
       <input

@@ -1,5 +1,6 @@
 /** A recording, from when to when, and how near a hit must be. */
 import type { JSX } from "preact";
+import { NumberInput } from "../../layout/NumberInput";
 import type { Span } from "../../messages";
 import { seconds } from "./hits";
 import type { LibraryPage } from "./libraryPage";
@@ -16,13 +17,14 @@ export function SpanForm({ page }: { page: LibraryPage }): JSX.Element {
   const exists = recordings.some((each) => each.recording === span.recording);
   const { start_s, stop_s, recording } = span;
   const valid = exists && start_s >= 0 && stop_s > start_s;
-  const title = `${recording} ${start_s} to ${stop_s} s`;
   return (
     <form
       class="tools"
       onSubmit={(event) => {
         event.preventDefault();
-        if (valid) void page.ask({ title, like: [span], unlike: [] });
+        const given = page.span.value ?? span; // a field may have been left by this very Enter
+        const title = `${given.recording} ${given.start_s} to ${given.stop_s} s`;
+        if (valid) void page.ask({ title, like: [given], unlike: [] });
       }}
     >
       <label>
@@ -46,7 +48,9 @@ export function SpanForm({ page }: { page: LibraryPage }): JSX.Element {
       <Field
         label="largest distance"
         value={page.threshold.value}
-        change={(threshold) => threshold > 0 && (page.threshold.value = threshold)}
+        change={(threshold) => {
+          if (threshold > 0) page.threshold.value = threshold;
+        }}
       />
       <label>
         <input
@@ -71,21 +75,11 @@ export function SpanForm({ page }: { page: LibraryPage }): JSX.Element {
 function Field(props: {
   label: string;
   value: number;
-  change: (value: number) => unknown;
+  change: (value: number) => void;
 }): JSX.Element {
   return (
     <label>
-      {props.label}{" "}
-      <input
-        type="number"
-        step="any"
-        min="0"
-        value={props.value}
-        onInput={(event) => {
-          const value = event.currentTarget.valueAsNumber;
-          if (Number.isFinite(value)) props.change(value);
-        }}
-      />
+      {props.label} <NumberInput step="any" min={0} value={props.value} onNumber={props.change} />
     </label>
   );
 }

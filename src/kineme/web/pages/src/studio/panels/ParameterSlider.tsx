@@ -1,5 +1,6 @@
 /** A constant of a preset: a number, and a slider for it. */
 import type { JSX } from "preact";
+import { NumberInput } from "../../layout/NumberInput";
 import type { Parameter } from "../../messages";
 
 export function ParameterSlider(props: {
@@ -15,14 +16,13 @@ export function ParameterSlider(props: {
       <label for={`parameter-${name}`}>
         {title} <span class="quiet">{unit}</span>
       </label>
-      <input
-        type="number"
-        aria-label={unit ? `${title} in ${unit}` : title}
+      <NumberInput
+        label={unit ? `${title} in ${unit}` : title}
         min={minimum}
         max={maximum}
         step={rounded(step)}
         value={rounded(value)}
-        onChange={(event) => change(event.currentTarget.valueAsNumber)}
+        onNumber={change}
       />
       <input
         id={`parameter-${name}`}
