@@ -157,7 +157,7 @@ longest = somebody.longest:SCORE
 """
 
 STUDIO = """
-import json, sys
+import json, sys, time
 from pathlib import Path
 from starlette.testclient import TestClient
 from kineme.studio.app import create_app
@@ -171,7 +171,8 @@ client = TestClient(app, base_url="http://127.0.0.1:1", headers={"x-kineme-token
 state = client.get("/api/state").json()
 (recording,) = state["recordings"]
 opened = f"/api/recordings/{recording['id']}"
-first = client.get(opened).json()
+while (first := client.get(opened).json())["finding"]:  # no edits before segments are there
+    time.sleep(0.05)
 edit = {"kind": "segment", "preset": "halves", "parameters": {"cut_share": 0.3}}
 done = client.post(f"{opened}/edits", json={"revision": first["revision"], "edit": edit}).json()
 words = client.get(f"{opened}/export/words?level=activity").text
