@@ -14,6 +14,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any, TypedDict, TypeVar
@@ -22,7 +23,7 @@ from msgspec import Meta, Struct
 
 from kineme._files import OwnedFolder, atomic_write, video_beside
 from kineme._json import loaded
-from kineme.errors import KinemeError, ReadError
+from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
 from kineme.studio.storage.listed import ListedRecording
 from kineme.web.messages import Video
@@ -171,8 +172,8 @@ def write_file(path: Path, content: bytes) -> None:
 def delete_file(path: Path) -> None:
     """Delete a file of ``.kineme``, unless it or a folder around it is a link."""
     root = _root_of(path)
-    folder = path.parent.relative_to(root).parts
-    OwnedFolder(root).delete(*folder, is_ours=lambda name: name == path.name)
+    with suppress(OSError, WriteError):
+        OwnedFolder(root).path(*path.relative_to(root).parts).unlink()
 
 
 def _root_of(path: Path) -> Path:
