@@ -127,7 +127,9 @@ def _recordings(root: Path, motion: Motion, _: Segmentation) -> None:
     (folder / "wide.fbx").write_bytes(_fbx.walker().binary(7700, packed=False))
     np.save(folder / "array.npy", np.asarray(motion.positions[:20]))
     data = Path(os.environ.get("KINEME_DATA", "/nowhere"))
-    for path in sorted(data.glob("*formats/*")) + sorted(data.glob("timeseries/*")):
+    for path in sorted([*data.glob("*formats/*"), *data.glob("timeseries/*")]):
+        if not path.is_file():
+            continue
         if path.suffix in TEXTS:
             start = path.read_bytes()[:LARGEST]
             (folder / path.name).write_bytes(start[: start.rfind(b"\n") + 1])
