@@ -13,6 +13,7 @@ import json
 import math
 import random
 import re
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -157,7 +158,9 @@ def _array(array: Any, chance: Chance) -> Any:
         lambda: np.full(array.shape, chance.choice((0, 1, np.nan, 1e300, "x", True))),
         lambda: np.array(chance.choice((0, 60, -1, "x", 1e300, 2**63))),
     )
-    return chance.choice(changes)()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # numpy's, where numbers do not fit the other type
+        return chance.choice(changes)()
 
 
 def _npy(data: bytes, chance: Chance) -> bytes:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from library_folders import write_channels
 
-from kineme.errors import WriteError
+from kineme.errors import ReadError, WriteError
 from kineme.library import Library, build
 
 needs_links = pytest.mark.skipif(sys.platform == "win32", reason="needs links and pipes")
@@ -120,3 +120,13 @@ def test_a_pipe_is_refused_at_once(home, as_source) -> None:
     assert ran.returncode == 1
     assert "is a pipe or a device" in " ".join(ran.stderr.split())
     assert "Traceback" not in ran.stderr
+
+
+@needs_links
+def test_a_pipe_among_the_analyses_is_not_waited_for(home) -> None:
+    for path in (home / "lib" / "pieces").glob("*.npy"):
+        path.unlink()
+        os.mkfifo(path)
+    write_channels(home / "takes" / "c.csv", 2)
+    with pytest.raises(ReadError, match=r"\.npy: is damaged: remove it and build"):
+        build(home / "takes", home / "lib")

@@ -14,7 +14,8 @@ from pathlib import Path
 
 import msgspec
 
-from kineme.errors import KinemeError
+from kineme._files import refuse_pipe
+from kineme.errors import KinemeError, ReadError
 from kineme.labels import json_table, read_segments
 from kineme.segments.annotation import NO_ANNOTATION, Annotation, Span
 from kineme.segments.editing import comments
@@ -65,8 +66,9 @@ class _Saved(msgspec.Struct):
 def _of_file(path: Path, *_: int) -> BriefTable | None:
     """Of the file as it was at that time; None where it is no table."""
     try:
+        refuse_pipe(path)
         saved = msgspec.json.decode(path.read_bytes(), type=_Saved)
-    except ValueError:
+    except (ValueError, ReadError):
         saved = None
     if saved is not None and saved.schema == json_table.SCHEMA and _tiles(saved):
         annotation = saved.annotation

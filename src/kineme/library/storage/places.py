@@ -15,7 +15,7 @@ from urllib.parse import urlparse
 from urllib.request import url2pathname
 
 from kineme._checks import check_path
-from kineme._files import atomic_write
+from kineme._files import atomic_write, refuse_pipe
 from kineme.errors import (
     KinemeError,
     MissingDependencyError,
@@ -107,6 +107,7 @@ def near(path: Path) -> Path:
     Copies are in ``KINEME_CACHE``, else in ``~/.cache/kineme``, and may be deleted.
     """
     if not is_remote(path):
+        refuse_pipe(path)
         return path
     home = Path(os.environ.get("KINEME_CACHE") or Path.home() / ".cache" / "kineme") / "library"
     copy = home / f"{sha256(str(path).encode()).hexdigest()[:32]}{path.suffix}"

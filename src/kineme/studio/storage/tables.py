@@ -13,7 +13,7 @@ from hashlib import sha256
 from itertools import count
 from pathlib import Path
 
-from kineme._files import CORRECTED, atomic_write
+from kineme._files import CORRECTED, atomic_write, refuse_pipe
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.labels import json_table, read_segments
 from kineme.segments.segmentation import Segmentation
@@ -130,6 +130,7 @@ def _stamp(path: Path) -> tuple[int, int, int] | None:
 
 def _digest(path: Path) -> bytes | None:
     try:
+        refuse_pipe(path)
         return sha256(path.read_bytes()).digest()
-    except OSError:
+    except (OSError, ReadError):
         return None
