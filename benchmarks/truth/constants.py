@@ -48,7 +48,7 @@ OFF: Mapping[str, Mapping[str, Any]] = {
     **{
         name: {name: 0.0}
         for name in (
-            "velocity_weight", "ride_weight", "segment_cost", "cluster_cost", "cluster_growth",
+            "velocity_weight", "segment_cost", "cluster_cost", "cluster_growth",
             "spread_share", "min_action", "min_explained", "two_movements", "border_shift",
             "noise_share", "centering", "length_cost", "same_cost", "event_scale", "event_velocity",
             "event_cost",
@@ -70,7 +70,7 @@ TOLD = ("offsets", "link_weights", "border_weights", "count_weights", "cut_weigh
 """Not asked: what the method does not read, and what is learnt elsewhere."""
 OF_EVENTS = ("min_recurrence",)
 UNREAD = {
-    KINEME.name: ("smoothing", "velocity_weight", "ride_weight"),
+    KINEME.name: ("smoothing", "velocity_weight"),
     SENSORS.name: [
         name for name in SENSORS.parameters() if name in OF_EVENTS or name.startswith("event_")
     ],

@@ -118,8 +118,6 @@ class Preset(ABC):
     accepts_joints: ClassVar[bool] = False
     """Whether channels that are positions of joints become the distances between these.
     Then `analyze` takes ``joints``: whether the features are such distances."""
-    accepts_rides: ClassVar[bool] = False
-    """Whether `analyze` takes ``carried``: per sample 1 in a lift upwards, -1 downwards, else 0."""
 
     name: str
     help: str

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from kineme.features import offsets_in_frames, stack
 from kineme.features.channels import at_rate, standardized
 from kineme.features.emg import emg_envelope
-from kineme.features.rides import rides
 from kineme.methods.base import Preset
 from kineme.recordings import Signals
 from kineme.segmentation.joints import by_distances, joints_among
@@ -78,15 +77,9 @@ def view_of_signals(
         notes.append(f"lengths are in units of {unit:.3g} {named}")
     elif preset.unit != "any":
         notes.append(f"lengths are in {named}")
-    carried = None
-    if preset.accepts_rides and descriptive:
-        carried = _carried(signals, spans, preset.working_fps)
-    if carried is not None:
-        seconds = np.count_nonzero(carried) / preset.working_fps
-        notes.append(f"carried for {seconds:.0f} s, as by a lift, say accelerometers")
     ends = np.cumsum([span.n_samples for span in spans])[:-1]
     split = np.split(features, ends)
-    return View(split, spans, notes, carried=carried, joints=points is not None)
+    return View(split, spans, notes, joints=points is not None)
 
 
 def _stacked(rows: list[Floats], preset: Preset, *, standardize: bool) -> Floats:
@@ -97,22 +90,6 @@ def _stacked(rows: list[Floats], preset: Preset, *, standardize: bool) -> Floats
     offsets = offsets_in_frames(preset.offsets, preset.working_fps)
     stacked = np.concatenate([stack(row, offsets) for row in np.split(scaled, ends)])
     return np.asarray(stacked / np.sqrt(stacked.shape[1]), np.float64)
-
-
-def _carried(signals: Signals, spans: list[RecordedSpan], new: float) -> Floats | None:
-    """In each sample of the spans 1 or -1 where a ride goes up or down, else 0; None: no rides."""
-    parts = []
-    for span in spans:
-        part = np.zeros(span.n_samples)
-        for ride in rides(signals.values[span.start : span.stop], signals.fps):
-            first, last = (
-                round(ride.start * new / signals.fps),
-                round(ride.stop * new / signals.fps),
-            )
-            part[first:last] = np.sign(ride.speed)
-        parts.append(part)
-    carried: Floats = np.concatenate(parts)
-    return carried if carried.any() else None
 
 
 def _notes(signals: Signals, values: Floats, *, emg: bool, standardize: bool) -> list[str]:

@@ -197,9 +197,7 @@ def segmented(
     if given is not None:
         view = on_recording(view, recording, segmented.fps)
     timings = {"features": time.perf_counter() - start}
-    facts: dict[str, Any] = {} if view.carried is None else {"carried": view.carried}
-    if view.joints:
-        facts["joints"] = True
+    facts = {"joints": True} if view.joints else {}
     found = chosen.analyze(
         np.concatenate(view.features), mirror=view.mirror, progress=progress, **facts
     )

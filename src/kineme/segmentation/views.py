@@ -27,9 +27,6 @@ class View:
         What is to be known of them.
     mirror : callable, optional
         Exchanges left and right in the features, where they have these.
-    carried : (samples,) array, optional
-        1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere, in all spans; None
-        where there are no rides, or the preset does not ask for them.
     joints : bool
         Whether channels are places of joints, and the preset wants to be told.
     """
@@ -38,5 +35,4 @@ class View:
     spans: Sequence[RecordedSpan]
     notes: Sequence[str]
     mirror: Mirror | None = None
-    carried: Floats | None = None
     joints: bool = False

@@ -36,7 +36,6 @@ class KinemeConstants(Preset):
     method: ClassVar[str] = "kineme"
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "any")
     accepts_joints: ClassVar[bool] = True
-    accepts_rides: ClassVar[bool] = True
 
     unit: Unit = "body sizes"
     working_fps: float = constant(
@@ -72,10 +71,6 @@ class KinemeConstants(Preset):
     velocity_weight: float = constant(
         "weight of the velocities of joints; that of their positions is 1", limits=FACTOR,
         fine=True, default=0.5,
-    )  # fmt: skip
-    ride_weight: float = constant(
-        "distance of riding in a lift from standing; the deviation of all else is 1",
-        limits=FACTOR, fine=True, default=5.0,
     )  # fmt: skip
     # Segments: the tree and its shortest description.
     part: float = constant(

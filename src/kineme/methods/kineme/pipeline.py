@@ -55,7 +55,6 @@ def analyze(
     features: ArrayLike,
     preset: KinemeConstants,
     *,
-    carried: ArrayLike | None = None,
     joints: bool = False,
     progress: Progress | None = None,
 ) -> KinemeFound:
@@ -66,8 +65,6 @@ def analyze(
     features : (frames, dims) array
         At the working rate; of a body in its sizes.
     preset : KinemeConstants
-    carried : (frames,) array, optional
-        1 in a lift upwards, -1 downwards, 0 elsewhere.
     joints : bool
         Whether features are of the positions of joints, and not of sensors.
     progress : callable, optional
@@ -83,14 +80,11 @@ def analyze(
         Features of another shape, empty, or not finite.
     """
     with threadpool_limits(1):  # segments run side by side; sums do not depend on threads
-        rows = as_features(features)
-        rides = np.zeros(len(rows)) if carried is None else np.asarray(carried, np.float64)
-        return _analyze(rows, rides, preset, progress, joints=joints)
+        return _analyze(as_features(features), preset, progress, joints=joints)
 
 
 def _analyze(
     rows: Floats,
-    carried: Floats,
     preset: KinemeConstants,
     progress: Progress | None,
     *,
@@ -104,7 +98,7 @@ def _analyze(
     ends = part_ends(n, max(least, preset.frames(preset.part)))
     spans = [slice(*span) for span in pairwise(ends)]
     with stage("views"):
-        views = [views_of(rows[span], preset, carried[span], joints=joints) for span in spans]
+        views = [views_of(rows[span], preset, joints=joints) for span in spans]
     with stage("segments"):
         parts = map_threads(
             lambda i: _part(views[i], poses[spans[i]], spans[i], preset), range(len(spans))
@@ -112,7 +106,7 @@ def _analyze(
         features = parts[0].view
         if len(parts) > 1:
             scale = int(np.bincount([part.scale for part in parts]).argmax())
-            features = views_of(rows, preset.in_scale(scale), carried, joints=joints).views[0]
+            features = views_of(rows, preset.in_scale(scale), joints=joints).views[0]
         unit = median_distance(features, preset.near)
         at = sampled_at(n, preset.working_fps, preset.rate)
         price = preset.cluster_price(len(parts[0].view))

@@ -26,13 +26,12 @@ class KinemePreset(KinemeConstants):
         *,
         mirror: Mirror | None = None,  # noqa: ARG002 (left and right are told apart)
         progress: Progress | None = None,
-        carried: ArrayLike | None = None,
         joints: bool = False,
     ) -> KinemeFound:
         """Segments, clusters, repetitions and events; see :mod:`kineme.methods.kineme.pipeline`."""
         from kineme.methods.kineme.pipeline import analyze  # compiled code
 
-        return analyze(features, self, carried=carried, joints=joints, progress=progress)
+        return analyze(features, self, joints=joints, progress=progress)
 
 
 KINEME = KinemePreset(name="kineme", help="Finds activities and counts their repetitions; for use.")

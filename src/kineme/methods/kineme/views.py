@@ -9,9 +9,6 @@ these, as an answer that depends on few channels is doubtful.
 
 Where channels are positions of joints, their velocities are added: sitting down and standing up
 have the same positions.
-
-Rides (`kineme.features.rides`) are one more number of all views: riding in a lift differs from
-standing, however little channels show it.
 """
 
 from __future__ import annotations
@@ -23,7 +20,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.features.channels import Mixture, Reduction, in_mixtures, sampled_at
+from kineme.features.channels import Mixture, Reduction, in_mixtures
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -70,7 +67,6 @@ class Scale(NamedTuple):
 def views_of(
     channels: Floats,
     preset: KinemeConstants,
-    carried: Floats | None = None,
     *,
     joints: bool = False,
 ) -> Views:
@@ -81,8 +77,6 @@ def views_of(
     channels : (frames, channels) array
         At the working rate of the preset.
     preset : KinemeConstants
-    carried : (frames,) array, optional
-        1 in a lift upwards, -1 downwards, 0 elsewhere.
     joints : bool
         Whether channels are of the positions of joints.
     """
@@ -94,22 +88,7 @@ def views_of(
         halves = slow_and_fast(scaled)
         requested += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
     found = _in_scales(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
-    if carried is not None and carried.any():
-        riding = carried[sampled_at(len(carried), preset.working_fps, preset.rate)]
-        found = [with_rides(view, riding, preset.ride_weight) for view in found]
     return Views(found[: len(scales)], found[len(scales) :])
-
-
-def with_rides(view: NDArray[np.float32], riding: Floats, weight: float) -> NDArray[np.float32]:
-    """The view with one column more, `weight` times the deviation of all others in a ride.
-
-    Examples
-    --------
-    >>> with_rides(np.float32([[0], [2]]), np.array([0.0, 1.0]), 5.0).tolist()
-    [[0.0, 0.0], [2.0, 5.0]]
-    """
-    deviation = float(np.sqrt(view.var(axis=0, dtype=np.float64).sum()))
-    return np.ascontiguousarray(np.column_stack([view, weight * deviation * riding]), np.float32)
 
 
 def with_velocities(
