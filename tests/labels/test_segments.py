@@ -151,21 +151,21 @@ def test_no_label_is_a_formula_and_each_is_read_again(folder: Path, label: str) 
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".json", ".parquet"])
-def test_tables_older_than_the_last_columns_are_read(
+def test_tables_without_the_optional_columns_are_read(
     tmp_path: Path, small: Segmentation, suffix: str
 ) -> None:
     path = tmp_path / f"cuts{suffix}"
     write_segments(small, path)
-    younger = ["action", "border_confidence"]
+    optional = ["action", "border_confidence"]
     if suffix == ".json":
         data = json.loads(path.read_text())
         for row in data["segments"]:
             del row["action"], row["border_confidence"]
         path.write_text(json.dumps(data))
     elif suffix == ".csv":
-        pd.read_csv(path).drop(columns=younger).to_csv(path, index=False)
+        pd.read_csv(path).drop(columns=optional).to_csv(path, index=False)
     else:
-        parquet.write_table(parquet.read_table(path).drop_columns(younger), path)
+        parquet.write_table(parquet.read_table(path).drop_columns(optional), path)
     assert read_segments(path) == small
 
 

@@ -110,7 +110,7 @@ def _span(cells: dict[str, str], path: Path, line: int) -> Span:
     text = cells["trial_type"] if cells["trial_type"] != MISSING else ""
     level: Level = "primitive" if cells.get("level") == "primitive" else "activity"
     cluster = cells.get("cluster", MISSING)
-    confidence = cells.get("confidence", cells.get("score", MISSING))  # score: in older files
+    confidence = cells.get("confidence", MISSING)
     return Span(
         onset,
         onset + length,

@@ -46,7 +46,6 @@ from kineme.segments.table import (
     Level,
     Segment,
     lacking,
-    present_names,
 )
 
 Unit = Literal["seconds", "frames"]
@@ -184,15 +183,15 @@ def _count(row: dict[str, str], path: Path, line: int) -> int | None:
 def _columns(
     rows: csv.DictReader[str], path: Path, *, commas: bool = False
 ) -> dict[str, list[Any]]:
-    places = present_names({name: name for name in rows.fieldnames or ()})
-    columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in places}
+    names = rows.fieldnames or ()
+    columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in names}
     try:
         missing = lacking(columns)
         if missing:
             raise ReadError(path, f"is not a segment table: it has no column {missing[0]!r}")
         for row in rows:
             for name, column in columns.items():
-                column.append(_cell(row[places[name]], name, path, rows.line_num, commas=commas))
+                column.append(_cell(row[name], name, path, rows.line_num, commas=commas))
     except csv.Error as error:
         raise ReadError(path, f"is not valid CSV: {error}", line=rows.line_num) from error
     if not columns["level"]:

@@ -48,13 +48,12 @@ from kineme._json import decoded
 from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
-from kineme.segments.annotation import Annotation, parted
+from kineme.segments.annotation import Annotation
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment, SegmentTable, lacking, present_names
+from kineme.segments.table import COLUMNS, Segment, SegmentTable, lacking
 
 SCHEMA = "kineme.segments/2"
-OLDER = ("kineme.segments/1",)
 INDEPENDENT = tuple(name for name, column in COLUMNS.items() if not column.derived)
 """Of the tables at other details; the rest follows from these."""
 
@@ -93,7 +92,6 @@ def loads(content: bytes, path: Path) -> Segmentation:
     rows = data.get("segments")
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise ReadError(path, '"segments" must be a list of objects')
-    rows = [present_names(row) for row in rows]
     for number, row in enumerate(rows):
         missing = lacking(row)
         if missing:
@@ -123,7 +121,7 @@ def parse(text: str, path: Path) -> dict[str, Any]:
     schema = data.get("schema") if isinstance(data, dict) else None
     if not isinstance(data, dict) or not str(schema).startswith("kineme.segments/"):
         raise ReadError(path, 'is not a segment table: it has no "schema": "kineme.segments/..."')
-    if schema != SCHEMA and schema not in OLDER:
+    if schema != SCHEMA:
         raise ReadError(
             path,
             f"has schema {schema!r:.40}, but this version of kineme reads {SCHEMA!r}: upgrade it",
@@ -142,14 +140,13 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     for name, value in notes.items():
         if not isinstance(value, dict):
             raise ReadError(path, f'"{name}" must be an object, not {value!r:.40}')
-    provenance, older = parted(notes["provenance"])
     found = Segmentation.from_columns(
         columns,
         n_frames=n_frames,
         fps=fps,
-        provenance=provenance,
+        provenance=notes["provenance"],
         timings=notes["timings"],
-        annotation=Annotation.from_json(head.get("annotation", older)),
+        annotation=Annotation.from_json(head.get("annotation", {})),
     )
     if "hierarchy" not in head:
         return found
@@ -178,7 +175,7 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
         if columns is None:
             tables[level["detail"]] = found.table
             continue
-        columns = {name: _with_nan(values, name) for name, values in present_names(columns).items()}
+        columns = {name: _with_nan(values, name) for name, values in columns.items()}
         tables[level["detail"]] = Segmentation.from_columns(
             columns, n_frames=found.n_frames, fps=found.fps
         ).table
@@ -186,7 +183,7 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
 
 
 def _column(rows: Sequence[Mapping[str, Any]], name: str) -> list[Any]:
-    """The cells of a column, or what holds where nothing is known, as in an older file."""
+    """The cells of a column, or what holds where nothing is known."""
     default = COLUMNS[name].default
     return _with_nan([row.get(name, default) for row in rows], name)
 

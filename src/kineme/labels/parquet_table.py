@@ -27,7 +27,6 @@ from kineme.segments.table import (
     START_TIME,
     Segment,
     lacking,
-    present_names,
 )
 
 KEY = b"kineme.segments"
@@ -53,13 +52,12 @@ def read(path: Path) -> Segmentation:
     file = parquet_file(content)
     metadata = file.schema_arrow.metadata or {}
     names = file.schema_arrow.names
-    places = present_names({name: name for name in names})
-    if KEY not in metadata or lacking(places):
+    if KEY not in metadata or lacking(names):
         raise ReadError(path, "is a Parquet file, but not a segment table written by kineme")
     head = parse(metadata[KEY].decode(errors="replace"), path)
-    present = {name: places[name] for name in COLUMNS if name in places}
-    table = parquet_columns(content, file, [*present.values()])
-    columns = {name: table.column(place).to_numpy() for name, place in present.items()}
+    present = [name for name in COLUMNS if name in names]
+    table = parquet_columns(content, file, present)
+    columns = {name: table.column(name).to_numpy() for name in present}
     found = with_head(columns, head, path)
     if COMMENT not in names:
         return found

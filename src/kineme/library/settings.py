@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
@@ -13,7 +12,7 @@ from os import PathLike, fspath
 from typing import Any
 
 from kineme._version import __version__
-from kineme.errors import KinemeWarning, ParameterError
+from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.methods.constants import (
     SHARE,
@@ -95,8 +94,6 @@ class Settings:
     def from_json(cls, content: Mapping[str, Any]) -> Settings:
         """Settings as `to_json` gave them.
 
-        Constants that the preset had in an older version are left out, with a warning.
-
         Raises
         ------
         ParameterError
@@ -105,16 +102,8 @@ class Settings:
         try:
             constants = {name: _tupled(value) for name, value in content["constants"].items()}
             reading = {name: _tupled(value) for name, value in content["reading"].items()}
-            detail = content.get("detail", DEFAULT_DETAIL)  # libraries of before have none
+            detail = content["detail"]
             preset = content["preset"]
-            if obsolete := sorted(constants.keys() - _names_of(preset)):
-                warnings.warn(
-                    "the library was built with constants of an older version: "
-                    f"{', '.join(obsolete)}; new recordings do without them",
-                    KinemeWarning,
-                    stacklevel=2,
-                )
-                constants = {name: constants[name] for name in constants.keys() - {*obsolete}}
             return cls(preset, constants, reading, content["effectors"], detail)
         except (KeyError, TypeError, AttributeError) as error:
             raise ParameterError(
@@ -135,12 +124,6 @@ class Settings:
                 presets.append([chosen.name, dict(chosen.parameters())])
         content = [ANALYSIS, __version__, presets, self.to_json()]
         return sha256(json.dumps(content, sort_keys=True, default=_plain).encode()).hexdigest()
-
-
-def _names_of(preset: str) -> set[str]:
-    """The constants that a preset has, for bodies or for signals."""
-    presets = [resolve_preset(preset, signals=signals) for signals in (False, True)]
-    return {name for each in presets for name in each.parameters()}
 
 
 def _plain(value: Any) -> Any:

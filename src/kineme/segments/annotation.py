@@ -8,8 +8,7 @@ segmentation loses one. So it is with repetitions that are left out of means.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any, Self
 
 import msgspec
@@ -83,10 +82,3 @@ class Annotation:
 
 NO_ANNOTATION = Annotation()
 """Of a table that nobody did anything to."""
-PARTS = tuple(part.name for part in fields(Annotation))
-
-
-def parted(provenance: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """A provenance of an older file without the annotation in it, and that."""
-    rest = {name: value for name, value in provenance.items() if name not in PARTS}
-    return rest, {name: value for name, value in provenance.items() if name in PARTS}

@@ -59,11 +59,9 @@ class Column:
     least : int, optional
         The smallest of its numbers.
     optional : bool
-        Whether a file may lack it, as those do that are older than the column.
+        True if a file may lack it.
     derived : bool
         Whether it follows from other columns.
-    earlier : str
-        Its name in older files, where it had another.
     allowed : tuple of str
         The texts that it may hold; any where there are none.
     default : str or float, optional
@@ -76,7 +74,6 @@ class Column:
     least: int | None = None
     optional: bool = False
     derived: bool = False
-    earlier: str = ""
     allowed: tuple[str, ...] = ()
     default: str | float | None = None
 
@@ -117,10 +114,7 @@ class Segment:
     label: Annotated[str, Column("a name given by a person or a knowledge base, or empty")] = ""
     confidence: Annotated[
         float,
-        Column(
-            "how probable it is that what its kind claims is right; none where nobody says",
-            earlier="score",
-        ),
+        Column("how probable it is that what its kind claims is right; none where nobody says"),
     ] = math.nan
     action: Annotated[
         int,
@@ -167,18 +161,8 @@ COMMENT = "comment"
 """One more column of files: what people said about a segment, in tables that have comments."""
 
 
-OLDER = {column.earlier: name for name, column in COLUMNS.items() if column.earlier}
-"""Names of columns in older files, and those they have today."""
 NEEDED = [name for name, column in COLUMNS.items() if not column.optional]
 """The columns that every segment table in a file has."""
-
-
-def present_names(columns: Mapping[str, Values]) -> Mapping[str, Values]:
-    """Columns by the names that they have today, whatever they were called in older files."""
-    if OLDER.keys().isdisjoint(columns):
-        return columns
-    renamed = {name: columns[was] for was, name in OLDER.items() if was in columns}
-    return renamed | {name: column for name, column in columns.items() if name not in OLDER}
 
 
 def lacking(names: Container[str]) -> list[str]:
@@ -333,18 +317,17 @@ class SegmentTable:
 
 def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
     """A table from columns in any row order; see `Segmentation.from_columns`."""
-    present = present_names(columns)
     needed = {name: column for name, column in COLUMNS.items() if not column.derived}
     for name, column in needed.items():
-        if column.default is None and name not in present:
+        if column.default is None and name not in columns:
             raise ParameterError(f"a segment table needs the column {name!r}")
-    n = np.size(present["level"])
+    n = np.size(columns["level"])
     arrays = {
-        name: _checked(present.get(name, np.full(n, column.default)), name)
+        name: _checked(columns.get(name, np.full(n, column.default)), name)
         for name, column in needed.items()
     }
-    if "activity" in present:
-        arrays["activity"] = _checked(present["activity"], "activity")
+    if "activity" in columns:
+        arrays["activity"] = _checked(columns["activity"], "activity")
     for name, array in arrays.items():
         if array.shape != (n,):
             raise ParameterError(f"column {name!r} has shape {array.shape}, 'level' has ({n},)")
@@ -355,7 +338,7 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
 
 
 def kinds_of(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.str_]:
-    """The kinds of segments of these levels; a primitive of older files is an activity there."""
+    """Return the kinds of segments by their levels: a transition stays one, the rest follow."""
     if ((levels == "activity") & (kinds == "primitive")).any():
         raise ParameterError(
             "a segment of level 'activity' is an activity or a transition, not a primitive"

@@ -24,7 +24,6 @@ from kineme._json import decoded
 from kineme.errors import ReadError
 from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.places import near, written
-from kineme.library.storage.tables import segments_of
 from kineme.library.windows import all_windows
 from kineme.segments.table import COLUMNS, SegmentTable
 
@@ -110,7 +109,6 @@ def read_analysis(folder: Path, key: str) -> Analysis:
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
         facts = decoded(table.schema.metadata[METADATA], path, dict[str, Any])
-        table = segments_of(table)
         columns = {name: _column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
     return Analysis(facts, SegmentTable(**columns), flat.reshape(-1, EMBEDDED))

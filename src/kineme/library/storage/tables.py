@@ -21,7 +21,7 @@ from kineme._files import OwnedFolder, atomic_write, is_draft, reading
 from kineme.errors import ReadError, WriteError
 from kineme.library.storage.layout import EMBEDDED, TABLES, arrow, as_array, as_column
 from kineme.library.storage.places import is_remote, written
-from kineme.segments.table import COLUMNS, Column, kinds_of, present_names
+from kineme.segments.table import COLUMNS, Column
 
 DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     "recordings": {
@@ -104,26 +104,6 @@ def table_of(name: str, columns: Mapping[str, Any]) -> Any:
     )
 
 
-def segments_of(table: Any) -> Any:
-    """Segments as they are kept today, from a pyarrow.Table of any version.
-
-    Older ones have other names for some columns, no columns for what was not known then, and
-    call primitives activities.
-    """
-    places = present_names({name: name for name in table.column_names})
-    today = {was: name for name, was in places.items() if was != name}
-    table = table.rename_columns([today.get(name, name) for name in table.column_names])
-    for name, declared in COLUMNS.items():
-        if declared.optional and name not in table.column_names:
-            column = as_column(np.full(table.num_rows, declared.default), declared.type)
-            table = table.append_column(name, column)
-    if not today:
-        return table
-    place = table.column_names.index("kind")
-    levels, kinds = (as_array(table.column(name)).astype(np.str_) for name in ("level", "kind"))
-    return table.set_column(place, "kind", as_column(kinds_of(levels, kinds), str))
-
-
 def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
     """Leave tables in the folder of a library; the name under which they lie there."""
     _, parquet = arrow()
@@ -166,8 +146,6 @@ def read_table(folder: Path, named: str, name: str) -> Any:
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
         table.validate(full=True)
-        if name == "segments":
-            table = segments_of(table)
     for column, declared in DESCRIBED[name].items():
         times = table.column_names.count(column)
         if times > 1 or (times == 0 and column not in ADDED):
