@@ -55,7 +55,7 @@ class StudioServer:
         self.said = self.process.stdout.readline()
         found = ADDRESS.search(self.said)
         if found is None:
-            self.said, errors = self.process.communicate(timeout=30)
+            self.said, errors = self.process.communicate(timeout=300)
             raise RuntimeError(errors)
         self.address, self.root = found[0], found[1]
         self.port, self.token = int(found[2]), found[3]
@@ -68,7 +68,7 @@ class StudioServer:
     def end(self, how: int = signal.SIGINT) -> tuple[int, str, str]:
         """End it; exit code and what else it said."""
         self.process.send_signal(how)
-        rest, errors = self.process.communicate(timeout=30)
+        rest, errors = self.process.communicate(timeout=300)
         return self.process.returncode, rest, errors
 
     def address_of(self, *recordings: Path) -> str:

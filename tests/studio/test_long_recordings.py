@@ -55,7 +55,7 @@ def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatc
     with pytest.raises(ParameterError, match="still being found"):
         recordings.edit(name, split)
     wanted.set()
-    assert told.get(timeout=60) == (name, shown.revision + 1)
+    assert told.get(timeout=600) == (name, shown.revision + 1)
     then = recordings.message(name)
     assert not then.finding
     assert len(then.segmentation.segments) > 10
@@ -73,10 +73,10 @@ def test_a_long_recording_that_is_read_otherwise_says_when_its_segments_are_ther
     wanted = held_back(monkeypatch)
     monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
     recordings.read_as(name, {"fps": 30})
-    assert told.get(timeout=60) == (name, before)  # one more once they are found
+    assert told.get(timeout=600) == (name, before)  # one more once they are found
     assert recordings.message(name).finding
     wanted.set()
-    assert told.get(timeout=60) == (name, before + 1)
+    assert told.get(timeout=600) == (name, before + 1)
     assert not recordings.message(name).finding
 
 
@@ -125,7 +125,7 @@ def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypa
     (name,) = recordings.folder.recordings()
     assert recordings.message(name).finding
     wanted.set()
-    assert told.get(timeout=60)[0] == name
+    assert told.get(timeout=600)[0] == name
     assert "not segmented: no such constant" in recordings.message(name).warnings
 
 
@@ -157,7 +157,7 @@ def test_a_large_file_shows_some_of_its_poses_while_it_is_read(large_take):
     with pytest.raises(ParameterError, match="still being found"):
         recordings.edit(name, split)
     wanted.set()
-    assert told.get(timeout=60)[0] == name
+    assert told.get(timeout=600)[0] == name
     whole = recordings.message(name)
     assert not whole.finding
     assert whole.motion.n_samples == 1449
@@ -180,7 +180,7 @@ def test_a_large_file_that_is_not_wanted_any_more_is_not_opened(large_take, monk
     assert not opened
     assert told.empty()
     assert recordings.message(name).being_read  # somebody opens it after all
-    assert told.get(timeout=60)[0] == name
+    assert told.get(timeout=600)[0] == name
     assert not recordings.message(name).being_read
 
 
@@ -190,7 +190,7 @@ def test_a_large_file_that_is_wanted_again_while_it_is_read_is_opened(large_take
     recordings.cancel(name)
     recordings.message(name)
     wanted.set()
-    assert told.get(timeout=60)[0] == name
+    assert told.get(timeout=600)[0] == name
     assert not recordings.message(name).being_read
 
 
@@ -212,7 +212,7 @@ def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypa
     recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
     (name,) = recordings.folder.recordings()
     assert recordings.message(name).finding
-    assert told.get(timeout=60)[0] == name
+    assert told.get(timeout=600)[0] == name
     with pytest.raises(ReadError, match="not a number"):
         recordings.message(name)
 

@@ -106,7 +106,7 @@ def test_the_folder_tells_of_tables_without_reading_recordings(studio: Studio) -
     assert told["table"]["confidence"] == [row["confidence"] for row in rows]
 
 
-@pytest.mark.parametrize("damage", ["half", "gap", "older"])
+@pytest.mark.parametrize("damage", ["half", "gap"])
 def test_a_table_that_is_not_as_it_was_written_is_read_as_every_table(
     studio: Studio, damage: str
 ) -> None:
@@ -116,18 +116,10 @@ def test_a_table_that_is_not_as_it_was_written_is_read_as_every_table(
     content = json.loads(table.read_text())
     if damage == "half":
         table.write_text(table.read_text()[:500])
-    elif damage == "gap":
+    else:
         content["segments"][0]["stop_frame"] -= 1
         table.write_text(json.dumps(content))
-    else:
-        content["schema"] = "kineme.segments/1"
-        for row in content["segments"]:
-            row["score"] = row.pop("confidence")
-        table.write_text(json.dumps(content))
-    found = saved_brief(table)
-    assert (found is not None) == (damage == "older")
-    if found is not None:
-        assert found.label[0] == "walk"
+    assert saved_brief(table) is None
 
 
 def test_what_is_called_otherwise_in_one_recording_is_in_all(studio: Studio) -> None:
