@@ -16,11 +16,11 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.baselines.constants import ClassCountConstants
-from kineme.methods.baselines.presets import BaselinePreset
-from kineme.methods.baselines.segments import Segments, unclustered
 from kineme.methods.presets import register
 from kineme.methods.segments import by_first_appearance
+from kineme_reproduction.baselines.constants import ClassCountConstants
+from kineme_reproduction.baselines.presets import BaselinePreset
+from kineme_reproduction.baselines.segments import Segments, unclustered
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -45,8 +45,11 @@ COMPILE = "import importlib, sys; [importlib.import_module(name) for name in sys
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_setupnodes() -> None:
     """Compile all kernels before workers, and the servers they start, do it each for itself."""
-    sources = HERE.parent / "src"
-    files = sorted(path.relative_to(sources) for path in sources.rglob("_*kernels.py"))
+    files = [
+        path.relative_to(sources)
+        for sources in (HERE.parent / "src", HERE.parent / "reproduction")
+        for path in sorted(sources.rglob("_*kernels.py"))
+    ]
     names = [".".join(path.with_suffix("").parts) for path in files]
     halves = [[sys.executable, "-c", COMPILE, *names[i::2]] for i in range(2)]
     for half in [subprocess.Popen(command) for command in halves]:

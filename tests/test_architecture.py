@@ -55,7 +55,7 @@ ROOMS = {
     "graph": Room("`NeighborGraph`, `WarpingPaths` from arrays", "errors"),
     "matching": Room("where features are like those of an example", ""),
     "methods": Room(
-        "presets, and what their methods find in arrays: `kineme`, `region_growing`, `baselines`",
+        "presets, and what their methods find in arrays: `kineme`, `region_growing`",
         "features.bundling features.channels graph",
     ),
     "segmentation": Room(

@@ -24,9 +24,9 @@ from kineme.evaluation import Labelling
 from kineme.evaluation.annotations import read_trials
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods import PRESETS
-from kineme.methods.baselines import aca, haca
-from kineme.methods.baselines.constants import AcaConstants, HacaConstants
-from kineme.methods.baselines.reduction import block_starts, frame_kernel
+from kineme_reproduction.baselines import aca, haca
+from kineme_reproduction.baselines.constants import AcaConstants, HacaConstants
+from kineme_reproduction.baselines.reduction import block_starts, frame_kernel
 from kineme_reproduction.benchmark import aca_accuracy
 
 FOLDER = DATA / "cmu86"

@@ -30,11 +30,11 @@ from _figures import add_option, record
 from _options import command_line, needed
 from _recordings import CONDITIONS, Case, hdm05, subject_86, synthetic
 from kineme.evaluation import Labelling, Truth, evaluate, evaluate_segmentation
-from kineme.methods.baselines.uniform import uniform
 from kineme.methods.presets import DEFAULT, PUBLISHED
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample, scale, turn
 from kineme.segments.segmentation import Segmentation
+from kineme_reproduction.baselines.uniform import uniform
 
 SHOWN = {
     "one_to_one": "one-to-one",

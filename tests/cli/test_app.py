@@ -225,7 +225,7 @@ THIRD_PARTY = """
 from dataclasses import dataclass
 
 from kineme.methods import Preset, constant, register
-from kineme.methods.baselines.presets import UniformPreset
+from kineme_reproduction.baselines.presets import UniformPreset
 
 
 @dataclass(frozen=True, kw_only=True)

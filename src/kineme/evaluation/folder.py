@@ -164,8 +164,8 @@ def evaluate_folder(
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
     >>> sources = {kineme.bundled_recording(): LabelSource(bundled_truth())}
-    >>> found = evaluate_folder(sources, ["uniform"], processes=1)
-    >>> 0 < found.over_all("uniform")["mof"] < 1
+    >>> found = evaluate_folder(sources, ["voegele2014"], processes=1)
+    >>> 0 < found.over_all("voegele2014")["mof"] < 1
     True
     """
     others = dict(constants or {})

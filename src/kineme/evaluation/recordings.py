@@ -97,8 +97,8 @@ def segment_by(
     --------
     >>> import kineme
     >>> motion = kineme.read(kineme.bundled_recording())
-    >>> len(segment_by("uniform", motion, n_classes=4).activities)
-    97
+    >>> len(segment_by("voegele2014", motion, n_classes=4).activities)
+    13
     """
     from kineme.segmentation.segmenter import segment
 

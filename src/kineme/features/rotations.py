@@ -1,4 +1,4 @@
-"""How the joints of a body are turned: what the baselines see of a pose.
+"""Compute how the joints of a body are turned, for presets whose view is rotations.
 
 Barbič et al. (2004) chose 14 joints and left the root out; Zhou et al. (2013) took them over. Their
 program maps the raw Euler angles of AMC files. ``Motion.rotations`` are the same rotations in other

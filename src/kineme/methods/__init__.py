@@ -3,7 +3,6 @@
 =================== ================================================================
 ``kineme``          ``kineme``, the default, and ``sensors``, the same for signals
 ``region_growing``  the published methods of 2014 and 2017
-``baselines``       what results are compared with: ACA, HACA, PCA, GMM, ...
 =================== ================================================================
 
 A method is used by a preset: its constants with values, and a name.

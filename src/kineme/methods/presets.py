@@ -2,7 +2,7 @@
 
 ``kineme`` is the default, and stands for ``sensors``, the same method with other
 constants, where it is given signals; ``voegele2014`` and ``krueger2017`` are the
-published methods; the others are what results are compared with.
+published methods.
 """
 
 from __future__ import annotations
@@ -35,7 +35,6 @@ PRESETS: Registry[Preset] = Registry(
         "kineme.preset:SENSORS",
         "region_growing.preset:VOEGELE2014",
         "region_growing.preset:KRUEGER2017",
-        "baselines.presets:BASELINES",
     ),
 )
 """The default first."""

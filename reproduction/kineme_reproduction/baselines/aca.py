@@ -23,20 +23,20 @@ from scipy.sparse.linalg import eigsh
 
 from kineme._threads import go_on
 from kineme.errors import ParameterError
-from kineme.methods.baselines._kernels import (
+from kineme_reproduction.baselines._kernels import (
     cheapest_lengths,
     propagate,
     window_alignments,
 )
-from kineme.methods.baselines.reduction import (
+from kineme_reproduction.baselines.reduction import (
     block_starts,
     frame_kernel,
     tightest_clusters,
 )
-from kineme.methods.baselines.segments import Segments
+from kineme_reproduction.baselines.segments import Segments
 
 if TYPE_CHECKING:
-    from kineme.methods.baselines.constants import AcaConstants, AlignedConstants
+    from kineme_reproduction.baselines.constants import AcaConstants, AlignedConstants
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

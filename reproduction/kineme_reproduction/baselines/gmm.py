@@ -17,11 +17,11 @@ from sklearn.mixture import GaussianMixture
 from threadpoolctl import threadpool_limits
 
 from kineme.errors import ParameterError
-from kineme.methods.baselines.principal import checked
-from kineme.methods.baselines.segments import Segments
+from kineme_reproduction.baselines.principal import checked
+from kineme_reproduction.baselines.segments import Segments
 
 if TYPE_CHECKING:
-    from kineme.methods.baselines.constants import GmmConstants
+    from kineme_reproduction.baselines.constants import GmmConstants
 
 Floats = NDArray[np.float64]
 

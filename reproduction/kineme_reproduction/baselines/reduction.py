@@ -16,7 +16,7 @@ from sklearn.cluster import KMeans
 from threadpoolctl import threadpool_limits
 
 if TYPE_CHECKING:
-    from kineme.methods.baselines.constants import AlignedConstants
+    from kineme_reproduction.baselines.constants import AlignedConstants
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

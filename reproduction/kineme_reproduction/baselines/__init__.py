@@ -3,6 +3,6 @@
 They are pure functions on arrays (frames, dims) and return `Segments`.
 """
 
-from kineme.methods.baselines.segments import Segments
+from kineme_reproduction.baselines.segments import Segments
 
 __all__ = ["Segments"]

@@ -21,15 +21,15 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from kineme.methods.baselines.principal import (
+from kineme_reproduction.baselines.principal import (
     checked,
     dimensions_kept,
     leading_scatters,
 )
-from kineme.methods.baselines.segments import Segments, unclustered
+from kineme_reproduction.baselines.segments import Segments, unclustered
 
 if TYPE_CHECKING:
-    from kineme.methods.baselines.constants import PcaConstants, PpcaConstants
+    from kineme_reproduction.baselines.constants import PcaConstants, PpcaConstants
 
 Floats = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.base import Columns
-from kineme.methods.baselines.segments import Segments
+from kineme_reproduction.baselines.segments import Segments
 
 if TYPE_CHECKING:
     from kineme.graph import NeighborGraph

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kineme.methods.baselines._kernels import window_alignments
-from kineme.methods.baselines.aca import (
+from kineme_reproduction.baselines._kernels import window_alignments
+from kineme_reproduction.baselines.aca import (
     Floats,
     State,
     check_room,
@@ -25,11 +25,11 @@ from kineme.methods.baselines.aca import (
     segment_kernel,
     segments_of,
 )
-from kineme.methods.baselines.reduction import block_starts, frame_kernel
-from kineme.methods.baselines.segments import Segments
+from kineme_reproduction.baselines.reduction import block_starts, frame_kernel
+from kineme_reproduction.baselines.segments import Segments
 
 if TYPE_CHECKING:
-    from kineme.methods.baselines.constants import HacaConstants
+    from kineme_reproduction.baselines.constants import HacaConstants
 
 
 def haca(features: Floats, preset: HacaConstants) -> Segments:

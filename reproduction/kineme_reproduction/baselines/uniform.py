@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kineme.errors import ParameterError
-from kineme.methods.baselines.segments import Segments, unclustered
+from kineme_reproduction.baselines.segments import Segments, unclustered
 
 
 def uniform(n_frames: int, *, fps: float, seconds: float) -> Segments:

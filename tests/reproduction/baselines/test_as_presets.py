@@ -9,8 +9,8 @@ import kineme
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
 from kineme.methods import PRESETS
-from kineme.methods.baselines.constants import ClassCountConstants
-from kineme.methods.baselines.presets import BASELINES
+from kineme_reproduction.baselines.constants import ClassCountConstants
+from kineme_reproduction.baselines.presets import BASELINES
 
 NAMES = [preset.name for preset in BASELINES]
 TOLD = [preset.name for preset in BASELINES if isinstance(preset, ClassCountConstants)]

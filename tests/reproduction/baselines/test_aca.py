@@ -17,15 +17,15 @@ from kineme.evaluation import Labelling
 from kineme.evaluation.annotations import read_trials
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods import PRESETS
-from kineme.methods.baselines._kernels import (
+from kineme_reproduction.baselines._kernels import (
     cheapest_lengths,
     propagate,
     window_alignments,
 )
-from kineme.methods.baselines.aca import State, aca, improve, majority_segments
-from kineme.methods.baselines.haca import haca, haca_levels
-from kineme.methods.baselines.reduction import block_starts, frame_kernel
-from kineme.methods.baselines.segments import Segments
+from kineme_reproduction.baselines.aca import State, aca, improve, majority_segments
+from kineme_reproduction.baselines.haca import haca, haca_levels
+from kineme_reproduction.baselines.reduction import block_starts, frame_kernel
+from kineme_reproduction.baselines.segments import Segments
 from kineme_reproduction.benchmark import OF_TRIALS, aca_accuracy
 
 SEEDS = st.integers(0, 2**32 - 1)

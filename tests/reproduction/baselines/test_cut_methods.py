@@ -17,9 +17,9 @@ from kineme.evaluation import Comparison, Labelling, border_score
 from kineme.evaluation.annotations import read_trials
 from kineme.features.rotations import joint_quaternions
 from kineme.methods import PRESETS
-from kineme.methods.baselines.gmm import gmm
-from kineme.methods.baselines.segments import Segments
-from kineme.methods.baselines.uniform import uniform
+from kineme_reproduction.baselines.gmm import gmm
+from kineme_reproduction.baselines.segments import Segments
+from kineme_reproduction.baselines.uniform import uniform
 
 SEEDS = st.integers(0, 2**32 - 1)
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_features
 from kineme.methods.base import Mirror
-from kineme.methods.baselines.constants import (
+from kineme_reproduction.baselines.constants import (
     AcaConstants,
     BaselineConstants,
     GmmConstants,
@@ -21,9 +21,9 @@ from kineme.methods.baselines.constants import (
 )
 
 if TYPE_CHECKING:
-    from kineme.methods.baselines.found import SegmentsFound
-    from kineme.methods.baselines.segments import Segments
     from kineme.methods.stages import Progress
+    from kineme_reproduction.baselines.found import SegmentsFound
+    from kineme_reproduction.baselines.segments import Segments
 
 Floats = NDArray[np.float64]
 
@@ -40,8 +40,8 @@ class BaselinePreset(BaselineConstants):
         progress: Progress | None = None,
     ) -> SegmentsFound:
         """Segments of the activity level; see the method's own module."""
-        from kineme.methods.baselines.found import SegmentsFound
         from kineme.methods.stages import stopwatch
+        from kineme_reproduction.baselines.found import SegmentsFound
 
         rows = as_features(features)
         timings: dict[str, float] = {}
@@ -60,66 +60,66 @@ class BaselinePreset(BaselineConstants):
 
 @dataclass(frozen=True, kw_only=True)
 class AcaPreset(AcaConstants, BaselinePreset):
-    """Aligned cluster analysis; see `kineme.methods.baselines.aca`."""
+    """Aligned cluster analysis; see `kineme_reproduction.baselines.aca`."""
 
     def segments(self, features: Floats) -> Segments:
         """Segments of least total distance to their cluster."""
-        from kineme.methods.baselines.aca import aca
+        from kineme_reproduction.baselines.aca import aca
 
         return aca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
 class HacaPreset(HacaConstants, BaselinePreset):
-    """Hierarchical aligned cluster analysis; see `kineme.methods.baselines.haca`."""
+    """Hierarchical aligned cluster analysis; see `kineme_reproduction.baselines.haca`."""
 
     def segments(self, features: Floats) -> Segments:
         """Segments of the second level."""
-        from kineme.methods.baselines.haca import haca
+        from kineme_reproduction.baselines.haca import haca
 
         return haca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
 class GmmPreset(GmmConstants, BaselinePreset):
-    """Gaussian mixture; see `kineme.methods.baselines.gmm`."""
+    """Gaussian mixture; see `kineme_reproduction.baselines.gmm`."""
 
     def segments(self, features: Floats) -> Segments:
         """Runs of samples whose likeliest Gaussian is the same."""
-        from kineme.methods.baselines.gmm import gmm
+        from kineme_reproduction.baselines.gmm import gmm
 
         return gmm(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
 class PcaPreset(PcaConstants, BaselinePreset):
-    """Cuts where principal components cease to fit; see `kineme.methods.baselines.pca`."""
+    """Cuts where principal components cease to fit; see `kineme_reproduction.baselines.pca`."""
 
     def segments(self, features: Floats) -> Segments:
         """Segments that share their principal components."""
-        from kineme.methods.baselines.pca import pca
+        from kineme_reproduction.baselines.pca import pca
 
         return pca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
 class PpcaPreset(PpcaConstants, BaselinePreset):
-    """Cuts where a Gaussian ceases to fit; see `kineme.methods.baselines.pca`."""
+    """Cuts where a Gaussian ceases to fit; see `kineme_reproduction.baselines.pca`."""
 
     def segments(self, features: Floats) -> Segments:
         """Segments that share their Gaussian."""
-        from kineme.methods.baselines.pca import ppca
+        from kineme_reproduction.baselines.pca import ppca
 
         return ppca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
 class UniformPreset(UniformConstants, BaselinePreset):
-    """Cuts at equal distances; see `kineme.methods.baselines.uniform`."""
+    """Cuts at equal distances; see `kineme_reproduction.baselines.uniform`."""
 
     def segments(self, features: Floats) -> Segments:
         """Segments of equal length."""
-        from kineme.methods.baselines.uniform import uniform
+        from kineme_reproduction.baselines.uniform import uniform
 
         return uniform(len(features), fps=self.working_fps, seconds=self.interval)
 
