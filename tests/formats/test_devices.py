@@ -188,7 +188,7 @@ def test_a_c3d_without_points_holds_channels(tmp_path: Path) -> None:
 
 def test_names_in_two_lines(tmp_path: Path) -> None:
     """As pandas writes columns of two levels."""
-    lines = "".join(f"{i},{i % 7},{i % 5},{i % 3}\n" for i in range(N))
+    lines = "".join(f"{i},{i % 7 + 1},{i % 5},{i % 3}\n" for i in range(N))
     signals = read(tmp_path, ",left,left,right\n,acc_x,gyr_x,acc_x\n" + lines, fps=FPS)
     assert signals.names == ("left_acc_x", "left_gyr_x", "right_acc_x")
     assert signals.provenance.notes == ("columns that are no channels: (no name)",)

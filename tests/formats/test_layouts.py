@@ -23,13 +23,13 @@ def test_trc_names_stand_any_number_of_tabs_apart(tmp_path: Path, tabs: str) -> 
         "PathFileType\t4\t(X/Y/Z)\ttake.trc",
         "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits",
         "60\t60\t40\t3\tmm",
-        f"Frame#\tTime\t{tabs.join(['LASI', 'RASI', 'SACR'])}",
+        f"Frame#\tTime\t{tabs.join(['LELB', 'RELB', 'STRN'])}",
         "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3",
     ]
     path.write_text("\n".join([*head, "", *rows]))
     motion = kineme.read(path, up="y")
     assert isinstance(motion, kineme.Motion)
-    found = motion.positions[:, [motion.skeleton.names.index(n) for n in ("LASI", "RASI", "SACR")]]
+    found = motion.positions[:, [motion.skeleton.names.index(n) for n in ("LELB", "RELB", "STRN")]]
     assert np.abs(found - POINTS / 1000).max() < 1e-6
 
 

@@ -116,8 +116,9 @@ def test_times_in_another_unit_are_told(tmp_path: Path, factor: float, unit: str
 
 
 def test_units_in_the_names_of_columns(tmp_path: Path) -> None:
-    plain = read(tmp_path, "a.csv", table(body(), time=TIMES), unit="mm")
-    named = read(tmp_path, "b.csv", table(body(), "{joint} {axis} [mm]", time=TIMES))
+    millimetres = 1000 * body()
+    plain = read(tmp_path, "a.csv", table(millimetres, time=TIMES), unit="mm")
+    named = read(tmp_path, "b.csv", table(millimetres, "{joint} {axis} [mm]", time=TIMES))
     assert named.positions.tolist() == plain.positions.tolist()
     assert named.skeleton.names == plain.skeleton.names
     assert not any("unit" in note for note in named.provenance.notes)

@@ -71,14 +71,16 @@ def columns_to_motion(
     notes = list(timing.notes)
     if unsure := int((confidence < limit).sum()):
         notes.append(f"{counted(unsure, 'position')} less sure than {limit:g} not used")
-    unit, up = options.unit, options.up
+    unit, stated, up = options.unit, None, options.up
     if unit is None:
-        unit, remarks = _in_one_unit(content, joints, positions)
+        stated, remarks = _in_one_unit(content, joints, positions)
         notes += remarks
     if flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")
-        unit, up = unit or "pixel", up or "-y"
-    points = Points(names, positions, timing.fps, unit, up, person=options.person)
+        unit, up = unit or stated or "pixel", up or "-y"
+    points = Points(
+        names, positions, timing.fps, unit, up, stated_unit=stated, person=options.person
+    )
     provenance = content.provenance(name, notes).timed(timing.clock)
     return split_at(to_motion(points, provenance), timing.gaps)
 

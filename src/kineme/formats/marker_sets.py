@@ -78,6 +78,8 @@ TABLE: dict[str, tuple[str, ...]] = {
         "HEADTOP",
         "LEAR REAR",
         "NOSE",
+        "NECK",  # OpenCap and other sets without a marker on the head
+        "C7",
     ),
     "*_wrist": (
         "*WRIST",

@@ -26,12 +26,15 @@ from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
 from kineme.formats.persons import chosen_person
+from kineme.formats.plausibility import doubt_rigid, drop_implausible
 from kineme.formats.units import scale_of, up_axis, upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 
 Body = dict[str, tuple[int, ...]]
 Spans = tuple[tuple[int, int], ...]
 
+RIGID = ("pelvis", "head")
+"""Joints of the body whose points are all on one bone."""
 BODY = "joints of the body"
 """How the note begins that says from which points each is."""
 
@@ -52,8 +55,12 @@ class Points:
         A name in `UNITS`, metres in one unit, "pixel", or None if not known.
     up : str, optional
         The axis that points up, or None if not known.
+    stated_unit : str, optional
+        The unit that the file names, taken if `unit` is None and it makes a body of human size.
     usual_up : str, optional
-        The axis taken where neither the file nor the body tells.
+        The axis taken where the body does not tell.
+    is_up_stated : bool
+        True if the file names the usual axis.
     person : str, optional
         Which of several subjects makes the body; the first by default.
     """
@@ -63,7 +70,9 @@ class Points:
     fps: float
     unit: str | float | None = None
     up: str | None = None
+    stated_unit: str | None = None
     usual_up: str = "y"
+    is_up_stated: bool = False
     person: str | None = None
 
 
@@ -80,6 +89,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
         subject = _subjects_note(path, subjects, points.person)
         provenance = provenance.noted(subject).of_person(points.person or subjects[0], subjects)
     positions = np.array(points.positions, np.float64)
+    doubts = drop_implausible(positions, names, points.fps)
     gaps = fill_gaps(positions, points.fps)
     body = _least_broken(names, gaps, len(positions))
     used = _used(body)
@@ -92,15 +102,20 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
         hidden = listed([names[i] for i in sorted(used & gaps.open.keys())])
         raise ReadError(path, f"the body is whole in no frame: {hidden} are never seen together")
     kept = sorted([*kept, *_missing_with_the_body(positions, gaps, used, is_visible, points.fps)])
-    notes = _gaps_notes(names, gaps, kept, len(positions))
+    notes = [*doubts, *_gaps_notes(names, gaps, kept, len(positions))]
     notes += _splits_note(names, gaps, used, missing, points.fps)
     visible = positions if is_visible.all() else positions[is_visible]
-    scale, note = scale_of(points.unit, visible if len(kept) == len(names) else visible[:, kept])
+    seen = visible if len(kept) == len(names) else visible[:, kept]
+    is_body = {"pelvis", "head", "left_ankle"} <= body.keys()
+    scale, note = scale_of(points.unit, seen, stated=points.stated_unit, is_body=is_body)
     notes += note
+    del seen
     up = points.up
     if up is None:
-        up, note = up_axis(points.usual_up, visible, body)
+        up, note = up_axis(points.usual_up, visible, body, is_stated=points.is_up_stated)
         notes += note
+    for joint in RIGID:
+        notes += doubt_rigid(visible, names, body.get(joint, ()))
     del visible
     positions *= scale
     skeleton, positions = _tree(names, upright(positions, up), body, kept, is_visible)

@@ -13,6 +13,7 @@ from kineme._files import reading
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
 from kineme.formats.files import FileContent, load, warn
 from kineme.formats.options import AnyPath, ReadOptions
+from kineme.formats.plausibility import doubt_posture
 from kineme.formats.registry import Sketch, recognise, supported_formats
 from kineme.recordings import Motion, Signals
 
@@ -288,6 +289,8 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
     if not isinstance(recording, Motion | Signals):
         kind = type(recording).__name__
         raise content.error(f"the reader of {candidate.name} gave no Motion or Signals, but {kind}")
+    if isinstance(recording, Motion) and options.up is None:
+        return doubt_posture(recording)
     return recording
 
 

@@ -32,6 +32,7 @@ from kineme._clock import Clock
 from kineme._counts import counted, listed
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S
+from kineme.recordings import Note
 from kineme.recordings.arrays import spans_of
 
 UNEVEN = 0.1
@@ -149,12 +150,18 @@ def table_timing(
     for column in columns:
         if is_rate(column):
             return Timing(_one_rate(content, numbers_in(content, columns, column)))
-    for column in columns:
-        if match := _TIME.fullmatch(column.strip()):
-            timing = timing_of(content, _times(content, columns, column, match[2]))
-            if timing.fps <= _SLOWEST and not match[2]:
-                raise content.error(_hardly_seconds(timing.fps))
-            return timing
+    clocks = {column: match for column in columns if (match := _TIME.fullmatch(column.strip()))}
+    stopped = [column for column in clocks if len(clocks) > 1 and _is_stopped(columns[column])]
+    # Of several clocks those count that run; a single one is refused with the reason.
+    for column in [name for name in clocks if name not in stopped] or clocks:
+        unit = clocks[column][2]
+        timing = timing_of(content, _times(content, columns, column, unit))
+        if timing.fps <= _SLOWEST and not unit:
+            raise content.error(_hardly_seconds(timing.fps))
+        if stopped:
+            remark = f"no time in {listed(stopped)}: {column} taken"
+            return timing._replace(notes=(Note(remark, "warning"), *timing.notes))
+        return timing
     raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
 
 
@@ -284,6 +291,12 @@ def is_ambiguous(text: str) -> bool:
     if match is None or len(match["first"]) == 4 or match["mark"] == ".":
         return False
     return match["second"].isdigit()
+
+
+def _is_stopped(cells: ArrayLike) -> bool:
+    """Return whether a column of times is empty, or the same in all of several rows."""
+    texts = {str(cell).strip() for cell in np.asarray(cells).ravel()}
+    return texts <= {"", "nan", "None"} or (len(texts) == 1 and np.size(cells) > 1)
 
 
 def _times(

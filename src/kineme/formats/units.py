@@ -52,6 +52,9 @@ SPREADS = (0.3, 3.0)
 """Metres over which markers on a person spread, in the middle of the recording:
 a factor of ten, as between two of m, cm and mm."""
 
+SIZES = (0.02, 50.0)
+"""Metres: a whole body of less, or points of more, are not of the unit that the file states."""
+
 METRIC = ("m", "cm", "mm")
 """The units of markers and of most files."""
 
@@ -126,8 +129,7 @@ def height_of(skeleton: Skeleton, means: Floats) -> float:
 
 def infer_up(skeleton: Skeleton, positions: Floats) -> str:
     """The axis along which the body stands, both at rest and most of the time; else "y"."""
-    head = [i for i, name in enumerate(skeleton.names) if _HEAD.search(name)]
-    feet = [i for i, name in enumerate(skeleton.names) if _FOOT.search(name)]
+    feet, head = ends_of_body(skeleton)
     if not head or not feet:
         return "y"
     axis = _axis_of(at_rest(skeleton)[None], feet, head, 0.9)
@@ -169,8 +171,18 @@ def _longest_path(skeleton: Skeleton, lengths: Floats) -> float:
     return longest
 
 
-def scale_of(unit: str | float | None, positions: Floats) -> tuple[float, list[str]]:
-    """Metres in one unit of the positions, and what was inferred."""
+def scale_of(
+    unit: str | float | None,
+    positions: Floats,
+    *,
+    stated: str | None = None,
+    is_body: bool = False,
+) -> tuple[float, list[str]]:
+    """Return the metres in one unit of the positions, and what was inferred.
+
+    ``stated`` is what the file says where ``unit`` is None. It is not believed if the points are
+    then above 50 m apart, or if a whole body is below 2 cm.
+    """
     if unit is not None and unit != "pixel":
         return metres(unit), []
     spread = float(np.median(np.ptp(positions, axis=1).max(axis=1)))
@@ -178,11 +190,12 @@ def scale_of(unit: str | float | None, positions: Floats) -> tuple[float, list[s
         return _HEIGHT / (spread or 1.0), [
             f"no unit: {spread:.3g}, the larger side of the body, taken as {_HEIGHT} m"
         ]
-    for name in METRIC:
-        size = UNITS[name]
-        if SPREADS[0] <= spread * size < SPREADS[1]:
-            note = f"unit {name} inferred: the points then spread over {spread * size:.2f} m"
-            return size, [note]
+    if stated:
+        return _checked_scale(stated, spread, is_body=is_body)
+    unit = _human_unit(spread)
+    if unit is not None:
+        note = f"unit {unit} inferred: the points then spread over {spread * UNITS[unit]:.2f} m"
+        return UNITS[unit], [note]
     name = "m" if spread < 1 else "mm"
     remark = (
         f"markers {spread:.3g} units apart are in no unit those of a person: "
@@ -191,15 +204,59 @@ def scale_of(unit: str | float | None, positions: Floats) -> tuple[float, list[s
     return UNITS[name], [Note(remark, "warning")]
 
 
-def up_axis(usual: str, positions: Floats, body: Body) -> tuple[str, list[str]]:
-    """The axis from the feet to the head, else the usual one; and what was inferred."""
-    head = list(body.get("head", ()))
+def _checked_scale(stated: str, spread: float, *, is_body: bool) -> tuple[float, list[str]]:
+    """Return the metres in the stated unit, or in one that makes the points human, and a note."""
+    size, other = spread * metres(stated), _human_unit(spread)
+    if other is None or (size <= SIZES[1] and (size >= SIZES[0] or not is_body)):
+        return metres(stated), []
+    remark = (
+        f"the points spread over {size:.4g} m by the file's unit {stated}: {other} assumed "
+        f"({spread * UNITS[other]:.2f} m); unit= (--unit) overrides"
+    )
+    return UNITS[other], [Note(remark, "warning")]
+
+
+def _human_unit(spread: float) -> str | None:
+    """Return the unit in which points spread as far as those on a person, or None."""
+    fits = (name for name in METRIC if SPREADS[0] <= spread * UNITS[name] < SPREADS[1])
+    return next(fits, None)
+
+
+def up_axis(
+    usual: str, positions: Floats, body: Body, *, is_stated: bool = False
+) -> tuple[str, list[str]]:
+    """Return the axis along which the body stands, else the usual one, and what was inferred.
+
+    ``is_stated`` says that the file names the usual axis: another one is then a warning.
+    """
+    upper = list(body.get("head", ()) or body.get("pelvis", ()))
     feet = [i for joint in ("left_ankle", "right_ankle") for i in body.get(joint, ())]
-    if head and feet:
-        up = _axis_of(positions, feet, head, 0.7)
-        if up is not None:
-            return up, [f"up axis {up} inferred: head and feet lie along it"]
-    return usual, [f"up axis {usual} assumed; give up= (--up) if it is another"]
+    up = _axis_of(positions, feet, upper, 0.7) if upper and feet else None
+    if is_stated and up in (None, usual):
+        return usual, []
+    if up is None:
+        return usual, [f"up axis {usual} assumed; give up= (--up) if it is another"]
+    part = "head" if body.get("head") else "pelvis"
+    note = f"up axis {up} inferred: {part} and feet lie along it"
+    if not is_stated:
+        return up, [note]
+    return up, [Note(f"{note}, though the file names {usual}; up= (--up) overrides", "warning")]
+
+
+def lying_axis(skeleton: Skeleton, positions: Floats) -> str | None:
+    """Return the axis along which a body lies most of the time, or None if it does not."""
+    feet, head = ends_of_body(skeleton)
+    axis = _axis_of(positions, feet, head, 0.7) if head and feet else None
+    return None if axis == "y" else axis
+
+
+def ends_of_body(skeleton: Skeleton) -> tuple[list[int], list[int]]:
+    """Return the joints of feet and head by their names."""
+    feet, head = (
+        [i for i, name in enumerate(skeleton.names) if pattern.search(name)]
+        for pattern in (_FOOT, _HEAD)
+    )
+    return feet, head
 
 
 def _axis_of(positions: Floats, feet: list[int], head: list[int], least: float) -> str | None:

@@ -152,8 +152,16 @@ def _qtm_motion(
     if not options.fps and not (np.isfinite(fps) and fps > 0):
         raise content.error("no FrameRate in it: give fps= (--fps)")
     positions = np.asarray(data[:, :3], np.float64).transpose(2, 0, 1)
-    unit, up = options.unit or "mm", options.up
-    points = Points(names, positions, options.fps or fps, unit, up, "z", options.person)
+    points = Points(
+        names,
+        positions,
+        options.fps or fps,
+        options.unit,
+        options.up,
+        stated_unit="mm",
+        usual_up="z",
+        person=options.person,
+    )
     return to_motion(points, content.provenance("MAT of QTM", []))
 
 

@@ -88,9 +88,11 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
         [file.labels[i] for i in markers],
         file.points[:, markers] if left_out else file.points,
         fps,
-        unit=options.unit or _unit(file),
-        up=options.up or _up(file),
-        usual_up="z",
+        unit=options.unit,
+        stated_unit=_unit(file),
+        up=options.up,
+        usual_up=_up(file) or "z",
+        is_up_stated=_up(file) is not None,
         person=options.person,
     )
     return to_motion(points, content.provenance("C3D", notes).marked(file.events))

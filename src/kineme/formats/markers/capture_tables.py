@@ -97,8 +97,9 @@ def read_capture(
         names,
         values,
         options.fps or _rate(content, capture),
-        options.unit or unit_named(capture.unit),
+        options.unit,
         options.up,
+        stated_unit=unit_named(capture.unit),
         usual_up=usual_up,
         person=options.person,
     )

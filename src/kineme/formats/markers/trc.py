@@ -47,8 +47,15 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
         content.warn(f"{declared} frames declared, {len(table)} found and kept", 3)
     positions = table[:, 2:].reshape(len(table), -1, 3)
     timing = _rate(content, options, head, table[:, 1])
-    unit = options.unit or unit_named(head.get("Units", ""))
-    points = Points(names, positions, timing.fps, unit, options.up, person=options.person)
+    points = Points(
+        names,
+        positions,
+        timing.fps,
+        options.unit,
+        options.up,
+        stated_unit=unit_named(head.get("Units", "")),
+        person=options.person,
+    )
     notes = [*timing.notes, *text.remarks]
     provenance = content.provenance("TRC", notes).timed(timing.clock)
     return split_at(to_motion(points, provenance), timing.gaps)

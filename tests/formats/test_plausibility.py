@@ -1,0 +1,229 @@
+"""Markers that jump or vanish, bodies of a wrong size, and bodies that lie."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import ezc3d
+import numpy as np
+import pytest
+
+import kineme
+from kineme.errors import KinemeWarning
+from kineme.formats import ReadOptions, read_quietly
+
+FPS, FRAMES = 100.0, 400
+REST = {
+    "LASI": (0.12, 1.0, 0.1),
+    "RASI": (-0.12, 1.0, 0.1),
+    "LPSI": (0.05, 1.02, -0.1),
+    "RPSI": (-0.05, 1.02, -0.1),
+    "LANK": (0.1, 0.1, 0.0),
+    "RANK": (-0.1, 0.1, 0.0),
+    "LFHD": (0.07, 1.7, 0.1),
+    "RFHD": (-0.07, 1.7, 0.1),
+    "LWRA": (0.4, 0.9, 0.0),
+    "RWRA": (-0.4, 0.9, 0.0),
+}
+NAMES = list(REST)
+TURNS = {"y": [0, 1, 2], "z": [2, 0, 1], "x": [1, 2, 0]}
+"""For each axis that is up, the axes of y-up positions in its order."""
+
+
+def walker(*, head: bool = True) -> np.ndarray:
+    """Return markers of somebody who walks along z with swinging arms, metres with y up."""
+    times = np.arange(FRAMES) / FPS
+    points = np.repeat(np.array([*REST.values()])[None], FRAMES, axis=0)
+    points[:, :, 2] += 1.2 * times[:, None]
+    swing = 0.3 * np.sin(2 * np.pi * times)
+    for name, sign in (("LWRA", 1), ("RWRA", -1), ("LANK", -1), ("RANK", 1)):
+        points[:, NAMES.index(name), 2] += sign * swing
+    return points if head else points[:, [i for i, n in enumerate(NAMES) if "FHD" not in n]]
+
+
+def write_trc(path: Path, points: np.ndarray, names: list[str], unit: str = "mm") -> Path:
+    scale = {"mm": 1000, "m": 1}[unit]
+    head = [
+        f"PathFileType\t4\t(X/Y/Z)\t{path.name}",
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits",
+        f"{FPS:g}\t{FPS:g}\t{len(points)}\t{len(names)}\t{unit}",
+        "Frame#\tTime\t" + "\t\t\t".join(names),
+        "\t\t" + "\t".join(f"{axis}{i + 1}" for i in range(len(names)) for axis in "XYZ"),
+        "",
+    ]
+    rows = (
+        "\t".join([f"{i + 1}", f"{i / FPS:.4f}", *(f"{v:.5f}" for v in row.ravel())])
+        for i, row in enumerate(scale * points)
+    )
+    path.write_text("\n".join([*head, *rows]))
+    return path
+
+
+def write_c3d(path: Path, points: np.ndarray, names: list[str], up: str = "") -> Path:
+    file = ezc3d.c3d()
+    file["parameters"]["POINT"]["RATE"]["value"] = [FPS]
+    file["parameters"]["POINT"]["LABELS"]["value"] = names
+    file["parameters"]["POINT"]["UNITS"]["value"] = ["mm"]
+    if up:
+        file.add_parameter("POINT", "Y_SCREEN", [f"+{up.upper()}"])
+    values = np.ones((4, len(names), len(points)))
+    values[:3] = 1000 * points.transpose(2, 1, 0)
+    file["data"]["points"] = values
+    file.write(str(path))
+    return path
+
+
+def write_csv(path: Path, points: np.ndarray, names: list[str], up: str = "") -> Path:
+    columns = [f"{name}_{axis}" for name in names for axis in "xyz"]
+    rows = [",".join(f"{v:.5f}" for v in row.ravel()) for row in points]
+    times = [f"{i / FPS:.4f}" for i in range(len(points))]
+    lines = [
+        ",".join(["time_s", *columns]),
+        *(f"{t},{r}" for t, r in zip(times, rows, strict=True)),
+    ]
+    path.write_text("\n".join(lines))
+    return path
+
+
+WRITERS = {
+    ".c3d": write_c3d,
+    ".trc": lambda path, points, names, up="": write_trc(path, points, names),
+    ".csv": write_csv,
+}
+
+
+def height(motion: Any, upper: str) -> float:
+    """Return how far a marker is above the ankles, in the middle of the recording."""
+    names = motion.skeleton.names
+    marker = upper if upper in names else next(n for n in names if n.startswith(upper))
+    gap = (
+        motion.positions[:, names.index(marker), 1]
+        - motion.positions[:, names.index("left_ankle"), 1]
+    )
+    return float(np.median(gap))
+
+
+@pytest.mark.parametrize("head", [True, False], ids=["head", "no head"])
+@pytest.mark.parametrize("up", TURNS)
+@pytest.mark.parametrize("suffix", WRITERS)
+def test_the_up_axis_is_that_of_the_body(tmp_path: Path, suffix: str, up: str, head: bool) -> None:
+    points = walker(head=head)
+    names = NAMES if head else [name for name in NAMES if "FHD" not in name]
+    turned = points[:, :, TURNS[up]]
+    motion = read_quietly(WRITERS[suffix](tmp_path / f"a{suffix}", turned, names))
+    part, expected = ("head", 1.6) if head else ("pelvis", 0.91)
+    assert height(motion, part) == pytest.approx(expected, abs=0.02)
+
+
+@pytest.mark.parametrize("stated", ["x", "y", "z"])
+def test_a_c3d_that_names_another_up_axis_is_warned_of(tmp_path: Path, stated: str) -> None:
+    path = write_c3d(tmp_path / "a.c3d", walker()[:, :, TURNS["z"]], NAMES, up=stated)
+    motion = read_quietly(path)
+    assert height(motion, "head") == pytest.approx(1.6, abs=0.02)
+    assert [f"the file names {stated}" in each for each in motion.provenance.warnings] == (
+        [] if stated == "z" else [True]
+    )
+    kept = read_quietly(path, ReadOptions(up="x"))
+    assert height(kept, "head") == pytest.approx(0, abs=0.2)
+    assert not any("lies" in each for each in kept.provenance.warnings)
+
+
+@pytest.mark.parametrize("marker", ["LASI", "LWRA"])
+def test_a_marker_that_jumps_and_comes_back_is_not_seen_there(tmp_path: Path, marker: str) -> None:
+    points = walker()
+    sound = read_quietly(write_trc(tmp_path / "sound.trc", points, NAMES))
+    assert sound.provenance.warnings == ()
+    points[200:206, NAMES.index(marker)] += (0.2, 0.55, 0.1)  # 58 m/s
+    with pytest.warns(
+        KinemeWarning, match=rf"jump away and back.*: {marker} \(frames 200 to 205\)"
+    ):
+        motion = kineme.read(write_trc(tmp_path / "a.trc", points, NAMES))
+    assert np.abs(motion.positions - sound.positions).max() < 0.005
+
+
+def test_a_jump_without_return_is_warned_of_and_kept(tmp_path: Path) -> None:
+    points = walker()
+    points[200:, NAMES.index("LWRA"), 1] += 0.6
+    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    assert motion.provenance.warnings == ("points that jump: LWRA (frame 200)",)
+    assert motion.gaps == ()
+
+
+def test_a_moved_origin_is_no_jump_of_each_marker(tmp_path: Path) -> None:
+    points = walker()
+    points[200:] += (1.0, 0, 2.0)
+    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    assert motion.provenance.warnings == ()
+
+
+def test_markers_at_the_origin_are_not_seen_there(tmp_path: Path) -> None:
+    points = walker()
+    sound = read_quietly(write_trc(tmp_path / "sound.trc", points, NAMES))
+    points[100:110, NAMES.index("LWRA")] = 0
+    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    assert list(motion.provenance.warnings) == [
+        "exactly at the origin in some frames, taken as not seen there: LWRA"
+    ]
+    assert np.abs(motion.positions - sound.positions).max() < 0.005
+
+
+def test_frames_of_zeros_are_a_gap(tmp_path: Path) -> None:
+    points = walker()
+    points[100:160] = 0
+    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    assert motion.gaps == ((100, 160),)
+    assert any("60 frames with nothing but zeros" in each for each in motion.provenance.warnings)
+
+
+def test_a_point_that_never_leaves_the_origin_stays(tmp_path: Path) -> None:
+    points = walker()
+    points -= points[:, :1]
+    motion = read_quietly(write_csv(tmp_path / "a.csv", points, NAMES))
+    assert not motion.provenance.warnings
+    assert "LASI" in motion.skeleton.names
+
+
+def test_markers_of_one_bone_that_are_exchanged_are_warned_of(tmp_path: Path) -> None:
+    points = walker()
+    left, right = NAMES.index("LASI"), NAMES.index("RPSI")
+    points[150:250, [left, right]] = points[150:250, [right, left]]
+    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    (warning,) = (each for each in motion.provenance.warnings if "bone" in each)
+    assert warning.startswith("points on one bone change their distance: LASI and LPSI")
+
+
+def test_a_body_of_a_kilometre_is_of_another_unit(tmp_path: Path) -> None:
+    path = write_trc(tmp_path / "a.trc", 1000 * walker(), NAMES, unit="m")
+    with pytest.warns(
+        KinemeWarning, match=r"over 16\d\d m by the file's unit m: mm assumed \(1\.6\d m\)"
+    ):
+        motion = kineme.read(path)
+    assert height(motion, "head") == pytest.approx(1.6, abs=0.02)
+    assert height(kineme.read(path, unit="m"), "head") == pytest.approx(1600, abs=20)
+    assert height(kineme.read(path, unit="mm"), "head") == pytest.approx(1.6, abs=0.02)
+
+
+def test_a_body_that_lies_is_warned_of(tmp_path: Path) -> None:
+    motion = read_quietly(write_trc(tmp_path / "a.trc", walker(), NAMES))
+    lying = motion.positions[:, :, [1, 2, 0]]
+    path = tmp_path / "a.npz"
+    np.savez(
+        path,
+        positions=lying,
+        names=np.array(motion.skeleton.names),
+        parents=np.array(motion.skeleton.parents),
+        fps=FPS,
+    )
+    with pytest.warns(KinemeWarning, match="the body lies along x most of the time"):
+        kineme.read(path, unit="m", up=None)
+
+
+@pytest.mark.parametrize("cells", ["", "5"], ids=["empty", "standing still"])
+def test_of_two_clocks_the_one_that_runs_is_taken(tmp_path: Path, cells: str) -> None:
+    rows = (f"{cells},{i / 50:.3f},{np.sin(i / 9):.4f}" for i in range(200))
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join(["timestamp,time_s,acc_x", *rows]))
+    with pytest.warns(KinemeWarning, match="no time in timestamp: time_s taken"):
+        signals = kineme.read(path)
+    assert (signals.fps, signals.names) == (50, ("acc_x",))
