@@ -65,3 +65,50 @@ def test_control_c_while_threads_start_ends_the_program() -> None:
     ended = subprocess.run([sys.executable, "-c", INTERRUPTED], env=env, timeout=60, check=False,
                            capture_output=True)  # fmt: skip
     assert ended.returncode not in (0, None)
+
+
+TWO_IMPORTS = """
+import sys, threading, time, faulthandler
+
+faulthandler.dump_traceback_later(100, exit=True)
+from kineme._compiled import telling_of_compiling
+
+begun = threading.Event()
+
+
+class Pause:
+    '''Let the other thread come in while numba is imported.'''
+
+    def find_spec(self, name, path=None, target=None):
+        if name == "{module}":
+            begun.set()
+            time.sleep(0.5)
+
+
+def announce():
+    begun.wait()
+    with telling_of_compiling(print):
+        import kineme.matching._kernels
+
+
+def compute():
+    import kineme.graph._kernels
+
+
+sys.meta_path.insert(0, Pause())
+failed = []
+threading.excepthook = failed.append
+threads = [threading.Thread(target=each, daemon=True) for each in (announce, compute)]
+for each in threads:
+    each.start()
+for each in threads:
+    each.join()
+sys.exit(bool(failed))
+"""
+
+
+@pytest.mark.parametrize("module", ["numba.core.config", "numba.misc", "numba.core.typing"])
+def test_numba_is_imported_by_one_thread_and_awaited_by_others(module: str) -> None:
+    """A part of numba that is imported beside it leaves a lock that nobody opens."""
+    script = TWO_IMPORTS.format(module=module)
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=300)

@@ -26,6 +26,7 @@ COMPILING = "compiling, the first time only"
 @contextmanager
 def telling_of_compiling(say: Callable[[str], None]) -> Iterator[None]:
     """While the block lasts, say so before the first kernel is compiled that was never before."""
+    import numba  # noqa: F401 (waits for another thread that imports it; the next line would not)
     from numba.core.event import Event, Listener, install_listener
 
     class Once(Listener):
