@@ -31,7 +31,7 @@ import kineme
 from kineme.cli.app import app
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import ReadOptions, people_in
-from kineme.formats.keypoints.mmpose import NAMES as MMPOSE
+from kineme.formats.keypoints.coco import LAYOUTS as MMPOSE
 
 
 def read(folder: Path, name: str, content: str | bytes | list | dict, **options):
@@ -54,7 +54,7 @@ def stands(motion: kineme.Motion) -> bool:
     return bool(1.0 < upright < 1.9 and at["left_hip"][0] > at["right_hip"][0])
 
 
-@pytest.mark.parametrize("count", [25, 18])
+@pytest.mark.parametrize("count", [25, 18, 17, 26])
 def test_openpose_in_a_folder(tmp_path: Path, count: int) -> None:
     for i, frame in enumerate(openpose(count)):
         (tmp_path / f"walk_{i:012d}_keypoints.json").write_text(json.dumps(frame))
@@ -450,7 +450,7 @@ def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
         ('[{"people": [3]}]', "a person without keypoints"),
         ('[{"people": [{}]}]', "a person without pose_keypoints_3d, pose_keypoints_2d"),
         ('[{"people": [{"pose_keypoints_2d": [1, 2, "a"]}]}]', "not a list of numbers"),
-        ('[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]', "a person has 1 keypoints: 25, 18"),
+        ('[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]', "a person has 1 keypoints: 15, 17, 18"),
         ('[{"people": []}]', "nobody is found in any frame"),
         ('{"0": {"people": []}, "99999999999": {"people": []}}', "nobody is found|no frame num"),
     ],
@@ -470,3 +470,90 @@ def test_memory_follows_the_file_and_not_its_numbers(tmp_path: Path) -> None:
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < 2_000_000
+
+
+def test_openpose_of_a_whole_body(tmp_path: Path) -> None:
+    names = (*OPENPOSE[133], *(f"nose_{i}" for i in range(110)))
+    frames = [openpose_frame(points) for points in pixels(standing(names))]
+    motion = read(tmp_path, "a.json", frames, fps=25)
+    assert stands(motion)
+    assert not any(name.startswith("nose_") for name in motion.skeleton.names)
+
+
+@pytest.mark.parametrize("world", [True, False])
+def test_a_body_seen_from_the_side_is_read(tmp_path: Path, world: bool) -> None:
+    """MediaPipe hides the far side: its places are estimated all the same."""
+    poses = world_landmarks() if world else image_landmarks()
+    key = "pose_world_landmarks" if world else "pose_landmarks"
+    far = [i for i, name in enumerate(MEDIAPIPE) if name.startswith("right")]
+    frames = [marks(pose) for pose in poses]
+    for frame in frames:
+        for i in far:
+            frame[i]["visibility"] = 0.15
+    data = {"fps": 30, "width": 1000, "height": 1000, "frames": [{key: f} for f in frames]}
+    motion = read(tmp_path, "a.json", data)
+    assert not motion.gaps
+    assert stands(motion)
+    sure = read(tmp_path, "a.json", data, confidence=0.5)
+    assert any("less sure than 0.5" in note for note in sure.provenance.notes)
+
+
+def test_frames_of_zeros_are_no_poses(tmp_path: Path) -> None:
+    poses = 1000 * image_landmarks(60)
+    poses[20:40] = 0
+    with pytest.warns(KinemeWarning, match="20 frames with nothing but zeros"):
+        motion = read(tmp_path, "a.json", {"fps": 30, "frames": [marks(pose) for pose in poses]})
+    assert motion.gaps == ((20, 40),)
+    assert stands(motion)
+
+
+def test_landmarks_of_freemocap_are_in_space(tmp_path: Path) -> None:
+    """Without a clock, millimetres, z up: as ``mediapipe_body_3d_xyz.csv``."""
+    points = 1000 * standing(MEDIAPIPE)[:, :, [0, 2, 1]] * (1, -1, 1) + (300, 2000, 50)
+    head = ",".join(f"{name}_{axis}" for name in MEDIAPIPE for axis in "xyz")
+    rows = [",".join(f"{v:.2f}" for v in frame.ravel()) for frame in points]
+    motion = read(tmp_path, "a.csv", "\n".join([head, *rows]), fps=30)
+    assert stands(motion)
+    assert 0.75 < waves(motion) < 0.82
+    notes = " ".join(motion.provenance.notes)
+    assert "unit mm inferred" in notes
+    assert "up axis z inferred" in notes
+
+
+def write_trc(path: Path, points: np.ndarray, names: list[str], unit: str) -> Path:
+    head = [
+        f"PathFileType\t4\t(X/Y/Z)\t{path.name}",
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits",
+        f"30\t30\t{len(points)}\t{len(names)}\t{unit}",
+        "Frame#\tTime\t" + "\t\t\t".join(names),
+        "\t\t" + "\t".join(f"{axis}{i + 1}" for i in range(len(names)) for axis in "XYZ"),
+        "",
+    ]
+    rows = (
+        "\t".join([f"{i + 1}", f"{i / 30:.4f}", *(f"{v:.4f}" for v in frame.ravel())])
+        for i, frame in enumerate(points)
+    )
+    path.write_text("\n".join([*head, *rows]))
+    return path
+
+
+@pytest.mark.parametrize("sign", [1, -1], ids=["y up", "y down"])
+def test_pixels_of_sports2d_are_a_body(tmp_path: Path, sign: int) -> None:
+    """It states metres above pixels."""
+    names = ["Hip", "RHip", "RKnee", "RAnkle", "LHip", "LKnee", "LAnkle", "Neck", "Head", "Nose"]
+    names += ["RShoulder", "RElbow", "RWrist", "LShoulder", "LElbow", "LWrist"]
+    points = 110 * standing(tuple(names)) * (1, sign, 1)
+    motion = kineme.read(write_trc(tmp_path / "walk_px_person00.trc", points, names, "m"))
+    assert stands(motion)
+    assert 0.7 < waves(motion) < 1.0
+
+
+@pytest.mark.parametrize("top", ["Neck", "C7", "C7_study"])
+def test_a_trc_without_a_head_has_a_body(tmp_path: Path, top: str) -> None:
+    """As OpenCap leaves them."""
+    names = ["midHip", "RHip", "RKnee", "RAnkle", "LHip", "LKnee", "LAnkle"]
+    names += ["RShoulder", "RElbow", "RWrist", "LShoulder", "LElbow", "LWrist"]
+    points = np.concatenate([standing(tuple(names)), standing(("Neck",))], axis=1)
+    motion = kineme.read(write_trc(tmp_path / "a.trc", points, [*names, top], "m"))
+    assert stands(motion)
+    assert not kineme.segment(motion).provenance["notes"][0].startswith("no body")

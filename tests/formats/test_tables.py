@@ -184,9 +184,16 @@ def test_keypoints_that_are_not_sure_count_as_gaps(tmp_path: Path) -> None:
     sure[7] = "0.1"
     points = body()
     points[7, 0] = 99.0
-    motion = read(tmp_path, "a.csv", table(points, time=TIMES, pelvis_visibility=sure))
+    motion = read(tmp_path, "a.csv", table(points, time=TIMES, pelvis_confidence=sure))
     assert np.allclose(motion.positions[:, 0], body()[:, 0])
     assert any("1 position less sure than 0.5" in note for note in motion.provenance.notes)
+
+
+def test_what_is_hidden_is_used(tmp_path: Path) -> None:
+    text = table(body(), time=TIMES, pelvis_visibility=["0.1"] * 20)
+    assert np.allclose(read(tmp_path, "a.csv", text).positions[:, 0], body()[:, 0])
+    notes = read(tmp_path, "a.csv", text, confidence=0.5).provenance.notes
+    assert any("20 positions less sure than 0.5" in note for note in notes)
 
 
 def test_deeplabcut(tmp_path: Path) -> None:

@@ -63,7 +63,8 @@ def columns_to_motion(
     ReadError where no joints are found, columns differ in length, or nothing tells the rate.
     """
     joints = _joints(content, columns)
-    names, positions, confidence = _positions(content, columns, joints)
+    is_asked = options.confidence is not None
+    names, positions, confidence = _positions(content, columns, joints, visibility=is_asked)
     limit = limit if options.confidence is None else options.confidence
     positions[confidence < limit] = np.nan
     flat = all(len(axes) == 2 for axes in joints.values())
@@ -180,11 +181,17 @@ def _units_of(axes: Mapping[str, str]) -> dict[str, str | None]:
 
 
 def _positions(
-    content: FileContent, columns: Mapping[str, ArrayLike], joints: Joints
+    content: FileContent, columns: Mapping[str, ArrayLike], joints: Joints, *, visibility: bool
 ) -> tuple[list[str], Floats, Floats]:
-    """Names, positions (rows, joints, 3) and confidences (rows, joints)."""
+    """Return names, positions (rows, joints, 3) and confidences (rows, joints).
+
+    ``visibility`` says that it counts as a confidence: it tells only that something is in front.
+    """
+    matches = {column: _CONFIDENCE.fullmatch(column.strip()) for column in columns}
     confidence_columns = {
-        match[1]: column for column in columns if (match := _CONFIDENCE.fullmatch(column.strip()))
+        match[1]: column
+        for column, match in matches.items()
+        if match and (visibility or match[2].lower() != "visibility")
     }
     rows = len(numbers_in(content, columns, next(iter(next(iter(joints.values())).values()))))
     positions = np.zeros((rows, len(joints), 3))

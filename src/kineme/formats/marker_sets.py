@@ -80,6 +80,7 @@ TABLE: dict[str, tuple[str, ...]] = {
         "NOSE",
         "NECK",  # OpenCap and other sets without a marker on the head
         "C7",
+        "C7STUDY",
     ),
     "*_wrist": (
         "*WRIST",

@@ -37,6 +37,13 @@ NAMES = (
     "left_knee", "right_knee", "left_ankle", "right_ankle",
 )  # fmt: skip
 
+_TOES = ("left_big_toe", "left_small_toe", "left_heel")
+_FEET = (*_TOES, *(name.replace("left", "right") for name in _TOES))
+_HALPE = ("head", "neck", "hip", *(f"{side}_{part}" for part in ("big_toe", "small_toe", "heel")
+                                  for side in ("left", "right")))  # fmt: skip
+LAYOUTS = {17: NAMES, 26: (*NAMES, *_HALPE), 133: (*NAMES, *_FEET)}
+"""COCO, Halpe and COCO-WholeBody by their number of keypoints; hands and face are left out."""
+
 _IDS = ("track_id", "person_id", "instance_id", "idx")
 _DIGITS = re.compile(r"\d+")
 

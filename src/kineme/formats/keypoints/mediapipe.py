@@ -14,7 +14,10 @@ World landmarks are metres from the middle of the hips, with y down; they are
 taken where they are there, or where the hips' middle stays at 0. The place in
 the room is lost in these. Landmarks of the image are shares of its width and
 height: where the file does not tell these, the image is taken as square.
-Landmarks of a visibility below 0.5 count as not seen.
+All landmarks are used: their visibility tells whether something is in front of them, and
+not whether their place is right. ``confidence`` leaves out those below it.
+
+FreeMoCap's tables of the same landmarks are in space, in millimetres with z up.
 
 Source: Google, MediaPipe's documentation of the Pose Landmarker.
 """
@@ -34,7 +37,7 @@ from kineme.formats.keypoints.video import Person, Video, by_number, video_to_mo
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
-LIMIT = 0.5
+LIMIT = 0.0
 
 NAMES = (
     "nose", "left_eye_inner", "left_eye", "left_eye_outer", "right_eye_inner", "right_eye",
@@ -106,6 +109,12 @@ def landmarks_to_motion(
         notes.append("world landmarks: metres from the middle of the hips, the place is not known")
         video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, unit="m", notes=notes)
         return video_to_motion(content, video, options)
+    if _are_in_space(people):
+        notes.append("landmarks in space: the body is highest along another axis than an image's")
+        video = Video(
+            "MediaPipe", NAMES, people, LIMIT, fps, frames, unit=None, up=None, notes=notes
+        )
+        return video_to_motion(content, video, options)
     hips = np.array([p.points[hip][0] for p in people for hip in _HIPS])
     if np.nanmax(np.abs(hips), initial=0.0) < 4:  # shares of the image, and not pixels
         width, height = size
@@ -119,6 +128,20 @@ def landmarks_to_motion(
         people = [replace(person, points=np.asarray(person.points) * sides) for person in people]
     video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, notes=notes)
     return video_to_motion(content, video, options)
+
+
+def _are_in_space(people: Sequence[Person]) -> bool:
+    """Return whether the nose is above the ankles along z most of the time.
+
+    The depth of landmarks in an image is measured from the hips and much smaller.
+    """
+    ends = [NAMES.index(name) for name in ("nose", "left_ankle", "right_ankle")]
+    poses = np.array([[p.points[end] for end in ends] for p in people])
+    if poses.ndim != 3 or poses.shape[2] != 3:
+        return False
+    lengths = poses[:, 0] - poses[:, 1:].mean(axis=1)
+    along = np.nanmedian(lengths / np.linalg.norm(lengths, axis=1, keepdims=True), axis=0)
+    return bool(along[2] > 0.7)
 
 
 def _frames(data: Any) -> list[tuple[int, Any]]:

@@ -20,18 +20,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from kineme.formats.files import FileContent, unique
-from kineme.formats.keypoints.coco import LIMIT
-from kineme.formats.keypoints.coco import NAMES as COCO
+from kineme.formats.keypoints.coco import LAYOUTS, LIMIT
 from kineme.formats.keypoints.video import Person, Video, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
-
-_TOES = ("left_big_toe", "left_small_toe", "left_heel")
-_FEET = (*_TOES, *(name.replace("left", "right") for name in _TOES))
-_HALPE = ("head", "neck", "hip", *(f"{side}_{part}" for part in ("big_toe", "small_toe", "heel")
-                                  for side in ("left", "right")))  # fmt: skip
-NAMES = {17: COCO, 26: (*COCO, *_HALPE), 133: (*COCO, *_FEET)}
-"""Keypoints by the number that a person has; of a whole body those that are kept."""
 
 
 def is_mmpose(data: Any) -> bool:
@@ -84,5 +76,5 @@ def _names(data: Any, count: int) -> Sequence[str]:
     named = facts.get("keypoint_id2name") if isinstance(facts, Mapping) else None
     if isinstance(named, Mapping) and count in (len(named), 133):
         listed = unique(str(named.get(str(i), i)) for i in range(count))
-        return listed[: len(NAMES[133])] if count == 133 else listed
-    return NAMES.get(count, ())
+        return listed[: len(LAYOUTS[133])] if count == 133 else listed
+    return LAYOUTS.get(count, ())

@@ -1,7 +1,8 @@
 """OpenPose: a JSON file for each frame of a video, in a folder.
 
 ``people`` holds for each person ``pose_keypoints_2d``, x, y and confidence of 25
-(BODY_25), 18 (COCO) or 15 (MPI) keypoints; or ``pose_keypoints_3d``, with z and in
+(BODY_25), 18 (COCO) or 15 (MPI) keypoints, or of 17 (COCO), 26 (Halpe) or 133
+(COCO-WholeBody) as other programs write them in this form; or ``pose_keypoints_3d``, with z and in
 the unit of the cameras' calibration, taken where they are there. Hands and face are
 left out. OpenPose does not track people; where another program has, ``person_id`` tells.
 
@@ -27,6 +28,7 @@ import numpy as np
 from kineme._files import head_of
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, load
+from kineme.formats.keypoints.coco import LAYOUTS
 from kineme.formats.keypoints.video import (
     Person,
     Video,
@@ -48,8 +50,9 @@ NAMES = {
     25: ("Nose", "Neck", *_ARMS, "MidHip", *_LEGS, *_FACE, *_FEET),
     18: ("Nose", "Neck", *_ARMS, *_LEGS, *_FACE),
     15: ("Head", "Neck", *_ARMS, *_LEGS, "Chest"),
+    **LAYOUTS,
 }
-"""Keypoints by their number: BODY_25, COCO, MPI."""
+"""Keypoints by their number: OpenPose's BODY_25, COCO and MPI, and those of other programs."""
 
 _NUMBER = re.compile(r"(\d+)(?:_keypoints)?\.json$", re.IGNORECASE)
 _KEYS = {"pose_keypoints_3d": 4, "pose_keypoints_2d": 3, "pose_keypoints": 3}
@@ -158,9 +161,12 @@ def _to_motion(
     counts = {len(person.points) for person in people}
     for count in counts:
         if count not in NAMES:
-            layouts = ", ".join(map(str, NAMES))
+            layouts = ", ".join(map(str, sorted(NAMES)))
             raise content.error(f"a person has {count} keypoints: {layouts} are known")
     names = NAMES[max(counts, default=25)]
+    n = len(names)  # of a whole body the points of hands and face are left out
+    people = [replace(each, points=each.points[:n], confidence=each.confidence[:n])
+              for each in people]  # fmt: skip
     video = Video("OpenPose", names, people, LIMIT, frames=frames)
     if in_space:
         video = replace(video, unit=None, up=None)

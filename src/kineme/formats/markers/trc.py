@@ -9,6 +9,7 @@ y, OpenSim's, is taken where head and feet do not tell.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -47,11 +48,12 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
         content.warn(f"{declared} frames declared, {len(table)} found and kept", 3)
     positions = table[:, 2:].reshape(len(table), -1, 3)
     timing = _rate(content, options, head, table[:, 1])
+    unit = options.unit or ("pixel" if _is_image(content, head, positions) else None)
     points = Points(
         names,
         positions,
         timing.fps,
-        options.unit,
+        unit,
         options.up,
         stated_unit=unit_named(head.get("Units", "")),
         person=options.person,
@@ -59,6 +61,16 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     notes = [*timing.notes, *text.remarks]
     provenance = content.provenance("TRC", notes).timed(timing.clock)
     return split_at(to_motion(points, provenance), timing.gaps)
+
+
+def _is_image(content: FileContent, head: dict[str, str], positions: Floats) -> bool:
+    """Return whether positions are pixels: flat, and called so in the header or the file's name.
+
+    Sports2D states metres above pixels, and calls the file ``NAME_px_person00.trc``.
+    """
+    is_flat = not np.nanmax(np.abs(positions[..., 2]), initial=0.0)
+    words = [head.get("Units", "").lower(), *re.split(r"[\W_]", Path(content.path).stem.lower())]
+    return is_flat and not {"px", "pixel", "pixels"}.isdisjoint(words)
 
 
 def write_trc(motion: Motion, path: Path) -> None:
