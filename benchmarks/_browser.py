@@ -11,6 +11,8 @@ from typing import Any
 from _options import need_packages, skip
 
 FLAGS = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+SIZE = {"width": 1280, "height": 720}
+DRAWN = "window.kineme?.hasMotion && window.kineme.drawn > 0"
 
 
 @contextmanager
@@ -27,3 +29,9 @@ def chromium(*flags: str) -> Iterator[Any]:
         browser = playwright.chromium.launch(executable_path=program, args=[*flags, *sandbox])
         yield browser
         browser.close()
+
+
+def wait(tab: Any, condition: str) -> None:
+    """Wait until the condition holds; ask from outside, as the page's policy wants it."""
+    while not tab.evaluate(condition):
+        tab.wait_for_timeout(10)

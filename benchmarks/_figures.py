@@ -1,8 +1,8 @@
 """Measured numbers, kept in ``docs/figures.json`` with what measured them and when.
 
-README and docs quote them from there: ``python docs/fill_figures.py`` writes
-them in. A benchmark takes the option ``--record`` and then leaves each number
-that is quoted, under a name that begins with its own:
+``python docs/fill_figures.py`` writes the tables of README and docs from them.
+A benchmark takes the option ``--record`` and then keeps each number, under a name
+that begins with its own:
 ``record("constants.alike.off", 0.021)``. Without the option the numbers are
 compared with those kept, and what differs is told at the end.
 """

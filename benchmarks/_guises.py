@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
+from _joined import clusters_of
 from kineme.features.channels import at_rate
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample, scale, turn
 from kineme.segments.segmentation import Segmentation
-from sets_joined import clusters_of
 
 RATES = (25.0, 30.0, 60.0, 120.0)
 CUT_S = 2.0

@@ -16,8 +16,10 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
+from sparse_events import found_units, matches
 
 import kineme
+from _joined import Piece, clusters_of, joined, person_of, pieces
 from _options import DATA
 from _recordings import Case, by_recording, hdm05, subject_86, synthetic
 from _sparse_recordings import SparseCase, sparse_events
@@ -30,8 +32,6 @@ from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
 from sets import READING
-from sets_joined import Piece, clusters_of, joined, person_of, pieces
-from sparse_events import found_units, matches
 
 NEAR_S = 0.5
 """Borders this near to a true one are right."""

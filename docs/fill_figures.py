@@ -1,135 +1,84 @@
-"""Measured numbers in README and docs, filled in from ``figures.json``.
+"""Write the measured figures into README.md and results.md.
 
     python docs/fill_figures.py
 
-The pages have plain numbers. Which figure each is, ``quoted.txt`` says: under the name of a page, a
-line for each passage of it, with the name of the figure and its format in place of the number::
-
-    docs/speed.md
-      an hour of {growth.kineme.1_h.seconds .1f} s
-
-A passage is a row of a table or some words of a sentence. It is found wherever its lines break, and
-must be there as often as it is listed. Benchmarks measure the figures anew (``--record``, see
-``benchmarks/_figures.py``); one that is still to be measured is null there, and a dash here.
-
-What is not measured by a benchmark of ours says why, and is left as it is: a limit, a promise, what
-a paper says, what was seen once while something was made::
-
-      labelled ones in {35.3 s; stated: the 2014 paper}
-
-A test finds speed and memory that stand in no passage.
+`figures.json` has what the benchmarks measured (``python -m benchmarks NAME --record``). The tables
+stand between ``<!-- figures -->`` and ``<!-- /figures -->``; no other text on any page is changed.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent
 FIGURES = HERE / "figures.json"
-QUOTED = HERE / "quoted.txt"
-PLACE = re.compile(r"\{(?:(?P<text>[^{};]+); stated: [^{}]+|(?P<name>\S+) (?P<format>\S+))\}")
-NUMBER = r"–|[+-]?\d+(?:[.,]\d+)*"
-NUMBERS = rf"(?:{NUMBER})(?:(?:,|\s/|\sto|\sof)\s(?:{NUMBER}))*"
-"""What a figure of several numbers may be, such as "0.2 to 0.3"."""
+MARKED = re.compile(r"(<!-- figures -->\n).*?(<!-- /figures -->)", re.DOTALL)
+METHODS = ("kineme", "voegele2014", "krueger2017", "haca")
+SCORES = {
+    "CMU subject 86: frames in the right class": "fairness.subject_86.{}.one_to_one",
+    "CMU subject 86: border F1 within 0.25 s": "fairness.subject_86.{}.border_f1",
+    "synthetic recordings: activities counted exactly, %": "synthetic.{}.counts",
+}
+"""Rows of the table in README: what they tell, and the figure of each method."""
+
+Figures = Mapping[str, Mapping[str, Any]]
 
 
-class Place(NamedTuple):
-    """Where a number stands on a page; no name of a figure if it is stated."""
-
-    start: int
-    stop: int
-    name: str
-    format: str
-
-
-def quoted(text: str) -> dict[str, list[str]]:
-    """By page, its passages."""
-    pages: dict[str, list[str]] = {}
-    listed: list[str] = []
-    for line in text.splitlines():
-        if line.startswith("  "):
-            listed.append(line.strip())
-        elif line and not line.startswith("#"):
-            listed = pages[line] = []
-    return pages
+def readme_table(figures: Figures) -> str:
+    """Return the scores of the methods beside each other."""
+    rows = [["", *(f"`{method}`" for method in METHODS)], ["---"] * (1 + len(METHODS))]
+    for title, name in SCORES.items():
+        found = (figures.get(name.format(method), {}) for method in METHODS)
+        rows.append([title, *(shown(each) if each else "–" for each in found)])
+    return table_of(rows)
 
 
-def places(page: str, passages: Iterable[str]) -> Iterator[Place]:
-    """The numbers of all passages; LookupError for a passage that is not there as often."""
-    alike: dict[str, list[str]] = {}
-    for passage in passages:
-        alike.setdefault(_shape(passage), []).append(passage)
-    for shape, listed in alike.items():
-        found = list(re.finditer(shape, page))
-        if len(found) != len(listed):
-            raise LookupError(f"{len(found)} and not {len(listed)} times there: {listed[0]}")
-        for match, passage in zip(found, listed, strict=True):
-            for number, place in enumerate(PLACE.finditer(passage), 1):
-                yield Place(*match.span(number), place["name"] or "", place["format"] or "")
+def results_tables(figures: Figures) -> str:
+    """Return all figures: a table for each benchmark, a row for what has several figures."""
+    groups: dict[str, dict[str, list[str]]] = {}
+    dates: dict[str, str] = {}
+    for name, figure in figures.items():
+        benchmark, _, rest = name.partition(".")
+        row, _, last = rest.rpartition(".")
+        groups.setdefault(benchmark, {}).setdefault(row, []).append(f"{last} {shown(figure)}")
+        dates[benchmark] = max(dates.get(benchmark, ""), figure["date"])
+    head = [["of", "figures"], ["---"] * 2]
+    parts = (
+        f"### {name}\n\nMeasured {dates[name]}.\n\n"
+        + table_of([*head, *([row, ", ".join(c)] for row, c in rows.items())])
+        for name, rows in groups.items()
+    )
+    return "\n\n".join(parts)
 
 
-def filled(page: str, passages: Iterable[str], figures: Mapping[str, Mapping[str, Any]]) -> str:
-    """The page with every number as the figures have it; KeyError for a name not there."""
-    changes = []
-    for place in places(page, passages):
-        if place.name:
-            shown = _shown(figures[place.name], place.format)
-            if page[place.start : place.stop].split() != shown.split():  # else its lines may break
-                changes.append((place, shown))
-    return _with(page, changes)
+def shown(figure: Mapping[str, Any]) -> str:
+    """Return a figure with its unit."""
+    value = figure["value"]
+    text = f"{value:.4g}" if isinstance(value, float) else "–" if value is None else str(value)
+    return f"{text} {figure['unit']}".strip()
 
 
-def unquoted(page: str, passages: Iterable[str]) -> str:
-    """The page without the numbers that say where they come from."""
-    return _with(page, [(place, "") for place in places(page, passages)])
+def table_of(rows: list[list[str]]) -> str:
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+
+PAGES = {HERE.parent / "README.md": readme_table, HERE / "results.md": results_tables}
+
+
+def filled(page: Path) -> str:
+    """Return the text of a page with its tables as the figures have them."""
+    table = PAGES[page](json.loads(FIGURES.read_text(encoding="utf-8")))
+    text = page.read_text(encoding="utf-8")
+    return MARKED.sub(lambda mark: f"{mark[1]}\n{table}\n\n{mark[2]}", text)
 
 
 def main() -> None:
-    figures = json.loads(FIGURES.read_text(encoding="utf-8"))
-    for name, passages in quoted(QUOTED.read_text(encoding="utf-8")).items():
-        before = (ROOT / name).read_text(encoding="utf-8")
-        try:
-            after = filled(before, passages, figures)
-        except LookupError as error:
-            raise SystemExit(f"{name}: {error}") from error
-        if after != before:
-            (ROOT / name).write_text(after, encoding="utf-8")
-            print(f"{name}: filled")
-
-
-def _shape(passage: str) -> str:
-    """An expression for it with any numbers, a group for each, and any breaks of lines."""
-    shape, at = "", 0
-    for place in PLACE.finditer(passage):
-        shape += _words(passage[at : place.start()])
-        if place["text"]:
-            shape += f"({_words(place['text'])})"
-        else:
-            shape += f"({NUMBERS if place['format'] == 's' else NUMBER})"
-        at = place.end()
-    shape += _words(passage[at:])
-    if passage.startswith("|"):
-        return rf"(?m:^){shape}(?m:$)"
-    return rf"(?<![\w.,]){shape}(?!\w|[.,]\d)"
-
-
-def _words(text: str) -> str:
-    return r"\s+".join(re.escape(word) for word in re.split(r"\s+", text))
-
-
-def _with(page: str, changes: Sequence[tuple[Place, str]]) -> str:
-    for place, text in sorted(changes, reverse=True):
-        page = page[: place.start] + text + page[place.stop :]
-    return page
-
-
-def _shown(figure: Mapping[str, Any], form: str) -> str:
-    return "–" if figure["value"] is None else format(figure["value"], form)
+    for page in PAGES:
+        page.write_text(filled(page), encoding="utf-8")
 
 
 if __name__ == "__main__":

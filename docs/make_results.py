@@ -11,6 +11,7 @@ from __future__ import annotations
 import datetime as dt
 import os
 import platform
+import runpy
 import sys
 import warnings
 from pathlib import Path
@@ -53,6 +54,7 @@ def main() -> None:
         per_trial="\n".join(f"### {trial}\n\n{tables[trial]}" for trial in trials),
     )
     (HERE / "results.md").write_text(page, encoding="utf-8")
+    runpy.run_path(str(HERE / "fill_figures.py"))["main"]()
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ def test_all_are_listed_with_a_line_and_times(folder: Path) -> None:
 
 def test_every_benchmark_of_ours_is_listed_by_its_first_line() -> None:
     told = door(BENCHMARKS).stdout
-    assert len(SCRIPTS) > 40
+    assert len(SCRIPTS) > 20
     for script in SCRIPTS:
         doc = ast.get_docstring(ast.parse(script.read_text(encoding="utf-8"))) or ""
         if script.parent.name != "rivals":
@@ -95,7 +95,7 @@ def test_figures_of_a_quick_run_are_not_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(_figures, "FILE", tmp_path / "figures.json")
-    monkeypatch.setattr(sys, "argv", ["benchmarks/papers/noise.py", "--quick", "--record"])
+    monkeypatch.setattr(sys, "argv", ["benchmarks/truth/noise.py", "--quick", "--record"])
     _figures.record("noise.counts", 91.0)
     assert not (tmp_path / "figures.json").exists()
 
@@ -109,7 +109,7 @@ def test_figures_are_compared_with_those_recorded(
     }
     monkeypatch.setattr(_figures, "FILE", tmp_path / "figures.json")
     _figures.FILE.write_text(json.dumps(kept))
-    monkeypatch.setattr(sys, "argv", ["benchmarks/papers/noise.py", "--seeds", "3"])
+    monkeypatch.setattr(sys, "argv", ["benchmarks/truth/noise.py", "--seeds", "3"])
     assert _figures.compared({"noise.counts": 91.0, "noise.borders": 90, "noise.extra": 1}) == [
         "1 of 3 figures as recorded:",
         "  noise.borders: 90, 91.0 recorded 2026-11-24 by python -m benchmarks noise",

@@ -36,7 +36,6 @@ NOTEBOOKS = sorted((ROOT / "docs").rglob("*.ipynb"))
 RUN = runpy.run_path(str(ROOT / "docs" / "run_pages.py"))
 FIGURES = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))
 FILL = runpy.run_path(str(ROOT / "docs" / "fill_figures.py"))
-QUOTED = FILL["quoted"](FILL["QUOTED"].read_text(encoding="utf-8"))
 COLUMNS = runpy.run_path(str(ROOT / "docs" / "fill_columns.py"))
 ALONE = f"""
 import runpy, sys
@@ -177,23 +176,14 @@ def test_a_benchmark_records_only_when_asked(
     _figures.record("noise.borders", "3 of 4")
     figures = json.loads(file.read_text(encoding="utf-8"))
     assert figures["noise.counts"]["command"] == "python -m benchmarks noise --seeds 3"
-    assert FILL["filled"](
-        "91 %, ? of 4.\n91 again, 2 of\n4 right",
-        ["{noise.counts .0f} %", "again, {noise.borders s} right"],
-        figures,
-    ) == ("92 %, ? of 4.\n91 again, 3 of 4 right")
+    assert FILL["shown"](figures["noise.counts"]) == "92.5 %"
 
 
-@pytest.mark.parametrize("page", QUOTED)
-def test_quoted_figures_are_the_recorded_ones(page: str) -> None:
-    text = (ROOT / page).read_text(encoding="utf-8")
-    assert FILL["filled"](text, QUOTED[page], FIGURES) == text, "run python docs/fill_figures.py"
-
-
-def test_scores_in_the_readme_are_quoted() -> None:
-    """Or say where they come from, as those that the papers print."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert not re.findall(r"\d\.\d{3}", FILL["unquoted"](text, QUOTED["README.md"]))
+@pytest.mark.parametrize("page", FILL["PAGES"], ids=lambda page: page.stem)
+def test_tables_of_figures_are_the_recorded_ones(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert FILL["filled"](page) == text, "run python docs/fill_figures.py"
+    assert "<!-- figures -->" in text
 
 
 def test_results_are_the_recorded_figures() -> None:

@@ -23,20 +23,26 @@ from typing import Any
 import numpy as np
 
 import kineme
-from _browser import FLAGS, chromium
+from _browser import DRAWN, FLAGS, SIZE, chromium, wait
 from _figures import add_option, record
 from _measure import verdict
 from _options import command_line, few
 from kineme.datasets import bundled_recording
-from report_in_browser import DRAWN, SIZE, wait
 from studio import Studio, middle, start, timed
-from studio_in_browser import repeated
 
 MINUTES, SEGMENTS, ROUNDS = few((60, (5000, 20000), 7), (1, (100,), 1))
 MOST_S, MOST_BYTES = 0.1, 20_000
 EACH = 20
 """Primitives of an activity."""
 KEYS = {"a border": "Alt+ArrowRight", "a split": "s", "a check": "k", "an undo": "Control+z"}
+
+
+def repeated(bvh: str, n_frames: int) -> str:
+    """Return a BVH with so many frames, from the start again where it ends."""
+    head, motion = bvh.split("MOTION\n")
+    _, frame_time, *frames = motion.strip().split("\n")
+    lines = [frames[i % len(frames)] for i in range(n_frames)]
+    return "\n".join([head + "MOTION", f"Frames: {n_frames}", frame_time, *lines, ""])
 
 
 def main() -> None:

@@ -32,7 +32,6 @@ import kineme
 from _figures import add_option, record
 from _options import DATA, command_line, few, is_quick
 from _recordings import by_recording, synthetic
-from ends import LEAST, spans
 from kineme.cycles import channels_of
 from kineme.cycles.table import Cycles
 from kineme.datasets import Action, synthesize
@@ -53,6 +52,17 @@ STANDING = "01"
 """End of the name of each person's static trial."""
 SPEED = ("LeftFoot.speed",)
 """What is measured where only borders count."""
+LEAST = 3
+"""Repetitions of an activity."""
+
+
+def spans(found: kineme.Segmentation) -> list[Floats]:
+    """Return the first and last second of the repetitions of each activity."""
+    rows = found.primitives.select(found.primitives.kind == "primitive")
+    return [
+        np.column_stack([rows.start_s, rows.stop_s])[rows.activity == activity]
+        for activity in np.unique(rows.activity)
+    ]
 
 
 def runs_of(cycles: Cycles) -> list[NDArray[np.intp]]:

@@ -1,6 +1,4 @@
-"""What of the Blender extension is plain Python; `python -m benchmarks blender_extension` has the
-rest done by Blender itself.
-"""
+"""Test what of the Blender extension is plain Python."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""A robot edits on a slow line, reloads, kills the server and changes tabs: nothing is lost.
-
-`python -m benchmarks studio_robot` lets it do so 500 times on three recordings, with five seeds.
-"""
+"""A robot edits on a slow line, reloads, kills the server and changes tabs: nothing is lost."""
 
 from __future__ import annotations
 

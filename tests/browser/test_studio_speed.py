@@ -1,7 +1,4 @@
-"""The studio is quick enough to work with, whatever else the machine does.
-
-What it reaches on its own is printed by `python -m benchmarks studio_in_browser`.
-"""
+"""The studio is quick enough to work with, whatever else the machine does."""
 
 from __future__ import annotations
 

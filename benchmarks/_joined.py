@@ -1,0 +1,68 @@
+"""Recordings of a set joined to one, with the classes of their frames."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+import kineme
+from _options import few
+from kineme.evaluation.comparison import UNLABELLED
+from kineme.evaluation.recordings import recordings_below
+from kineme.labels.collections import labels_of
+from kineme.labels.spans import text_of
+from kineme.recordings import Signals
+from sets import READING
+
+Ints = NDArray[np.int64]
+
+
+def joined(recordings: Sequence[Signals]) -> Signals:
+    """One after the other, at the rate of the first."""
+    values = np.concatenate([one.values for one in recordings])
+    return Signals(values, recordings[0].fps, recordings[0].names)
+
+
+def classes_of(truth: kineme.Segmentation) -> Ints:
+    """The class of each frame; `UNLABELLED` where nobody says."""
+    numbers: dict[str, int] = {}
+    classes = np.full(truth.n_frames, UNLABELLED, np.int64)
+    for row in truth.activities:
+        if row.kind != "transition":
+            number = numbers.setdefault(text_of(row), len(numbers))
+            classes[row.start_frame : row.stop_frame] = number
+    return classes
+
+
+def clusters_of(found: kineme.Segmentation) -> Ints:
+    """The cluster of each frame."""
+    clusters = np.full(found.n_frames, UNLABELLED, np.int64)
+    for row in found.activities:
+        clusters[row.start_frame : row.stop_frame] = row.cluster
+    return clusters
+
+
+def person_of(name: str) -> str:
+    """The person of a recording that is named after the person and a number of its own."""
+    return name.rpartition("_")[0]
+
+
+class Piece(NamedTuple):
+    """A recording that is to be joined, and the classes of its frames."""
+
+    name: str
+    recording: Signals
+    truth: Ints
+
+
+def pieces(folder: Path) -> Iterator[Piece]:
+    sources = labels_of(recordings_below(folder / "recordings"), folder / "labels.csv")
+    for path, source in few(list(sources.items()), list(sources.items())[:2]):
+        one = READING.read(path)
+        if isinstance(one, Signals):
+            truth = source.of(n_frames=one.n_frames, fps=one.fps)
+            yield Piece(path.stem, one, classes_of(truth))
