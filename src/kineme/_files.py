@@ -16,7 +16,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from kineme.errors import FileError, KinemeError, ReadError, WriteError
+from kineme.errors import FileError, KinemeError, LinkError, ReadError, WriteError
 
 HEAD = 4096
 """Bytes by which a file is known without reading it whole."""
@@ -205,7 +205,7 @@ def is_draft(name: str) -> bool:
 
 
 def refuse_link(path: Path) -> None:
-    """Raise WriteError if a file or folder is a link: others would choose where it leads."""
+    """Raise LinkError if a file or folder is a link: others would choose where it leads."""
     if hasattr(path, "protocol"):  # of universal_pathlib: there are no links
         return
     try:
@@ -216,7 +216,7 @@ def refuse_link(path: Path) -> None:
         reason = getattr(error, "strerror", None) or error
         raise WriteError(path, f"cannot be written: {reason}") from error
     if stat.S_ISLNK(found.st_mode):
-        raise WriteError(path, "is a link, which could lead out of the folder: remove it")
+        raise LinkError(path, "is a link, which could lead out of the folder: remove it")
 
 
 def refuse_pipe(path: str | os.PathLike[str]) -> None:

@@ -98,6 +98,17 @@ class WriteError(FileError):
     """
 
 
+class LinkError(WriteError):
+    """A file or folder that kineme would write is a link, and could lead elsewhere.
+
+    Examples
+    --------
+    >>> from kineme.errors import LinkError, WriteError
+    >>> issubclass(LinkError, WriteError)
+    True
+    """
+
+
 class MotionError(KinemeError, ValueError):
     """A motion or skeleton whose parts contradict each other.
 

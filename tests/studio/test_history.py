@@ -184,7 +184,7 @@ def test_a_folder_that_leads_elsewhere_is_not_written_to(studio, folder: Path, t
     (tmp_path / "elsewhere").mkdir()
     (folder / ".kineme").symlink_to(tmp_path / "elsewhere")
     answer = studio.edit(1, "split", level="activity", frame=50)
-    assert answer.status_code == 500
+    assert answer.status_code == 400
     assert "link" in answer.json()["error"]
     assert not studio.table.exists()
 

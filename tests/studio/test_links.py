@@ -44,7 +44,7 @@ def test_a_file_of_the_user_is_not_overwritten(studio, folder: Path, name: str) 
     link.parent.mkdir(parents=True)
     link.symlink_to(mine)
     answer = ACTS[name](studio)
-    assert answer.status_code == 500
+    assert answer.status_code == 400
     assert "is a link" in answer.json()["error"]
     assert mine.read_text() == "mine"
     assert not studio.table.exists()
@@ -71,7 +71,7 @@ def test_a_linked_folder_gets_nothing(studio, folder: Path, name: str, there: bo
     (folder / ".kineme").symlink_to(elsewhere)
     before = contents(elsewhere)
     answer = ACTS[name](studio)
-    assert answer.status_code == 500
+    assert answer.status_code == 400
     assert "is a link" in answer.json()["error"]
     assert contents(elsewhere) == before
     assert (elsewhere / "take.segments").exists() == there

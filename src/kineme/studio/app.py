@@ -15,7 +15,7 @@ from starlette.responses import FileResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from kineme.errors import KinemeError, ReadError, SeveralPeopleError, WriteError
+from kineme.errors import KinemeError, LinkError, ReadError, SeveralPeopleError, WriteError
 from kineme.studio.http.bodies import LIMIT, MessageResponse, TooLargeError, TooSlowError
 from kineme.studio.http.events import Hub
 from kineme.studio.http.security import Guard, is_trusted
@@ -36,6 +36,7 @@ STATUS: dict[type[Exception], int] = {
     TooLargeError: 413,
     TooSlowError: 408,
     WriteError: 500,
+    LinkError: 400,
     SupersededError: 409,
 }
 

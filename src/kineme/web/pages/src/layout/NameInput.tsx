@@ -1,5 +1,6 @@
 /** A field for a name: Enter or leaving it takes the name, Escape leaves it as it was. */
 import type { JSX, Ref } from "preact";
+import { useDraft } from "./draft";
 
 interface Props {
   value: string;
@@ -21,6 +22,7 @@ export function NameInput({
   onName,
   onDone,
 }: Props): JSX.Element {
+  const draft = useDraft(value, (text) => text.trim() !== value && onName(text.trim()));
   return (
     <input
       ref={field ?? null}
@@ -28,14 +30,9 @@ export function NameInput({
       placeholder={placeholder}
       aria-label={label}
       list={list}
-      defaultValue={value}
-      onKeyDown={(event) => {
-        if (event.key === "Escape") event.currentTarget.value = value;
-        if (event.key === "Enter" || event.key === "Escape") event.currentTarget.blur();
-      }}
-      onBlur={(event) => {
-        const name = event.currentTarget.value.trim();
-        if (name !== value) onName(name);
+      {...draft}
+      onBlur={() => {
+        draft.onBlur();
         onDone?.();
       }}
     />

@@ -98,7 +98,6 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
         <span class="swatch" style={{ background: clusterColor(it.cluster) }} />
         <span class="number">{it.cluster}</span>
         <NameInput
-          key={it.label}
           value={it.label}
           label={`Name of cluster ${it.cluster}`}
           onName={(name) => void page.edit({ kind: "name", cluster: it.cluster, name })}
@@ -106,8 +105,11 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
       </div>
       <Strip page={page} cluster={it} />
       <p class="quiet number">
-        {it.repetitions || it.activities} × {seconds(it.typical_s)}, {seconds(it.seconds)} in all,
-        in {counted(n, "recording")}
+        {it.repetitions > 0 &&
+          `${counted(it.repetitions, "repetition")} of ${seconds(it.typical_s)}; `}
+        {counted(it.activities, "activity", "activities")}
+        {it.repetitions === 0 && ` of ${seconds(it.typical_s)}`}, {seconds(it.seconds)} in all, in{" "}
+        {counted(n, "recording")}
         {it.unsure > 0 && <span class="unsure"> · {it.unsure} unsure</span>}
       </p>
       <div class="card-tools">

@@ -88,7 +88,6 @@ function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
           <label key={cluster}>
             {n} of the confirmed {n === 1 ? "is" : "are"} in cluster {cluster}. Name all of it:{" "}
             <NameInput
-              key={page.clusterName(cluster)}
               value={page.clusterName(cluster)}
               label={`Name of cluster ${cluster}, which has ${n} of the confirmed`}
               onName={(name) => void page.edit({ kind: "name", cluster, name })}

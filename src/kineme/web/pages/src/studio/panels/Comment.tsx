@@ -1,5 +1,6 @@
 /** What people say about the segment. */
 import type { JSX } from "preact";
+import { useDraft } from "../../layout/draft";
 import { useStudio } from "../context";
 import type { Segment } from "../../messages";
 
@@ -14,24 +15,11 @@ export function Comment({ segment }: Props): JSX.Element {
     .filter(({ level, frame }) => level === segment.level && isIn(frame, segment))
     .map((each) => each.text)
     .join("\n");
+  const draft = useDraft(text, (now) => editor.comment(segment, now.trim()));
   return (
     <label class="field">
       <span>Comment</span>
-      <textarea
-        key={text}
-        rows={2}
-        placeholder="what others should know of it"
-        defaultValue={text}
-        onKeyDown={(event) => {
-          if (event.key === "Escape") event.currentTarget.value = text;
-          if (event.key === "Escape" || (event.key === "Enter" && event.ctrlKey))
-            event.currentTarget.blur();
-        }}
-        onBlur={(event) => {
-          const now = event.currentTarget.value.trim();
-          if (now !== text) editor.comment(segment, now);
-        }}
-      />
+      <textarea rows={2} placeholder="what others should know of it" {...draft} />
     </label>
   );
 }

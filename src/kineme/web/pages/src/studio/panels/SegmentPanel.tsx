@@ -40,7 +40,6 @@ export function SegmentPanel(): JSX.Element {
         </span>
       </p>
       <NameField
-        key={`segment ${segment.level} ${segment.start_frame} ${label}`}
         title="Name of its own"
         placeholder={called ? `called “${called}” by its cluster` : "no name"}
         value={label}
@@ -76,7 +75,6 @@ export function SegmentPanel(): JSX.Element {
       </div>
       {segment.cluster >= 0 && (
         <NameField
-          key={`cluster ${segment.cluster} ${called}`}
           title={`Name of cluster ${segment.cluster}, of ${bulkOf(session, segment.cluster)}`}
           placeholder="no name"
           value={called}
@@ -86,7 +84,7 @@ export function SegmentPanel(): JSX.Element {
           onName={(label) => editor.nameCluster(segment.cluster, label)}
         />
       )}
-      <Comment key={`${segment.level} ${segment.start_frame}`} segment={segment} />
+      <Comment segment={segment} />
       <Vocabulary />
     </div>
   );
@@ -151,7 +149,7 @@ function NameField({ title, placeholder, value, names, naming, onName }: NamePro
     field.current?.select();
     editor.naming.value = null;
   }, [focus, editor]);
-  const list = `names-${title.replaceAll(" ", "-")}`;
+  const list = `names-${naming}`;
   return (
     <label class="field">
       <span>{title}</span>

@@ -1,0 +1,44 @@
+/** What is typed into a field, kept while the page around it changes. */
+import { useSignal } from "@preact/signals";
+import { useRef } from "preact/hooks";
+import type { TargetedEvent, TargetedKeyboardEvent } from "preact";
+
+type Field = HTMLInputElement | HTMLTextAreaElement;
+
+interface DraftProps {
+  value: string;
+  onFocus: (event: TargetedEvent<Field>) => void;
+  onInput: (event: TargetedEvent<Field>) => void;
+  onBlur: () => void;
+  onKeyDown: (event: TargetedKeyboardEvent<Field>) => void;
+}
+
+/**
+ * Properties of a field that shows its draft while it has the focus, and `value` otherwise.
+ *
+ * Leaving the field hands the draft to the `onText` of when it got the focus: meanwhile playback or
+ * another edit may have put another segment in the panel. Escape drops the draft.
+ */
+export function useDraft(value: string, onText: (text: string) => void): DraftProps {
+  const draft = useSignal<string | null>(null);
+  const begun = useRef({ value, onText });
+  return {
+    value: draft.value ?? value,
+    onFocus: (event) => {
+      begun.current = { value, onText };
+      draft.value = event.currentTarget.value;
+    },
+    onInput: (event) => (draft.value = event.currentTarget.value),
+    onBlur: () => {
+      const text = draft.value;
+      draft.value = null;
+      if (text !== null && text !== begun.current.value) begun.current.onText(text);
+    },
+    onKeyDown: (event) => {
+      const isTextArea = event.currentTarget instanceof HTMLTextAreaElement;
+      if (event.key === "Escape") draft.value = null;
+      if (event.key === "Escape" || (event.key === "Enter" && (!isTextArea || event.ctrlKey)))
+        event.currentTarget.blur();
+    },
+  };
+}
