@@ -36,6 +36,9 @@ from kineme.formats.timing import is_timing
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""
 
+ROWS, COLUMNS = 3, 2
+"""Of numbers at least in a text that is listed as a recording."""
+
 _SKELETONS = {".asf"}  # belong to the AMC beside them
 _ANYTHING = {".json", ".txt", ".dat"}
 
@@ -127,13 +130,28 @@ def _is_recording(path: Path) -> bool:
         return False
     if suffix in _ANYTHING:
         ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
-        return any(speaks(each.name, each.recognises, ends) for each in formats)
+        is_known = any(speaks(each.name, each.recognises, ends) for each in formats)
+        return is_known or (suffix != ".json" and _is_text_table(path))
     if suffix in (".csv", ".tsv"):
         return not _names_spans(path)
     if suffix == ".parquet":
         tail = tail_of(path)
         return not any(name in tail for name in SPANS[:2])
     return suffix != ".npz" or _names_motion(path)
+
+
+def _is_text_table(path: Path) -> bool:
+    """Return whether a text has named columns of numbers, and is no list of labels."""
+    if _names_spans(path):
+        return False
+    head = head_of(path)
+    try:
+        table = find_table(FileContent(path, head[: head.rfind(b"\n") + 1]))
+        rows, columns = table.numbers().shape
+    except ReadError:
+        return False
+    is_named = not any(name[:1].isdigit() for name in table.names)
+    return is_named and rows >= ROWS and columns >= COLUMNS
 
 
 def _names_spans(path: Path) -> bool:

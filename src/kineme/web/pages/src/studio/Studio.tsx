@@ -26,6 +26,7 @@ import { VersionsDialog } from "./dialogs/VersionsDialog";
 import { LoopsDialog } from "./dialogs/LoopsDialog";
 import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
+import { Opening } from "./panels/Opening";
 import { Video } from "./panels/Video";
 import { PresetPanel } from "./panels/PresetPanel";
 import { ReadingPanel } from "./panels/ReadingPanel";
@@ -119,7 +120,7 @@ function Stage(): JSX.Element {
       {!store.active.value && (
         <p class="empty quiet">
           {session.opening.value || !session.state.value ? (
-            <span class="busy" role="status" aria-label="Opening" />
+            <Opening />
           ) : (
             session.question.value || "Choose a recording on the left, or drop files here."
           )}

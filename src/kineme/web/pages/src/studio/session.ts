@@ -208,6 +208,11 @@ export class Session {
     this.forgetClosed();
   }
 
+  /** Stops waiting for the recording that is being opened. */
+  stopOpening(): void {
+    this.opening.value = null;
+  }
+
   /** Has the server leave what it is finding; what is there stays, what is being read is closed. */
   cancel(): void {
     this.beside.cancel();

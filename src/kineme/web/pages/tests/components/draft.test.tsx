@@ -16,7 +16,7 @@ test("a draft stays while the value changes, and goes to what it was begun for",
     <NameInput label="Name" value={value} onName={(name) => named.push(`${segment}: ${name}`)} />
   );
   const page = render(field("first", "walk"));
-  const input = page.getByLabelText<HTMLInputElement>("Name");
+  const input = page.getByLabelText("Name") as HTMLInputElement;
   fireEvent.focus(input);
   fireEvent.input(input, { target: { value: "strol" } });
   page.rerender(field("second", "squat"));
@@ -31,7 +31,7 @@ test("a draft stays while the value changes, and goes to what it was begun for",
 test("Escape leaves the name as it was", () => {
   const named: string[] = [];
   const page = render(<NameInput label="Name" value="walk" onName={(name) => named.push(name)} />);
-  const input = page.getByLabelText<HTMLInputElement>("Name");
+  const input = page.getByLabelText("Name") as HTMLInputElement;
   fireEvent.focus(input);
   fireEvent.input(input, { target: { value: "hop" } });
   fireEvent.keyDown(input, { key: "Escape" });
@@ -54,6 +54,6 @@ test("the panel keeps what is typed when the playhead reaches another segment", 
   const before = page.getByText(/frames 0/);
   page.store.seek(page.store.duration.value * 0.9);
   await waitFor(() => expect(before.textContent).toContain("frames 50"));
-  expect(page.getByPlaceholderText<HTMLTextAreaElement>(/others should know/)).toBe(comment);
+  expect(page.getByPlaceholderText(/others should know/)).toBe(comment);
   expect((comment as HTMLTextAreaElement).value).toBe("slips");
 });

@@ -68,7 +68,7 @@ export function FolderPanel(): JSX.Element {
           <Row key={listing.id} listing={listing} />
         ))}
       </ul>
-      <Hint all={all.length} found={found.length} suffixes={session.state.value?.suffixes ?? []} />
+      <Hint all={all.length} found={found.length} suffixes={session.state.value?.suffixes} />
     </section>
   );
 }
@@ -135,8 +135,13 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
   );
 }
 
-function Hint(props: { all: number; found: number; suffixes: string[] }): JSX.Element | null {
+function Hint(props: {
+  all: number;
+  found: number;
+  suffixes: string[] | undefined;
+}): JSX.Element | null {
   const { all, found, suffixes } = props;
+  if (!suffixes) return <p class="hint quiet">The list of recordings is loading.</p>;
   if (all === 0)
     return (
       <p class="hint quiet">
@@ -148,6 +153,6 @@ function Hint(props: { all: number; found: number; suffixes: string[] }): JSX.El
   return null;
 }
 
-function megabytes(bytes: number): string {
+export function megabytes(bytes: number): string {
   return bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
 }

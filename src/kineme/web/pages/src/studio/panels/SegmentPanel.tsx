@@ -15,7 +15,12 @@ import { Vocabulary } from "./Vocabulary";
 export function SegmentPanel(): JSX.Element {
   const { session, editor, review } = useStudio();
   const segment = editor.segment.value;
-  if (!segment) return <p class="hint quiet">Open a recording to see its segments.</p>;
+  if (!segment) {
+    const hint = session.opening.value
+      ? "The segments come once the recording has been read."
+      : "Open a recording to see its segments.";
+    return <p class="hint quiet">{hint}</p>;
+  }
   const { store } = session;
   const called = store.table.value?.cluster_names[segment.cluster] ?? "";
   const label = segment.label !== called ? segment.label : "";
