@@ -21,6 +21,7 @@ export function SegmentPanel(): JSX.Element {
   const label = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
   const table = store.table.value;
+  const who = store.recording.value?.ids?.[table?.segments.indexOf(segment) ?? -1];
   const confidence = table && confidenceOf(table).get(segment);
   return (
     <div class="segment-panel">
@@ -40,7 +41,7 @@ export function SegmentPanel(): JSX.Element {
         </span>
       </p>
       <NameField
-        key={`segment ${segment.level} ${segment.start_frame} ${label}`}
+        key={`segment ${who} ${label}`}
         title="Name of its own"
         placeholder={called ? `called “${called}” by its cluster` : "no name"}
         value={label}
