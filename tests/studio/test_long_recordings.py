@@ -134,8 +134,8 @@ def large_take(tmp_path, monkeypatch):
     """A recording that is read once ``wanted`` is set: its folder, id and news."""
     shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
     wanted, read = threading.Event(), RecordingCache.read
-    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
+    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
     monkeypatch.setattr(
         RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
     )
@@ -206,8 +206,8 @@ def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypa
     text = kineme.bundled_recording().read_text().splitlines()
     text[-7] = text[-7].replace(text[-7].split()[3], "x", 1)
     (tmp_path / "take.bvh").write_text("\n".join(text))
-    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
+    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
     told: queue.Queue[tuple[str, int]] = queue.Queue()
     recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
     (name,) = recordings.folder.recordings()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +12,6 @@ from kineme.features import Names
 from kineme.labels.json_table import SCHEMA
 from kineme.recordings import Motion, Signals
 from kineme.segments.editing import cluster_names, comments
-from kineme.segments.editing.annotating import Mark, marked
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import Matrix
@@ -113,7 +111,7 @@ def segments_message(segmentation: Segmentation, *, rows: bool = True) -> Segmen
     table = segmentation.table
     columns = (column.tolist() for column in (table.level, table.start_frame, table.stop_frame))
     spans = list(zip(*columns, strict=True))
-    of_mark = {mark: marked(segmentation, mark) for mark in get_args(Mark)}
+    checked, by_hand = {*segmentation.annotation.checked}, {*segmentation.annotation.by_hand}
     return Segments(
         schema=SCHEMA,
         n_frames=segmentation.n_frames,
@@ -123,8 +121,8 @@ def segments_message(segmentation: Segmentation, *, rows: bool = True) -> Segmen
         annotation=segmentation.annotation,
         segments=list(segmentation) if rows else [],
         cluster_names={str(cluster): name for cluster, name in cluster_names(segmentation).items()},
-        checked=[i for i, span in enumerate(spans) if span in of_mark["checked"]],
-        by_hand=[i for i, span in enumerate(spans) if span in of_mark["by_hand"]],
+        checked=[i for i, span in enumerate(spans) if span in checked],
+        by_hand=[i for i, span in enumerate(spans) if span in by_hand],
         comments=[
             CommentAt(level=level, frame=frame, text=text)
             for level, frame, text in comments(segmentation)
