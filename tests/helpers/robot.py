@@ -1,7 +1,7 @@
 """A robot that edits at random, and checks after each step that what was confirmed is there.
 
-Where the line is slow it edits without waiting for answers, and sometimes the server dies meanwhile:
-as many edits must be made then as undo takes back.
+Where the line is slow it edits without waiting for answers, and sometimes the server dies
+meanwhile: as many edits must be made then as undo takes back.
 """
 
 from __future__ import annotations
