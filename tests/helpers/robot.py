@@ -175,6 +175,8 @@ class Robot:
             other = self.tabs[1 - self.tabs.index(self.screen)]
             other.page.goto(self.server.address_of(self.take))  # it tells the new token
             other.opened()
+            notice = self.screen.page.locator("[data-notice=trouble]")
+            notice.wait_for(state="detached")  # until then nothing can be edited
         self.settled()
         made = self.revision() - revision
         if not 0 <= made <= count:
