@@ -31,7 +31,7 @@ test("what has the lowest confidence is the first to be looked at", async () => 
   ]);
   fireEvent.click(page.getByText("Next"));
   expect(page.store.selected.value?.label).toBe("squat");
-  await waitFor(() => expect(page.getByRole("status").textContent).toContain("0.40"));
+  await waitFor(() => expect(page.getByRole("status").textContent).toContain("40 %"));
 });
 
 test("what was checked leaves the queue, and the next one comes", async () => {
