@@ -37,7 +37,7 @@ def check_rates(old: float, new: float) -> None:
 
 
 def is_number(value: object) -> bool:
-    """Whether it is one finite number, as large as a float can be."""
+    """Return whether it is one finite number, as large as a float can be."""
     try:
         return isinstance(value, Real) and math.isfinite(value)
     except OverflowError:
@@ -56,7 +56,7 @@ def check_flag(value: object, name: str) -> None:
 
 
 def is_one_of(value: object, choices: Collection[str]) -> bool:
-    """Whether it is one of the known texts; anything at all may be asked about."""
+    """Return whether it is one of the known texts; anything at all may be asked about."""
     return isinstance(value, str) and value in choices
 
 
@@ -102,7 +102,7 @@ def check_suffixes(suffixes: object, name: str) -> None:
 
 
 def as_indices(values: Any, name: str) -> list[int]:
-    """The values as whole numbers; ParameterError where they are not."""
+    """Return the values as whole numbers; ParameterError where they are not."""
     try:
         return [index(value) for value in values]
     except TypeError:
@@ -112,7 +112,7 @@ def as_indices(values: Any, name: str) -> list[int]:
 def as_texts(
     values: Any, name: str, *, error: type[ParameterError | MotionError] = ParameterError
 ) -> tuple[str, ...]:
-    """The values as texts; ``error`` where they are one text or something else."""
+    """Return the values as texts; ``error`` where they are one text or something else."""
     if isinstance(values, Iterable) and not isinstance(values, str):
         found = tuple(values)
         if all(isinstance(value, str) for value in found):
@@ -123,7 +123,7 @@ def as_texts(
 def as_spans(
     gaps: Any, *, error: type[ParameterError | MotionError] = ParameterError
 ) -> tuple[tuple[int, int], ...]:
-    """The gaps as pairs of frames (start, stop); ``error`` where they are not."""
+    """Return the gaps as pairs of frames (start, stop); ``error`` where they are not."""
     try:
         return tuple((index(start), index(stop)) for start, stop in gaps)
     except (TypeError, ValueError):
@@ -133,7 +133,7 @@ def as_spans(
 def as_floats(
     values: Any, name: str, *, error: type[ParameterError | MotionError] = ParameterError
 ) -> NDArray[np.float64]:
-    """The values as a float64 array, of any shape; ``error`` where they are not numbers."""
+    """Return the values as a float64 array, of any shape; ``error`` where they are not numbers."""
     try:
         given = np.asarray(values)
         if given.dtype.kind != "c":  # numpy would drop the imaginary parts

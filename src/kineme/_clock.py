@@ -84,7 +84,7 @@ class Clock:
 
     @classmethod
     def from_json(cls, data: Any) -> Clock:
-        """The clock that `to_json` gave; ParameterError where that is none."""
+        """Return the clock that `to_json` gave; ParameterError where that is none."""
         if not isinstance(data, Mapping) or not {"seconds", "times"} <= data.keys():
             raise ParameterError(f"a clock has seconds and times, not {data!r:.60}")
         return cls(data["seconds"], data["times"])
@@ -95,18 +95,18 @@ class Clock:
 
     @property
     def tells_dates(self) -> bool:
-        """Whether it counts from 1970, which the size of its times tells."""
+        """Return whether it counts from 1970, which the size of its times tells."""
         return _DATES[0] <= self.times[0] < _DATES[1]
 
     def time(self, seconds: ArrayLike) -> Floats:
-        """What it shows at seconds of the recording."""
+        """Return what it shows at seconds of the recording."""
         at = np.asarray(seconds, np.float64)
         k = np.maximum(np.searchsorted(self.seconds, at, side="right") - 1, 0)
         shown: Floats = np.asarray(self.times)[k] + at - np.asarray(self.seconds)[k]
         return shown
 
     def second(self, times: ArrayLike) -> Floats:
-        """The first second of the recording at which it shows a time, or one beyond it.
+        """Return the first second of the recording at which it shows a time, or one beyond it.
 
         Below 0 for times before the recording, beyond its length for those after it.
         """
@@ -119,7 +119,7 @@ class Clock:
         return found
 
     def since_first(self) -> Clock:
-        """The same clock, had it been set to 0 when the recording began."""
+        """Return the same clock, had it been set to 0 when the recording began."""
         return Clock(self.seconds, [time - self.times[0] for time in self.times])
 
     def between(self, start: float, stop: float) -> Clock:
@@ -129,7 +129,7 @@ class Clock:
         return Clock([second - start for second in seconds], self.time(seconds).tolist())
 
     def shown(self, second: float) -> str:
-        """The time at a second of the recording: a number, or a date of ISO 8601 in UTC."""
+        """Return the time at a second of the recording: a number, or a date of ISO 8601 in UTC."""
         time = float(self.time(second))
         if not self.tells_dates:
             return repr(round(time, 6))

@@ -65,7 +65,7 @@ def label_colors(rows: Iterable[Row]) -> dict[str, str]:
 
 
 def _free_color(text: str, used: set[str]) -> str:
-    """A colour for a text, the same on every day; another one where that is taken."""
+    """Return a colour for a text, the same on every day; another one where that is taken."""
     hashed = 2166136261  # FNV-1a, over what a page takes for letters
     units = text.encode("utf-16-le", "surrogatepass")
     for low, high in zip(units[::2], units[1::2], strict=True):

@@ -57,7 +57,7 @@ def find_cache() -> None:
 
 
 def _is_writable(folder: Path) -> bool:
-    """Whether a file can be left in a folder, which is made if it is not there."""
+    """Return whether a file can be left in a folder, which is made if it is not there."""
     probe = folder / f".kineme-{os.getpid()}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -69,7 +69,7 @@ def _is_writable(folder: Path) -> bool:
 
 
 def _of_user() -> Path:
-    """The folder in which applications keep what they can make again."""
+    """Return the folder in which applications keep what they can make again."""
     if sys.platform == "win32":
         return Path(os.environ.get("LOCALAPPDATA", "~")).expanduser()
     if sys.platform == "darwin":
@@ -78,7 +78,7 @@ def _of_user() -> Path:
 
 
 def _temporary() -> str:
-    """A folder of this user alone: what lies there is run."""
+    """Return a folder of this user alone: what lies there is run."""
     import stat
     import tempfile
 

@@ -8,7 +8,7 @@ MANY = {"activity": "activities", "person": "people"}
 
 
 def counted(n: int, one: str) -> str:
-    """A number and a noun, which is given for one.
+    """Return a number and a noun, which is given for one.
 
     Examples
     --------
@@ -19,7 +19,7 @@ def counted(n: int, one: str) -> str:
 
 
 def listed(names: Sequence[str], most: int = 8) -> str:
-    """The first names, and how many more there are.
+    """Return the first names, and how many more there are.
 
     Examples
     --------

@@ -112,7 +112,7 @@ def atomic_folder(target: Path) -> Iterator[Path]:
 
 
 def _of(error: FileError, draft: Path, final: Path) -> FileError:
-    """The error of a draft, or of a file in one, by the name that people know."""
+    """Return the error of a draft, or of a file in one, by the name that people know."""
     path = Path(error.path)
     if not path.is_relative_to(draft):
         return error
@@ -236,7 +236,7 @@ def _is_waited_for(path: str | os.PathLike[str]) -> bool:
 
 
 def video_beside(recording: Path) -> Path | None:
-    """The video of a recording: a file of its name beside it; None where there is none."""
+    """Return the video of a recording: a file of its name beside it; None where there is none."""
     for suffix in VIDEOS if recording.name else ():
         for path in (recording.with_suffix(suffix), recording.with_suffix(suffix.upper())):
             if path.is_file() and not path.is_symlink():
@@ -275,7 +275,7 @@ def ending_of(person: str) -> str:
 
 
 def head_of(path: Path) -> bytes:
-    """The first bytes of a file; OSError if it cannot be opened."""
+    """Return the first bytes of a file; OSError if it cannot be opened."""
     if _is_waited_for(path):
         raise OSError(errno.EINVAL, PIPE)
     with path.open("rb") as file:
@@ -283,7 +283,7 @@ def head_of(path: Path) -> bytes:
 
 
 def tail_of(path: Path) -> bytes:
-    """The last bytes of a file; OSError if it cannot be opened."""
+    """Return the last bytes of a file; OSError if it cannot be opened."""
     if _is_waited_for(path):
         raise OSError(errno.EINVAL, PIPE)
     with path.open("rb") as file:
@@ -292,7 +292,7 @@ def tail_of(path: Path) -> bytes:
 
 
 def short(error: Exception) -> str:
-    """What an exception of another package says, on one line."""
+    """Return what an exception of another package says, on one line."""
     return " ".join(str(error).split())[:120]
 
 
@@ -335,7 +335,7 @@ def _opened(draft: Path) -> int:
 
 
 def is_held(draft: Path) -> bool:
-    """Whether a writer still has a draft open."""
+    """Return whether a writer still has a draft open."""
     if sys.platform == "win32":
         return False
     file = _opened(draft)

@@ -32,7 +32,7 @@ def loaded(path: Path) -> Any: ...
 @overload
 def loaded(path: Path, shape: type[Shape]) -> Shape: ...
 def loaded(path: Path, shape: Any = Any) -> Any:
-    """What a JSON file holds, as `decoded`; ReadError where it cannot be read."""
+    """Return what a JSON file holds, as `decoded`; ReadError where it cannot be read."""
     try:
         refuse_pipe(path)
         text = path.read_text(encoding="utf-8-sig")
@@ -89,14 +89,14 @@ def converted(found: Any, shape: type[Shape]) -> Shape:
 
 
 def sentence(problem: str, everything: str = "the whole of it") -> str:
-    """What msgspec says of a shape, with the place first and no signs of its own."""
+    """Return what msgspec says of a shape, with the place first and no signs of its own."""
     what, _, place = problem.partition(" - at ")
     where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or everything
     return f"{where}: {what[:1].lower()}{what[1:].replace('`', '')}"
 
 
 def fault_of(found: Any) -> str:
-    """What of JSON no reader takes, in words; empty where it is sound."""
+    """Return what of JSON no reader takes, in words; empty where it is sound."""
     level: list[Any] = [[found]]
     for _ in range(DEEPEST + 1):
         inner: list[Any] = []

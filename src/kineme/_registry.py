@@ -165,7 +165,7 @@ class Registry(Mapping[str, T]):
 
 
 def _objects_at(path: str, home: str) -> Iterable[Any]:
-    """The objects that ``module:NAME`` names."""
+    """Return the objects that ``module:NAME`` names."""
     module, _, name = path.partition(":")
     return _all_of(getattr(import_module(f"{home}.{module}"), name))
 

@@ -30,7 +30,7 @@ def multiply(a: Floats, b: Floats) -> Floats:
 
 
 def conjugate(q: Floats) -> Floats:
-    """The inverse rotations."""
+    """Return the inverse rotations."""
     inverse: Floats = q * np.array([1.0, -1.0, -1.0, -1.0])
     return inverse
 
@@ -50,7 +50,7 @@ def rotate(q: Floats, v: Floats) -> Floats:
 
 
 def from_euler(angles: Floats, axes: str) -> Floats:
-    """The product of rotations about ``axes``, the last one applied first.
+    """Return the product of rotations about ``axes``, the last one applied first.
 
     ``from_euler(angles, "zyx")`` is Rz(angles[:, 0]) Ry(angles[:, 1]) Rx(angles[:, 2]).
 
@@ -112,7 +112,7 @@ def logarithm(q: Floats) -> Floats:
 
 
 def exponential(vectors: Floats) -> Floats:
-    """The inverse of `logarithm`."""
+    """Return the inverse of `logarithm`."""
     half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2
     return np.concatenate([np.cos(half), vectors * np.sinc(half / np.pi) / 2], axis=-1)
 
@@ -123,16 +123,16 @@ def between(a: Floats, b: Floats, share: Floats) -> Floats:
 
 
 def normalized(q: Floats) -> Floats:
-    """The quaternions at length one; no rotation where they have none."""
+    """Return the quaternions at length one; no rotation where they have none."""
     norm = np.linalg.norm(q, axis=-1, keepdims=True)
     return np.where(norm > 0, q / np.where(norm > 0, norm, 1.0), IDENTITY)
 
 
 def components(array: Floats) -> tuple[Floats, ...]:
-    """The slices of the last axis."""
+    """Return the slices of the last axis."""
     return tuple(array[..., i] for i in range(array.shape[-1]))
 
 
 def join(*parts: Floats) -> Floats:
-    """The inverse of `components`, contiguous per component."""
+    """Return the inverse of `components`, contiguous per component."""
     return np.moveaxis(np.stack(np.broadcast_arrays(*parts)), 0, -1)

@@ -30,7 +30,7 @@ def _checked_format(name: str | None) -> str | None:
 
 
 def _is_recording(path: Path) -> bool:
-    """Whether a file is a recording and no labels, by its suffix and how it begins."""
+    """Return whether a file is a recording and no labels, by its suffix and how it begins."""
     from kineme.formats.listing import holds_recording
 
     suffix = path.suffix.lower()

@@ -245,7 +245,7 @@ def _excluded(cycles: Cycles, rules: list[str]) -> Cycles:
 
 
 def _sessions(cycles: Cycles) -> list[Cycles]:
-    """The cycles of each recording that has some."""
+    """Return the cycles of each recording that has some."""
     names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
     return [cycles.select(cycles.columns["recording"] == name) for name in names]
 
@@ -268,7 +268,7 @@ def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
 
 
 def _with_stance(recordings: list[Motion | Signals], names: list[str] | None) -> list[str] | None:
-    """The channels to measure, and when each foot stands if all recordings tell it."""
+    """Return the channels to measure, and when each foot stands if all recordings tell it."""
     from kineme.cycles.channels import channels_of, contacts_of
 
     stances = [[each.name for each in contacts_of(recording)] for recording in recordings]
@@ -380,7 +380,7 @@ def _by_measure(cycles: Cycles, *, ends: bool) -> dict[tuple[str, str], tuple[in
 
 
 def _liveliest(cycles: Cycles, *, ends: bool) -> list[str]:
-    """The channels to show: those that go farthest in a group, with the other side of each.
+    """Return the channels to show: those that go farthest in a group, with the other side of each.
 
     Of several units, which cannot be compared, the first ones.
     """
@@ -410,5 +410,5 @@ def _with_deviation(mean: float, sd: float) -> str:
 
 
 def _filled(cell: str) -> str:
-    """A cell; nothing where there is no number to tell."""
+    """Return a cell; nothing where there is no number to tell."""
     return "" if cell == "nan" else cell.replace(" ± nan", "").replace("nan", "")

@@ -136,5 +136,5 @@ def _show(path: Path, events: Events, gait: Columns, written: list[Path | None])
 
 
 def _number(mean: float, deviation: float) -> str:
-    """A mean with its deviation; nothing where there is none."""
+    """Return a mean with its deviation; nothing where there is none."""
     return f"{mean:.3f} ± {deviation:.3f}".replace(" ± nan", "").replace("nan", "")

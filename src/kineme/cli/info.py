@@ -72,7 +72,7 @@ def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
 
 
 def _measures(path: Path, recording: Motion | Signals, request: Request) -> list[Facts]:
-    """What can be measured in a recording: see `kineme.cycles.channels_of`."""
+    """Return what can be measured in a recording: see `kineme.cycles.channels_of`."""
     from kineme.cycles.channels import channels_of
     from kineme.formats import ReadOptions
     from kineme.formats.read_write import read_analog

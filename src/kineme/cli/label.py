@@ -69,7 +69,7 @@ def label(
 
 
 def _labelled(request: Request, path: Path, labels: Path | None, stage: Stage) -> KnowledgeBase:
-    """The primitives of a recording, called as its labels say."""
+    """Return the primitives of a recording, called as its labels say."""
     from kineme.transfer import KnowledgeBase, name_primitives
 
     stage("reading")

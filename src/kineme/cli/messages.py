@@ -76,7 +76,7 @@ def say_skipped(text: str) -> None:
 
 
 def one_line(message: object, *, subject: object = "") -> str:
-    """A message without line breaks, and what it is about if that is not in it."""
+    """Return a message without line breaks, and what it is about if that is not in it."""
     text = " ".join(str(message).split())
     return text if str(subject) in text else f"{subject}: {text}"
 

@@ -87,5 +87,5 @@ def _show(title: str, constants: Sequence[Constant]) -> None:
 
 
 def _default(constant: Constant) -> str:
-    """What the method has where a preset says nothing; empty where each preset has to."""
+    """Return what the method has where a preset says nothing; empty where each preset has to."""
     return "" if constant.default is MISSING else shown(constant.default)

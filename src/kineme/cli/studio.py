@@ -103,7 +103,7 @@ def _tell_apart(recordings: list[Path] | None, options: ReadingOptions) -> None:
 
 
 def _opened(given: list[Path]) -> tuple[Path, list[Path] | None]:
-    """The folder, and the recordings where not all of it are wanted."""
+    """Return the folder, and the recordings where not all of it are wanted."""
     for path in given:
         if not path.exists():
             raise ParameterError(f"{path}: there is no such file or folder")

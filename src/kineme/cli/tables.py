@@ -152,7 +152,7 @@ def _activity_rows(segmentation: Segmentation) -> Table:
 
 
 def in_per_cent(probability: float) -> str:
-    """A probability in per cent; nothing where there is none."""
+    """Return a probability in per cent; nothing where there is none."""
     return "" if isnan(probability) else f"{100 * probability:.0f}"
 
 
@@ -182,7 +182,7 @@ def columns_of(names: Iterable[str]) -> RenderableType:
 
 
 def new_table(*names: str) -> Table:
-    """A table with these columns: words to the left, numbers to the right."""
+    """Return a table with these columns: words to the left, numbers to the right."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for name in names:
         words = name in WORDS
@@ -206,7 +206,7 @@ def _span(number: int, row: Segment) -> tuple[str, ...]:
 
 
 def cluster_cell(cluster: int) -> RenderableType:
-    """A cluster with its colour; nothing for none."""
+    """Return a cluster with its colour; nothing for none."""
     return Text.assemble(("■ ", cluster_color(cluster)), str(cluster)) if cluster >= 0 else ""
 
 

@@ -41,7 +41,7 @@ class Console(rich.console.Console):
 
 
 def harmless(text: str) -> str:
-    """A text whose control characters, which could steer a terminal, are spelled out.
+    """Return a text whose control characters, which could steer a terminal, are spelled out.
 
     Examples
     --------

@@ -98,7 +98,7 @@ def transfer(
 def _named(
     request: Request, motion: Motion, base: KnowledgeBase, options: dict[str, Any], stage: Stage
 ) -> Segmentation:
-    """The segments of a recording, labelled."""
+    """Return the segments of a recording, labelled."""
     from kineme.transfer import transfer_features, transfer_labels
 
     found = request.segment(motion, stage)[0]

@@ -54,7 +54,7 @@ class Carry:
 
     @property
     def rotation(self) -> Floats:
-        """The turn as a quaternion."""
+        """Return the turn as a quaternion."""
         return rot.about_y(self.turn)
 
     @property
@@ -67,7 +67,7 @@ class Carry:
 
 
 def loop(motion: Motion) -> tuple[Motion, Carry]:
-    """The motion as a seamless cycle, and what carries one round to the next.
+    """Return the motion as a seamless cycle, and what carries one round to the next.
 
     A motion of fewer than two frames stays as it is.
     """
@@ -102,7 +102,7 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
 
 
 def with_first_again(motion: Motion, carry: Carry) -> Motion:
-    """The loop and, after its last frame, its first one carried on, as engines want it."""
+    """Return the loop and, after its last frame, its first one carried on, as engines want it."""
     again, rotations = carry.apply(motion.positions[:1]), motion.rotations
     if rotations is not None:
         first = np.array(rotations[:1])
@@ -119,7 +119,7 @@ def with_first_again(motion: Motion, carry: Carry) -> Motion:
 
 
 def carry_of(motion: Motion) -> Carry:
-    """What brings the pose half a frame before the first closest to that after the last."""
+    """Return what brings the pose half a frame before the first closest to that after the last."""
     if motion.n_frames < 2:
         return Carry(0.0, 0.0, 0.0)
     before, after = seam_sides(motion.positions[:, motion.skeleton.body], motion.fps)

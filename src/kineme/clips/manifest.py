@@ -67,7 +67,7 @@ def write_manifests(clips: Sequence[Clip], folder: Path, *, loops: bool, animati
 
 
 def _as_text(clip: Clip) -> str:
-    """A clip as JSON, a line for each name."""
+    """Return a clip as JSON, a line for each name."""
     lines = (
         f" {json.dumps(name)}: {json.dumps(value, ensure_ascii=False, allow_nan=False)}"
         for name, value in _as_json(clip).items()

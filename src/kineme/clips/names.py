@@ -28,7 +28,7 @@ LONGEST_IN_FILE = 80
 
 
 def safe_name(stem: str, number: int, text: str) -> str:
-    """The name of a clip: its recording, its number and its label, in letters that survive.
+    """Return the name of a clip: its recording, its number and its label, in letters that survive.
 
     Examples
     --------
@@ -47,7 +47,7 @@ def safe_name(stem: str, number: int, text: str) -> str:
 
 
 def file_name(stem: str, number: int, text: str) -> str:
-    """The same for a file, without its suffix; letters of all scripts stay.
+    """Return the same for a file, without its suffix; letters of all scripts stay.
 
     Examples
     --------
@@ -58,7 +58,7 @@ def file_name(stem: str, number: int, text: str) -> str:
 
 
 def unlike(stem: str, first: int, others: Container[str]) -> str:
-    """The name of a file of all clips of a recording, the first of which has that number.
+    """Return the name of a file of all clips of a recording, the first of which has that number.
 
     A number follows where it would be one of the ``others``, which are in small letters.
 

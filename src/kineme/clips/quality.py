@@ -72,7 +72,7 @@ class LoopQuality:
 
     @property
     def cost(self) -> float:
-        """The sum of all, each by its unit in `COSTS`; what is not known costs nothing."""
+        """Return the sum of all, each by its unit in `COSTS`; what is not known costs nothing."""
         parts = {name: abs(value) / COSTS[name] for name, value in asdict(self).items()}
         return math.fsum(part for part in parts.values() if not math.isnan(part))
 
@@ -111,7 +111,7 @@ def loop_quality(
 
 
 def usual_steps(positions: Floats) -> tuple[float, float]:
-    """The 95 % quantiles of a recording's steps from frame to frame, and of their changes.
+    """Return the 95 % quantiles of a recording's steps from frame to frame, and of their changes.
 
     Root mean squares of the joints, metres.
     """
@@ -133,7 +133,7 @@ def distances(shapes: Sequence[Floats]) -> list[float]:
 
 
 def ranks(qualities: Sequence[LoopQuality]) -> list[int]:
-    """The place of each candidate, 1 the best."""
+    """Return the place of each candidate, 1 the best."""
     order = sorted(range(len(qualities)), key=lambda index: qualities[index].cost)
     places = [0] * len(order)
     for place, index in enumerate(order, 1):
@@ -142,7 +142,7 @@ def ranks(qualities: Sequence[LoopQuality]) -> list[int]:
 
 
 def _seam_steps(after: Floats, carry: Carry) -> tuple[float, float]:
-    """The step over the seam of a loop, and the larger change of steps beside it."""
+    """Return the step over the seam of a loop, and the larger change of steps beside it."""
     turned = Carry(carry.turn, 0.0, 0.0)
     step = carry.apply(after[0]) - after[-1]
     before, behind = after[-1] - after[-2], turned.apply(after[1] - after[0])
@@ -163,7 +163,7 @@ def _slide(
 
 
 def _sampled(shape: Floats) -> Floats:
-    """A motion at `PHASES` of its round."""
+    """Return a motion at `PHASES` of its round."""
     at = np.linspace(0, len(shape) - 1, PHASES)
     low = np.minimum(at.astype(int), max(len(shape) - 2, 0))
     high = np.minimum(low + 1, len(shape) - 1)
@@ -178,5 +178,5 @@ def _quantile(steps: Floats) -> float:
 
 
 def _size(differences: Floats) -> float:
-    """The root mean square of the lengths of differences (..., 3)."""
+    """Return the root mean square of the lengths of differences (..., 3)."""
     return float(np.sqrt((differences**2).sum(axis=-1).mean()))

@@ -74,7 +74,7 @@ def without_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotio
 
 
 def straightened(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
-    """The motion with its turn taken out, so that the body goes on as it begins."""
+    """Return the motion with its turn taken out, so that the body goes on as it begins."""
     shift = _generator(_about(carry, _start(motion)))
     straight = _noted(_on_path(motion, carry, shift), "turn taken out")
     return straight, Carry(0.0, float(shift[0]), float(shift[2]))
@@ -94,7 +94,7 @@ def _on_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
 
 
 def _turned(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> Motion:
-    """Each frame turned about the vertical through its center, which goes to its target."""
+    """Return each frame turned about the vertical through its center, which goes to its target."""
     quaternions = rot.about_y(turns)[:, None]
     centers, targets = (np.broadcast_to(each, (motion.n_frames, 3)) for each in (centers, targets))
     positions = rot.rotate(quaternions, motion.positions - centers[:, None]) + targets[:, None]
@@ -107,19 +107,19 @@ def _turned(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> 
 
 
 def _about(carry: Carry, place: Floats) -> Carry:
-    """The carry as seen from a place on the floor."""
+    """Return the carry as seen from a place on the floor."""
     shift = carry.apply(place) - place
     return Carry(carry.turn, float(shift[0]), float(shift[2]))
 
 
 def _generator(carry: Carry) -> Floats:
-    """The shift, in the axes of the body, that even motion for one round consists of."""
+    """Return the shift, in the axes of the body, that even motion for one round consists of."""
     shift: Floats = np.asarray(np.linalg.solve(_arc(carry.turn), carry.shift), np.float64)
     return shift
 
 
 def _arc(turn: float) -> Floats:
-    """The mean of the rotations from 0 to ``turn`` about the vertical."""
+    """Return the mean of the rotations from 0 to ``turn`` about the vertical."""
     if abs(turn) < STILL:
         return np.eye(3)
     even, odd = sin(turn) / turn, (1 - cos(turn)) / turn

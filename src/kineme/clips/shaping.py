@@ -73,7 +73,7 @@ class Shape:
 
     @property
     def changes(self) -> tuple[str, ...]:
-        """What was done, in the words of the manifest."""
+        """Return what was done, in the words of the manifest."""
         given = (
             ("in place", self.in_place),
             ("straight", self.straight),
@@ -120,7 +120,7 @@ class RankedLoop:
 
 
 def ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
-    """All candidates among the segments, those of a cluster together and the best first."""
+    """Return all candidates among the segments, those of a cluster together and the best first."""
     qualities = loop_qualities(motion, rows, planted_feet(motion))
     places = _places(rows, qualities)
     order = [

@@ -198,7 +198,7 @@ def _refuse_poses(shape: Shape, format: str | None) -> None:  # noqa: A002
 
 
 def _format(suffix: str | None) -> Format | None:
-    """The format of a suffix; ParameterError where no motions are written in it."""
+    """Return the format of a suffix; ParameterError where no motions are written in it."""
     if suffix is None:
         return None
     found = writer_of(f".{suffix}")
@@ -223,11 +223,11 @@ class _Run:
         return Path(self._path or "recording").stem
 
     def file(self, index: int, segment: Segment, suffix: str) -> str:
-        """The name of the file of one clip, the segment of that place among those given."""
+        """Return the name of the file of one clip, the segment of that place among those given."""
         return f"{file_name(self.stem, self.first + index, text_of(segment))}{suffix}"
 
     def clip(self, index: int, segment: Segment, file: str, **fields: Any) -> Clip:
-        """What the lists say of it; the other fields are those of `Clip`."""
+        """Return what the lists say of it; the other fields are those of `Clip`."""
         return Clip(
             name=safe_name(self.stem, self.first + index, text_of(segment)),
             file=file,
@@ -238,7 +238,7 @@ class _Run:
         )
 
     def shaped_clip(self, made: ShapedClip, file: str) -> Clip:
-        """The same of a motion that was made of it."""
+        """Return the same of a motion that was made of it."""
         return self.clip(
             made.index,
             made.segment,

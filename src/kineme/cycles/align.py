@@ -58,7 +58,7 @@ def aligned(curves: Floats, alignment: str) -> Floats:
 
 
 def _at(curves: Floats, shares: Floats, phases: Floats) -> Floats:
-    """The curves, known at shares of the cycle, at a phase of each for each point."""
+    """Return the curves, known at shares of the cycle, at a phase of each for each point."""
     return np.array(
         [[np.interp(phase, shares, channel) for channel in curve]
          for curve, phase in zip(curves, phases, strict=True)]
@@ -87,7 +87,7 @@ def _by_landmarks(curves: Floats) -> Floats:
 
 
 def _by_warping(curves: Floats) -> Floats:
-    """The same, warped to the mean."""
+    """Return the same, warped to the mean."""
     grid = np.linspace(0, 1, GRID)
     deviation = curves.std(axis=(0, 2), keepdims=True)
     scaled = curves / np.where(deviation > 0, deviation, 1.0)

@@ -35,7 +35,7 @@ def anchored(
     anchor: str | Sequence[float],
     beside: Sequence[Signals] = (),
 ) -> list[Repetition]:
-    """The repetitions from event to event.
+    """Return the repetitions from event to event.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def _window(each: Repetition, phase: float) -> tuple[float, float]:
 def _times(
     recording: Motion | Signals, anchor: str | Sequence[float], beside: Sequence[Signals]
 ) -> Floats:
-    """The seconds of the events of a recording that an anchor names."""
+    """Return the seconds of the events of a recording that an anchor names."""
     if not isinstance(anchor, str):
         return np.sort(as_floats(anchor, "anchor").ravel())
     crossing = _CROSSING.fullmatch(anchor.strip())
@@ -174,7 +174,7 @@ def _crossings(values: Floats, level: float, *, rises: bool) -> Floats:
 
 
 def _nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
-    """Of each repetition the event nearest to the usual phase; nan without one near it."""
+    """Return of each repetition the event nearest to the usual phase; nan without one near it."""
     turns = []
     for each in found:
         events = times[each.recording]
@@ -194,7 +194,7 @@ def _nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
 
 
 def _from_start_to_start(found: Sequence[Repetition], starts: Floats) -> list[Repetition]:
-    """Each repetition from its event to that of the one after it in its run."""
+    """Return each repetition from its event to that of the one after it in its run."""
     anchored_ones = []
     for i, each in enumerate(found):
         goes_on = each.place in ("first", "inner")

@@ -41,7 +41,7 @@ def bend(before: Floats, joint: Floats, after: Floats) -> Floats:
 
 
 def between(first: Floats, second: Floats) -> Floats:
-    """The angle between vectors, degrees from 0 to 180; nan where one has no length.
+    """Return the angle between vectors, degrees from 0 to 180; nan where one has no length.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def normalize(vectors: Floats) -> Floats:
 
 
 def continuous(angle: Floats) -> Floats:
-    """The same angle without jumps by 360 degrees."""
+    """Return the same angle without jumps by 360 degrees."""
     return np.degrees(np.unwrap(np.radians(angle)))
 
 

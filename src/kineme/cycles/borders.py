@@ -101,12 +101,12 @@ class Run:
 
 
 def run_of(recording: int, borders: Floats) -> Run:
-    """A run as a method cut it."""
+    """Return a run as a method cut it."""
     return Run(recording, borders, np.full(len(borders), np.nan))
 
 
 def in_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
-    """The runs of one cluster with borders at one phase, between two frames.
+    """Return the runs of one cluster with borders at one phase, between two frames.
 
     Parameters
     ----------
@@ -209,7 +209,7 @@ def _to_landmark(runs: list[Run], features: list[Floats], rates: list[float]) ->
 
 
 def _turned(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
-    """The runs with their borders at about one phase."""
+    """Return the runs with their borders at about one phase."""
     repeated = [run for run in runs if len(run.borders) > 2]
     if len(repeated) < 2:
         return runs
@@ -231,7 +231,7 @@ def _turned(runs: list[Run], features: list[Floats], rates: list[float]) -> list
 
 
 def _wrapped(share: float) -> float:
-    """A share of a cycle from -1/2 to 1/2."""
+    """Return a share of a cycle from -1/2 to 1/2."""
     return (share + 0.5) % 1 - 0.5
 
 
@@ -292,7 +292,7 @@ def _moved(
     offsets: Floats,
     reach: float,
 ) -> Run:
-    """The run with each border where the recording is most similar to the template."""
+    """Return the run with each border where the recording is most similar to the template."""
     slope, roots = np.gradient(template, axis=0) * POINTS, np.sqrt(weights)
     shifts = np.linspace(-reach, reach, 13)
     borders, uncertainty = run.borders.copy(), np.full(len(run.borders), np.nan)

@@ -97,7 +97,7 @@ class Channel:
     gaps: Sequence[tuple[int, int]] = ()
 
     def values(self) -> Floats:
-        """The numbers, nan where nothing was recorded."""
+        """Return the numbers, nan where nothing was recorded."""
         values = np.array(self.compute(), np.float64)
         for start, stop in self.gaps:
             values[start:stop] = np.nan
@@ -181,7 +181,7 @@ def contacts_of(recording: Motion | Signals) -> list[Channel]:
 
 
 def of_motion(motion: Motion) -> list[Channel]:
-    """Every channel of a body: its angles first, after them rotations, positions, speeds."""
+    """Return every channel of a body: its angles first, after them rotations, positions, speeds."""
     channels: list[Channel] = []
     fps, gaps = motion.fps, motion.gaps
     extended, parts = with_centres(motion, landmarks(motion))
@@ -221,7 +221,7 @@ def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
 
 
 def _faces(motion: Motion) -> bool:
-    """Whether anything tells where the body faces."""
+    """Return whether anything tells where the body faces."""
     try:
         heading(motion)
     except (EndEffectorError, MotionError):
@@ -323,7 +323,7 @@ def _flexion(places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[in
 
 
 def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:
-    """How far the thigh is turned forward from the pose of rest, in the pelvis's frame."""
+    """Return how far the thigh is turned forward from the pose of rest, in the pelvis's frame."""
     skeleton = motion.skeleton
     turned = world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
     thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])

@@ -119,7 +119,7 @@ def _joined(moves: Sequence[tuple[int, int]], pitch: Floats, fps: float) -> list
 
 
 def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, int]]:
-    """A movement, parted where the foot stands too shortly to be seen standing.
+    """Return a movement, parted where the foot stands too shortly to be seen standing.
 
     There are two swings where two turns forward are `APART_S` from each other.
     """

@@ -83,7 +83,7 @@ class Events:
         return f"<Events: {counted(len(self), 'event')} of {counted(len({*self.names}), 'name')}>"
 
     def at(self, name: str) -> Floats:
-        """The seconds of all events of a name; none where it does not happen.
+        """Return the seconds of all events of a name; none where it does not happen.
 
         Parameters
         ----------
@@ -93,7 +93,7 @@ class Events:
         return np.asarray(self.times[self.names == plain_name(name)])
 
     def columns(self) -> Columns:
-        """A table: ``time_s``, ``frame`` (between two of them) and ``event``."""
+        """Return a table: ``time_s``, ``frame`` (between two of them) and ``event``."""
         return {"time_s": self.times, "frame": self.times * self.fps, "event": self.names}
 
     def segmentation(self, name: str | None = None) -> Segmentation:
@@ -138,7 +138,7 @@ class Events:
 
 
 def plain_name(name: str) -> str:
-    """A name of an event as `Events` has it: lower case, a strike for a contact."""
+    """Return a name of an event as `Events` has it: lower case, a strike for a contact."""
     words = re.sub(r"[\s_]+", " ", name).strip().lower()
     return re.sub(r"\b(foot|heel) (contact|strike)\b|\binitial contact\b", STRIKE, words)
 
@@ -221,7 +221,7 @@ def _of_body(motion: Motion, side: str, pattern: str | None) -> Found | None:
 
 
 def _points(motion: Motion, side: str) -> list[str]:
-    """The joints that tell whether a foot stands: heel and toe, or the ankle; or none."""
+    """Return the joints that tell whether a foot stands: heel and toe, or the ankle; or none."""
     joints = landmarks(motion)
     heel = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
     if heel is None:
@@ -262,7 +262,7 @@ def _swings(signals: Signals, chosen: Sequence[str]) -> Floats:
 
 
 def foot_of(recording: Motion | Signals, side: str) -> list[str]:
-    """The joints or channels that tell whether the foot of a side stands; or none."""
+    """Return the joints or channels that tell whether the foot of a side stands; or none."""
     if isinstance(recording, Motion):
         return _points(recording, side)
     return _channels(recording.names, side, None) or []
@@ -312,7 +312,7 @@ def _channels(names: Sequence[str], side: str, pattern: str | None) -> list[str]
 
 
 def _is_gyroscope(name: str, places: Sequence[str]) -> bool:
-    """Whether a name is an axis of a gyroscope at one of these places, as ``lf_gyr_x``."""
+    """Return whether a name is an axis of a gyroscope at one of these places, as ``lf_gyr_x``."""
     words = [word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)]
     joined = {a + b for a, b in pairwise(words)} | set(words)
     return (
@@ -386,7 +386,7 @@ def _warn_implausible(gait: Columns) -> None:
 
 
 def strides(events: Events, recording: Motion | Signals | None = None) -> Columns:
-    """Each stride of each foot, from strike to strike: what `gait` has the means of.
+    """Return each stride of each foot, from strike to strike: what `gait` has the means of.
 
     Parameters
     ----------
@@ -414,7 +414,7 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
 
 
 def _strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:
-    """Of each stride of a foot, from strike to strike, what can be measured."""
+    """Return of each stride of a foot, from strike to strike, what can be measured."""
     strikes, offs = events.at(f"{side} {STRIKE}"), events.at(f"{side} {OFF}")
     others = events.at(f"{SIDES[side == SIDES[0]]} {STRIKE}")
     pairs = np.column_stack([strikes[:-1], strikes[1:]])

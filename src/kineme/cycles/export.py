@@ -105,7 +105,7 @@ def write_table(columns: Columns, path: str | PathLike[str]) -> None:
 
 
 def _cells(column: np.ndarray[Any, Any]) -> list[Any]:
-    """The cells of a column; an empty one where a number is not known."""
+    """Return the cells of a column; an empty one where a number is not known."""
     cells = column.tolist()
     if column.dtype.kind == "f":
         return ["" if isnan(cell) else cell for cell in cells]

@@ -52,7 +52,7 @@ class FineFeatures:
 
 
 def fine_features(recording: Motion | Signals) -> FineFeatures:
-    """The pose of a body, distances between its points where it has none, or all channels.
+    """Return the pose of a body, distances between its points where it has none, or all channels.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def _features(recording: Motion | Signals) -> tuple[Floats, bool]:
 
 
 def _averaged(values: Floats, many: int) -> Floats:
-    """The mean of the frames about every so many; the last may be of fewer."""
+    """Return the mean of the frames about every so many; the last may be of fewer."""
     if many == 1:
         return values
     from scipy.ndimage import uniform_filter1d

@@ -98,7 +98,7 @@ def landmarks(motion: Motion) -> dict[str, int]:
 
 
 def _named(names: Sequence[str], part: str, side: str, but: int | None = None) -> int | None:
-    """The joint of one of the names of a part, the preferred one."""
+    """Return the joint of one of the names of a part, the preferred one."""
     parts = [part_and_side(name) for name in names]
     for word in NAMES[part]:
         if (word, side) in parts and parts.index((word, side)) != but:
@@ -136,7 +136,7 @@ def _limb(skeleton: Skeleton, tip: int, other: int | None) -> tuple[int | None, 
 
 
 def _beyond(skeleton: Skeleton, ankle: int) -> int | None:
-    """The joint below the ankle that is farthest from it."""
+    """Return the joint below the ankle that is farthest from it."""
     lengths = np.linalg.norm(skeleton.offsets, axis=1)
     below = [j for j, parent in enumerate(skeleton.parents) if parent == ankle and lengths[j] > 0]
     return max(below, key=lambda j: float(lengths[j]), default=None)

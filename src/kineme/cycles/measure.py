@@ -152,7 +152,7 @@ def with_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
 
 
 def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
-    """The same cycles of one recording with other channels, from the borders that they have.
+    """Return the same cycles of one recording with other channels, from the borders that they have.
 
     Parameters
     ----------
@@ -274,7 +274,7 @@ def _columns(
     names: Sequence[str],
     groups: Sequence[dict[int | str, str]],
 ) -> Columns:
-    """The columns of the table that are the same whatever is measured."""
+    """Return the columns of the table that are the same whatever is measured."""
     fps = np.array([tables[each.recording].fps for each in found])
     start = np.array([each.start for each in found])
     stop = np.array([each.stop for each in found])
@@ -334,7 +334,7 @@ def _measure(
 
 
 def _in_step(curves: Floats, columns: Columns, align: str) -> Floats:
-    """The curves, those of each group in step; where nothing is measured, as they are."""
+    """Return the curves, those of each group in step; where nothing is measured, as they are."""
     if curves.shape[1]:
         for group in set(columns["group"].tolist()):
             rows = columns["group"] == group

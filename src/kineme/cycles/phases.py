@@ -21,12 +21,12 @@ CYCLE = 100.0
 
 
 def is_phase(measure: str) -> bool:
-    """Whether a measure, as ``knee_l.max_at``, is a place in a cycle."""
+    """Return whether a measure, as ``knee_l.max_at``, is a place in a cycle."""
     return measure.rpartition(".")[2] in PHASES
 
 
 def mean_phase(phases: Floats) -> float:
-    """The mean direction, from 0 to 100; nan of none.
+    """Return the mean direction, from 0 to 100; nan of none.
 
     Examples
     --------

@@ -73,7 +73,7 @@ def repetitions(
     tables: Sequence[Segmentation],
     groups: Sequence[Mapping[int | str, Hashable]],
 ) -> list[Repetition]:
-    """The repetitions of all recordings, in the order of recordings and of time.
+    """Return the repetitions of all recordings, in the order of recordings and of time.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def movement(segment: Segment) -> int | str:
 
 
 def _back_to_back(table: Segmentation) -> list[list[Segment]]:
-    """The repetitions of one movement in one activity, one after the other without a gap."""
+    """Return the repetitions of one movement in one activity, one after the other without a gap."""
     runs: list[list[Segment]] = []
     for row in table.primitives:
         if row.kind != "primitive":
@@ -131,7 +131,7 @@ def _back_to_back(table: Segmentation) -> list[list[Segment]]:
 
 
 def _each(run: Run, segments: Sequence[Segment], table: Segmentation) -> list[Repetition]:
-    """The repetitions of a run, cut off where its activity ends."""
+    """Return the repetitions of a run, cut off where its activity ends."""
     n, found = len(segments), []
     activity = table.activities[segments[0].activity]
     least, most, end = activity.start_s, activity.stop_s, table.n_frames / table.fps
@@ -164,7 +164,7 @@ def _each(run: Run, segments: Sequence[Segment], table: Segmentation) -> list[Re
 
 
 def _stillness(runs: Sequence[Run], fine: Sequence[FineFeatures]) -> float:
-    """The speed below which repetitions of these runs stand still."""
+    """Return the speed below which repetitions of these runs stand still."""
     total, count = 0.0, 0
     for run in runs:
         rate = fine[run.recording].rate
@@ -175,7 +175,7 @@ def _stillness(runs: Sequence[Run], fine: Sequence[FineFeatures]) -> float:
 
 
 def _without_pauses(run: list[Repetition], fine: FineFeatures, still: float) -> list[Repetition]:
-    """The repetitions of a run, from where movement begins to where it ends.
+    """Return the repetitions of a run, from where movement begins to where it ends.
 
     Standing still counts as a pause where it lasts `PAUSE_S`, on both sides of a border together.
     """
@@ -204,7 +204,7 @@ def _movement(each: Repetition, fine: FineFeatures, still: float) -> tuple[float
 
 
 def _numbered(found: Sequence[Repetition]) -> list[Repetition]:
-    """The repetitions counted from 0 in each activity."""
+    """Return the repetitions counted from 0 in each activity."""
     counts: dict[tuple[int, int], int] = defaultdict(int)
     numbered = []
     for each in found:

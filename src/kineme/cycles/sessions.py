@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 
 def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:
-    """The numbers of two sessions side by side.
+    """Return the numbers of two sessions side by side.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
 
 
 def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:
-    """The mean curves of two sessions side by side.
+    """Return the mean curves of two sessions side by side.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Colu
 
 
 def _common(first: Cycles, second: Cycles) -> list[str]:
-    """The groups that are in both; ParameterError where nothing can be compared."""
+    """Return the groups that are in both; ParameterError where nothing can be compared."""
     for each in (first, second):
         check_type(
             each, Cycles, "comparing sessions", "kineme.cycles(recording, segments) gives them"
@@ -154,7 +154,7 @@ def _common(first: Cycles, second: Cycles) -> list[str]:
 def _welch(
     n: Floats, mean: Floats, sd: Floats, other_n: Floats, other_mean: Floats, other_sd: Floats
 ) -> tuple[Floats, Floats, Floats]:
-    """The second mean less the first, and its bounds."""
+    """Return the second mean less the first, and its bounds."""
     from scipy.special import stdtrit
 
     with np.errstate(divide="ignore", invalid="ignore"):

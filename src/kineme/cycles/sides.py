@@ -22,7 +22,7 @@ _RIGHT = {"left": "right", "Left": "Right", "LEFT": "RIGHT"}
 
 
 def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
-    """What differs between left and right, for each group and each pair of channels.
+    """Return what differs between left and right, for each group and each pair of channels.
 
     Parameters
     ----------

@@ -80,7 +80,7 @@ class Cycles:
 
     @property
     def groups(self) -> list[str]:
-        """The groups, in the order of their first cycle."""
+        """Return the groups, in the order of their first cycle."""
         return list(dict.fromkeys(self.columns["group"].tolist()))
 
     def select(self, rows: NDArray[np.bool_]) -> Cycles:
@@ -115,7 +115,7 @@ class Cycles:
         return replace(self, columns=columns, curves=self.curves[mask])
 
     def used(self, *, ends: bool = False) -> NDArray[np.bool_]:
-        """Which cycles count in means: the inner ones that nothing excludes.
+        """Return which cycles count in means: the inner ones that nothing excludes.
 
         Parameters
         ----------
@@ -193,7 +193,7 @@ class Cycles:
         return self.exclude(sorted(far), FAR)
 
     def exclude_unsure(self, least: float = 0.5) -> Cycles:
-        """The same without cycles whose start is right with less than this probability.
+        """Return the same without cycles whose start is right with less than this probability.
 
         Parameters
         ----------
@@ -312,7 +312,7 @@ class Cycles:
         return {name: np.concatenate([each[name] for each in blocks]) for name in blocks[0]}
 
     def layout(self, channel: str, group: str | None = None, *, ends: bool = False) -> Floats:
-        """The curves of a channel below each other, as `spm1d` takes them.
+        """Return the curves of a channel below each other, as `spm1d` takes them.
 
         Parameters
         ----------
@@ -371,7 +371,7 @@ class Cycles:
         return pd.DataFrame(self.columns)
 
     def to_xarray(self) -> xr.Dataset:
-        """All curves as a data set: a variable of (cycle, percent) for each channel.
+        """Return all curves as a data set: a variable of (cycle, percent) for each channel.
 
         Returns
         -------
@@ -436,7 +436,7 @@ def _described(values: Floats, measure: str) -> tuple[float, ...]:
 
 
 def _distances(differences: Floats) -> Floats:
-    """The root of the mean square of each curve; what was not recorded does not count."""
+    """Return the root of the mean square of each curve; what was not recorded does not count."""
     recorded = np.isfinite(differences)
     total = (np.where(recorded, differences, 0.0) ** 2).sum(axis=2)
     return np.asarray(np.sqrt(total / np.maximum(recorded.sum(axis=2), 1)))

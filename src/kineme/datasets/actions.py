@@ -17,7 +17,7 @@ from kineme.datasets.cycles import Cycle
 
 
 def _beats(middle: float, amplitude: float, *, times: int = 1, at: float = 0.0) -> list[float]:
-    """A cosine over the tenths of a cycle, highest at the share ``at``."""
+    """Return a cosine over the tenths of a cycle, highest at the share ``at``."""
     tenths = np.arange(11) / 10
     return list(middle + amplitude * np.cos(2 * np.pi * times * (tenths - at)))
 

@@ -55,7 +55,7 @@ class Action(NamedTuple):
 
 
 def read_actions(path: str | PathLike[str]) -> dict[str, list[Action]]:
-    """The actions of each trial by its name, in ``annotations.json`` or the authors' text.
+    """Return the actions of each trial by its name, in ``annotations.json`` or the authors' text.
 
     Known errors are mended, with a `KinemeWarning` for every row.
     """

@@ -12,7 +12,7 @@ _FOLDER = Path(__file__).parent / "recordings"
 
 
 def bundled_recording() -> Path:
-    """The BVH file that comes with the package: 48 s of exercises at 60 Hz.
+    """Return the BVH file that comes with the package: 48 s of exercises at 60 Hz.
 
     Examples
     --------

@@ -128,7 +128,7 @@ def fetch_subject(
 
 
 def _checked(url: str, folder: Path, progress: Progress | None, timeout_s: float) -> Fetched | None:
-    """The file of this address, once its content has been read."""
+    """Return the file of this address, once its content has been read."""
     frames: list[int | None] = []
 
     def check(path: Path) -> None:
@@ -165,7 +165,7 @@ def _content(path: Path, folder: Path) -> int | None:
 
 
 def _n_frames(path: Path, folder: Path) -> int:
-    """The length of a motion that is not truncated, of which the reader only warns."""
+    """Return the length of a motion that is not truncated, of which the reader only warns."""
     from kineme.formats import read
 
     (skeleton,) = folder.glob("*.asf")

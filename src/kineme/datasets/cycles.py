@@ -60,7 +60,7 @@ class Cycle:
         return not self.gait and any(name.startswith(SIDES) for name in self.angles)
 
     def angles_at(self, phase: Floats, amplitude: Floats) -> dict[str, Floats]:
-        """Every angle of the figure at the phases (cycles from 0), scaled about standing."""
+        """Return every angle of the figure at the phases (cycles from 0), scaled about standing."""
         found = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}
         for name, values in self.angles.items():
             curve = _cyclic(self.at, values)
@@ -74,7 +74,7 @@ class Cycle:
 
 
 def mirrored(angles: Mapping[str, Floats]) -> dict[str, Floats]:
-    """The same posture with left and right exchanged."""
+    """Return the same posture with left and right exchanged."""
     found = {}
     for name, values in angles.items():
         side, _, limb = name.rpartition(" ")
@@ -90,7 +90,7 @@ def _full_names(name: str) -> list[str]:
 
 
 def _cyclic(at: Sequence[float], values: Sequence[float]) -> Callable[[Floats], Floats]:
-    """The cyclic curve through values at the given shares of a cycle."""
+    """Return the cyclic curve through values at the given shares of a cycle."""
     gain = values[-1] - values[0]
     phases, heights = np.asarray(at, float), np.asarray(values, float)
     curve = PchipInterpolator(

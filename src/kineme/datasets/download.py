@@ -39,7 +39,7 @@ def fetch(
     progress: Progress | None = None,
     timeout_s: float = TIMEOUT_S,
 ) -> Path | None:
-    """The file of this address in ``folder``; None if the server has no such file.
+    """Return the file of this address in ``folder``; None if the server has no such file.
 
     ``check`` is called with the complete file and raises FileError for one that is not what it
     should be, ``progress`` with name, bytes so far, and bytes in all or None. A connection that is
@@ -121,7 +121,7 @@ class _Download:
             raise _BrokenOffError(_reason(error, self.timeout_s)) from error
 
     def _accepted(self, url: str, answer: Response, size: int) -> int:
-        """The byte that the answer begins with."""
+        """Return the byte that the answer begins with."""
         if answer.status_code == 404:
             raise _MissingError
         if answer.status_code in TRY_AGAIN:

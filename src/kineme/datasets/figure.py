@@ -65,7 +65,7 @@ _LIMBS = (
 
 
 def figure(size: float = _HEIGHT) -> Skeleton:
-    """The skeleton of a person ``size`` metres tall."""
+    """Return the skeleton of a person ``size`` metres tall."""
     rows: list[tuple[str, str | None, tuple[float, float, float]]] = list(_TRUNK)
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
         name = side.capitalize()

@@ -70,7 +70,7 @@ def check_fit(motions: Sequence[Motion]) -> None:
 
 
 def _placed_after(before: Motion, motion: Motion) -> Motion:
-    """The motion turned and moved so that its root goes on where the one before ends."""
+    """Return the motion turned and moved so that its root goes on where the one before ends."""
     ended, begins = np.array(before.rotations)[-1, 0], np.array(motion.rotations)[0, 0]
     q = rot.multiply(ended, rot.conjugate(begins))
     turned = turn(motion, 2 * float(np.arctan2(q[2], q[0])))

@@ -33,7 +33,7 @@ def make_bundled(folder: Path) -> None:
 
 
 def _shortened(text: str) -> str:
-    """The same BVH with fewer decimals in its frames."""
+    """Return the same BVH with fewer decimals in its frames."""
     head, timing, frames = text.partition("Frame Time:")
     step, *lines = frames.splitlines()
     return "\n".join([head + timing + step, *map(_shortened_line, lines), ""])

@@ -53,7 +53,7 @@ def perform(
 
 
 def shaken(skeleton: Skeleton, rotations: Floats, noise: float, rng: np.random.Generator) -> Floats:
-    """The rotations with a small random turn of every joint that carries something."""
+    """Return the rotations with a small random turn of every joint that carries something."""
     reach = np.zeros(skeleton.n_joints)
     for joint in range(skeleton.n_joints - 1, 0, -1):
         parent = skeleton.parents[joint]

@@ -153,7 +153,7 @@ def join_exercises(
 
 
 def _run_order(names: list[str], runs: int, rng: np.random.Generator) -> list[str]:
-    """Every name once in random order, and again, without equal neighbours."""
+    """Return every name once in random order, and again, without equal neighbours."""
     order: list[str] = []
     while len(order) < runs:
         again = rng.permutation(names).tolist()

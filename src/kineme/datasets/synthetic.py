@@ -51,7 +51,7 @@ def synthesize(
     noise: float = 0.0,
     seed: int = 0,
 ) -> SyntheticRecording:
-    """A figure doing one action after the other, and where each begins and ends.
+    """Return a figure doing one action after the other, and where each begins and ends.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def synthesize(
 def random_recording(
     seed: int, *, activities: int = 6, fps: float = 120.0, noise: float = 0.0
 ) -> SyntheticRecording:
-    """A person walking between different exercises, each repeated three to eight times.
+    """Return a person walking between different exercises, each repeated three to eight times.
 
     Parameters
     ----------

@@ -77,7 +77,7 @@ class Part:
 
 
 def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) -> list[Part]:
-    """The actions one after the other, each repetition a little shorter or longer."""
+    """Return the actions one after the other, each repetition a little shorter or longer."""
     parts: list[Part] = []
     now, fade_in = 0, 0
     for place, action in enumerate(actions):
@@ -155,6 +155,6 @@ def _run_down(fade: int, period: float) -> Floats:
 
 
 def _kind(part: Part) -> tuple[str, str]:
-    """What makes two actions the same movement: the name, and the side where it matters."""
+    """Return what makes two actions the same movement: the name, and the side where it matters."""
     name = part.action.name
     return name, part.action.side if ACTIONS[name].one_sided else ""

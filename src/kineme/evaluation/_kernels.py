@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 @njit("float64(float64[:, ::1])", cache=True, nogil=True)
 def warped_cost(cost: NDArray[np.float64]) -> float:
-    """The least sum of ``cost`` along a path from the first to the last corner.
+    """Return the least sum of ``cost`` along a path from the first to the last corner.
 
     Steps are (1, 1), (1, 0) and (0, 1), each counted once.
     """

@@ -21,7 +21,7 @@ from kineme.evaluation.truth import Truth, round_half_up
 
 
 def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Truth]:
-    """The truth of each trial by its name, at so many frames a second.
+    """Return the truth of each trial by its name, at so many frames a second.
 
     The file is ``annotations.json`` or the authors' ``mocap.txt``; ReadError where it is neither,
     or marks run backwards beyond the known errors. A KinemeWarning names each mended row.
@@ -36,7 +36,7 @@ def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Tr
 
 
 def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
-    """The truth of one trial; known errors are mended in silence.
+    """Return the truth of one trial; known errors are mended in silence.
 
     ReadError where there is no such file, or it holds no such trial.
     """
@@ -50,7 +50,7 @@ def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
 
 
 def is_annotations(path: Path) -> bool:
-    """Whether a file is ``annotations.json`` or ``mocap.txt``, by what it holds."""
+    """Return whether a file is ``annotations.json`` or ``mocap.txt``, by what it holds."""
     suffix = path.suffix.lower()
     if suffix not in (".txt", ".json") or not path.is_file():
         return False

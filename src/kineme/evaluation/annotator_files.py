@@ -19,7 +19,7 @@ class AnnotatorLabels(NamedTuple):
 
 
 def extent_of(path: Path) -> Extent:
-    """The extent of the recording in a file."""
+    """Return the extent of the recording in a file."""
     from kineme.formats import read
 
     recording = read(path)
@@ -30,7 +30,7 @@ def labels_of_annotators(
     sources: Mapping[str, Mapping[Path, LabelSource]],
     extent: Callable[[Path], Extent] = extent_of,
 ) -> AnnotatorLabels:
-    """The labels of the recordings for which two people or more have some.
+    """Return the labels of the recordings for which two people or more have some.
 
     The sources are by annotator and recording, see `kineme.labels.collections.labels_of`; the
     labels by the names of recordings, or by their paths where names come again.

@@ -215,7 +215,7 @@ def fleiss_kappa(counts: ArrayLike) -> float:
 
 
 def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
-    """How far people agree who labelled the same recordings.
+    """Return how far people agree who labelled the same recordings.
 
     Parameters
     ----------
@@ -287,7 +287,7 @@ class _Sides:
         }
 
     def pair(self, first: str, second: str) -> Pair:
-        """How far two people agree."""
+        """Return how far two people agree."""
         compared = self._compared(first, second)
         if not compared:
             return Pair(first, second, math.nan, math.nan, 0)
@@ -350,12 +350,12 @@ def _truth(found: Segmentation) -> Truth:
 
 
 def _class(label: str) -> str:
-    """A label as it is compared."""
+    """Return a label as it is compared."""
     return " ".join(label.split()).casefold()
 
 
 def _have_names_in_common(labelled: Labelled, truths: Truths) -> bool:
-    """Whether all name whatever they label, and any two have names in common."""
+    """Return whether all name whatever they label, and any two have names in common."""
     names: dict[str, set[str]] = {}
     for recording, sides in truths.items():
         for who, truth in sides.items():
@@ -369,7 +369,7 @@ def _have_names_in_common(labelled: Labelled, truths: Truths) -> bool:
 
 
 def _mapped(classes: Ints, mapping: Mapping[int, int]) -> Ints:
-    """The classes that a mapping knows as it says, the others as they are."""
+    """Return the classes that a mapping knows as it says, the others as they are."""
     numbers, where = np.unique(classes, return_inverse=True)
     return np.array([mapping.get(int(n), int(n)) for n in numbers], np.int64)[where]
 

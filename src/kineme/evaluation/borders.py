@@ -163,7 +163,7 @@ def border_ratio(compared: Comparison) -> Ratio:
 
 
 def cut_ratio(compared: Comparison) -> Ratio:
-    """The same where both sides of any found transition are cuts.
+    """Return the same where both sides of any found transition are cuts.
 
     Examples
     --------

@@ -154,7 +154,7 @@ class Comparison:
         positions: ArrayLike | None = None,
         features: ArrayLike | None = None,
     ) -> Comparison:
-        """A result beside a truth whose borders are uncertain, at the truth's frame rate.
+        """Return a result beside a truth whose borders are uncertain, at the truth's frame rate.
 
         Parameters are those of `kineme.evaluation.evaluate`.
 
@@ -185,7 +185,7 @@ class Comparison:
 
     @cached_property
     def agreed(self) -> Comparison:
-        """The same of the frames on which people agree, with a mapping of their own."""
+        """Return the same of the frames on which people agree, with a mapping of their own."""
         certain = self.truth != UNLABELLED
         if certain.all() or not certain.any():
             return self
@@ -209,12 +209,12 @@ class Comparison:
 
     @property
     def repetitions(self) -> Repetitions:
-        """What repetitions are counted on: every frame of the recording."""
+        """Return what repetitions are counted on: every frame of the recording."""
         spans = self.spans
         return spans.repetitions or Repetitions(spans.actions, spans.primitives)
 
     def without_silence(self) -> Comparison:
-        """The same between the start of the first action and the end of the last.
+        """Return the same between the start of the first action and the end of the last.
 
         Beyond them the truth says nothing, and nothing is right or wrong there.
         """
@@ -252,17 +252,17 @@ class Comparison:
 
     @cached_property
     def true_runs(self) -> list[Run]:
-        """The runs of one class."""
+        """Return the runs of one class."""
         return runs(self.truth)
 
     @cached_property
     def mapped_runs(self) -> list[Run]:
-        """The runs of clusters that stand for one class."""
+        """Return the runs of clusters that stand for one class."""
         return runs(self.mapped)
 
     @cached_property
     def found_runs(self) -> list[Run]:
-        """The runs of one cluster."""
+        """Return the runs of one cluster."""
         return runs(self.found)
 
     def once(self, measure: Callable[[Comparison], R]) -> R:
@@ -276,7 +276,7 @@ class Comparison:
 def compare(
     truth: Segmentation, found: Segmentation, *, classes: dict[str, int] | None = None
 ) -> Comparison:
-    """The frames of a recording to which people gave a label, and the clusters found there.
+    """Return the frames of a recording to which people gave a label, and the clusters found there.
 
     Parameters
     ----------
@@ -340,7 +340,7 @@ def compare(
 
 
 def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
-    """The class of each cluster by which most frames of all the recordings are right.
+    """Return the class of each cluster by which most frames of all the recordings are right.
 
     One-to-one: of more clusters than classes, those that would add least stand for none.
 
@@ -372,7 +372,7 @@ def contingency(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
 
 
 def runs(labels: ArrayLike) -> list[Run]:
-    """The runs of equal labels, in order.
+    """Return the runs of equal labels, in order.
 
     Examples
     --------

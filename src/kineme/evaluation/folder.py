@@ -60,7 +60,7 @@ class Evaluated:
 
     @property
     def scores(self) -> dict[str, float]:
-        """The scores of this recording by name."""
+        """Return the scores of this recording by name."""
         return {name: value_of(result) for name, result in self.results.items()}
 
 
@@ -75,7 +75,7 @@ class FolderScores:
     mapping: Mapped
 
     def over_all(self, method: str) -> dict[str, float]:
-        """The scores of a method over its recordings by name, and ``seconds_per_hour``."""
+        """Return the scores of a method over its recordings by name, and ``seconds_per_hour``."""
         good = [one for one in self.methods[method] if not one.error]
         found = {n: over_all(one.results.get(n) for one in good) for n in scores() if good}
         length = sum(one.length_s for one in good)
@@ -127,7 +127,7 @@ def evaluate_folder(
     processes: int = 2,
     progress: Progress | None = None,
 ) -> FolderScores:
-    """Every score of every method on every recording that has labels.
+    """Return every score of every method on every recording that has labels.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def joined_comparisons(
 def _scored(
     answers: Sequence[tuple[Job, Answer]], compared: Sequence[Comparison | None]
 ) -> list[Evaluated]:
-    """The scores of one method."""
+    """Return the scores of one method."""
     found = []
     for (job, answer), one in zip(answers, compared, strict=True):
         if one is None:
@@ -267,5 +267,5 @@ def _all_apart(segmentations: Sequence[Segmentation]) -> list[Segmentation]:
 
 
 def _numbered_on(found: Segmentation, first: int) -> Segmentation:
-    """The same with clusters numbered from a number on."""
+    """Return the same with clusters numbered from a number on."""
     return renumbered(found, {c: c + first for c in found.table.cluster.tolist() if c >= 0})

@@ -29,7 +29,7 @@ FPS = 30.0
 
 
 def read_result(path: Path, *, fps: float | None = None) -> Segmentation:
-    """What a method found, in a file of any label format.
+    """Return what a method found, in a file of any label format.
 
     ``fps`` is used where the file does not tell; without, labels in seconds are taken at 30 Hz.
     """
@@ -41,7 +41,7 @@ def read_result(path: Path, *, fps: float | None = None) -> Segmentation:
 
 
 def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> Truth:
-    """What people say about the recording of a result, at the rate of comparison.
+    """Return what people say about the recording of a result, at the rate of comparison.
 
     ``fps`` is that of labels which count frames, if not the result's. What is unusual about the
     labels is a `KinemeWarning`.
@@ -66,7 +66,7 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
 
 
 def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
-    """The scores of a result, another segmentation of the recording taken for the truth.
+    """Return the scores of a result, another segmentation of the recording taken for the truth.
 
     Examples
     --------

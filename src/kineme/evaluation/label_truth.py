@@ -20,7 +20,7 @@ Count = int | None
 
 
 def with_repetitions(labels: Segmentation) -> Segmentation:
-    """The same labels on both levels: activities, and as primitives the repetitions of each.
+    """Return the same labels on both levels: activities, and as primitives the repetitions of each.
 
     Neighbours of one name are one activity. They are its repetitions where nobody says what is:
     neither primitives nor a count. Of a file of primitives alone each is a repetition, and a pause
@@ -83,7 +83,7 @@ def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
 
 
 def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
-    """The clusters of one level of a segmentation, as labels.
+    """Return the clusters of one level of a segmentation, as labels.
 
     Transitions are `TRANSITION`; what is in no cluster goes by its label, and without one
     gets a name of its own.
@@ -126,7 +126,7 @@ def _counts(labels: Segmentation) -> Sequence[Count]:
 
 
 def _class(label: str) -> str:
-    """A label as the name of a class, also where people call one what belongs to none."""
+    """Return a label as the name of a class, also where people call one what belongs to none."""
     return f"{label} (activity)" if label == TRANSITION else label
 
 
@@ -135,7 +135,7 @@ def _is_transition(row: Segment) -> bool:
 
 
 def _name(row: Segment) -> str:
-    """What an activity is called; empty for a transition, and where nobody says."""
+    """Return what an activity is called; empty for a transition, and where nobody says."""
     if _is_transition(row):
         return ""
     return row.label or (f"cluster {row.cluster}" if row.cluster >= 0 else "")

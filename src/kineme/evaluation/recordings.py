@@ -51,7 +51,7 @@ class Reading:
     options: dict[str, Any] = field(default_factory=dict)
 
     def read(self, path: Path) -> Motion | Signals:
-        """The recording in a file."""
+        """Return the recording in a file."""
         from kineme.formats import read
 
         if not (self.columns or self.without):
@@ -66,7 +66,7 @@ class Reading:
         return signals.select(kept).noted(*self._unmet(signals.names))
 
     def _unmet(self, names: Sequence[str]) -> list[str]:
-        """What is said of patterns that no column fits."""
+        """Return what is said of patterns that no column fits."""
         lower = [name.lower() for name in names]
         unmet = [p for p in (*self.columns, *self.without) if not filter_names(lower, p.lower())]
         return [f"{UNMET} {pattern!r:.60}" for pattern in unmet]
@@ -79,7 +79,7 @@ class Reading:
 
 
 def recordings_below(folder: Path) -> list[Path]:
-    """The recordings in a folder and in the folders in it, one at least, by name."""
+    """Return the recordings in a folder and in the folders in it, one at least, by name."""
     from kineme.formats.listing import recordings_in
 
     found = recordings_in(folder, recursive=True).recordings
@@ -91,7 +91,7 @@ def recordings_below(folder: Path) -> list[Path]:
 def segment_by(
     name: str, recording: Motion | Signals, *, n_classes: int, **constants: Any
 ) -> Segmentation:
-    """The segments that a method finds in a recording.
+    """Return the segments that a method finds in a recording.
 
     Examples
     --------
@@ -155,7 +155,7 @@ class Answer:
 
 
 def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
-    """Each job and its answer, as they come."""
+    """Yield each job and its answer, as they come."""
     if processes == 1:
         for job in jobs:
             yield job, _answer(job)
@@ -181,7 +181,7 @@ def _answer(job: Job) -> Answer:
 
 
 def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
-    """What comes out of a job; raises what its method raises, and times it by this clock."""
+    """Return what comes out of a job; raises what its method raises, and times it by this clock."""
     recording = job.reading.read(job.path)
     truth = job.source.of(
         n_frames=recording.n_frames, fps=recording.fps, clock=recording.provenance.clock

@@ -44,7 +44,7 @@ class Ratio(NamedTuple):
 
     @property
     def value(self) -> float:
-        """The part over the total; nan where there is none."""
+        """Return the part over the total; nan where there is none."""
         return self.part / self.total if self.total else math.nan
 
 
@@ -108,7 +108,7 @@ SCORES: Registry[Score] = Registry(
 
 
 def scores() -> Mapping[str, Score]:
-    """The scores by name, the package's own first.
+    """Return the scores by name, the package's own first.
 
     Returns
     -------
@@ -152,7 +152,7 @@ def register(new: Score, *, replace: bool = False) -> None:
 
 
 def results_of(compared: Comparison) -> dict[str, float | Ratio]:
-    """All scores of a comparison by name, those left out that cannot be had.
+    """Return all scores of a comparison by name, those left out that cannot be had.
 
     A score that fails costs itself only: a `KinemeWarning` names it.
     """
@@ -169,7 +169,7 @@ def evaluate(
     positions: ArrayLike | None = None,
     features: ArrayLike | None = None,
 ) -> dict[str, float]:
-    """All scores by name, in reading order; best is 1 unless the name says otherwise.
+    """Return all scores by name, in reading order; best is 1 unless the name says otherwise.
 
     Scores of frames and clusters read ``clusters``; those of borders, and ``strict`` and
     ``tolerant``, read ``activities``; repetitions and variances read ``primitives``. Names that
@@ -230,7 +230,7 @@ def evaluate_segmentation(
     positions: ArrayLike | None = None,
     features: ArrayLike | None = None,
 ) -> dict[str, float]:
-    """All scores of a segmentation; see `evaluate`.
+    """Return all scores of a segmentation; see `evaluate`.
 
     Its clusters are those of its activities where they have any (or labels), else those
     of its primitives. A segment in no cluster goes by its label, and without one is a cluster
@@ -273,7 +273,7 @@ def comparison_of(
 
 
 def value_of(result: Value) -> float:
-    """The number that a score's function gave, be it one or a ratio; nan for None."""
+    """Return the number that a score's function gave, be it one or a ratio; nan for None."""
     if result is None:
         return math.nan
     return result.value if isinstance(result, Ratio) else float(result)
@@ -310,7 +310,7 @@ def _result(score: Score, compared: Comparison) -> Value:
 def one_of(
     measure: Callable[[Comparison], Sequence[float] | None], number: int
 ) -> Callable[[Comparison], float | None]:
-    """The function of a score that is one of several numbers which are computed together."""
+    """Return the function of a score that is one of several numbers which are computed together."""
 
     def function(compared: Comparison) -> float | None:
         numbers = compared.once(measure)

@@ -51,7 +51,7 @@ def edit_score(compared: Comparison) -> float:
 
 
 def edit_distance(a: Sequence[int], b: Sequence[int]) -> int:
-    """The fewest insertions, deletions and exchanges that turn one sequence into another.
+    """Return the fewest insertions, deletions and exchanges that turn one sequence into another.
 
     Examples
     --------
@@ -95,7 +95,7 @@ def overlap_f1(compared: Comparison, *, percent: float) -> Ratio:
 
 
 def found_counts(truth: Truth, primitives: Labelling) -> list[int]:
-    """How many primitives have their middle in each action of the truth.
+    """Return how many primitives have their middle in each action of the truth.
 
     Actions are cut at the mean marks; transitions are no primitives.
     """
@@ -135,7 +135,7 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
 
 
 def _hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
-    """How many true segments are found."""
+    """Return how many true segments are found."""
     labels, starts, stops = np.array(true).T
     hits: set[int] = set()
     for label, start, stop in found:

@@ -62,12 +62,12 @@ def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
 
 
 def shown(value: float) -> str:
-    """A score with three digits behind the point, empty for nan."""
+    """Return a score with three digits behind the point, empty for nan."""
     return f"{value:.3f}" if math.isfinite(value) else ""
 
 
 def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A Markdown table whose first column is left-aligned, the others right."""
+    """Return a Markdown table whose first column is left-aligned, the others right."""
     lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
@@ -118,10 +118,10 @@ def write_result(result: Result, path: Path) -> None:
 
 
 def finite(value: Any) -> Any:
-    """The value; None in place of a number that cannot be had."""
+    """Return the value; None in place of a number that cannot be had."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def plain(record: Mapping[str, Any]) -> dict[str, Any]:
-    """The record with None in place of numbers that cannot be had."""
+    """Return the record with None in place of numbers that cannot be had."""
     return {name: finite(value) for name, value in record.items()}

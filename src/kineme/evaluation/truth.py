@@ -78,7 +78,7 @@ class Labelling:
     def from_cuts(
         cls, cuts: ArrayLike, labels: Sequence[object] | None = None, *, frames: int, fps: float
     ) -> Labelling:
-        """The intervals between cuts; without labels each gets one of its own."""
+        """Return the intervals between cuts; without labels each gets one of its own."""
         borders = np.concatenate([[0], np.asarray(cuts, np.int64), [frames]])
         names = range(borders.size - 1) if labels is None else labels
         return cls(borders, tuple(map(str, names)), fps)
@@ -97,7 +97,7 @@ class Labelling:
 
     @property
     def frames(self) -> int:
-        """The length of the recording."""
+        """Return the length of the recording."""
         return int(self.borders[-1])
 
     @property
@@ -109,21 +109,21 @@ class Labelling:
         return self.borders[1:]
 
     def per_frame(self) -> Texts:
-        """The label of each frame."""
+        """Return the label of each frame."""
         return np.repeat(np.array(self.labels, dtype=object), np.diff(self.borders))
 
     def names(self) -> list[str]:
-        """Each label once, in the order of `numbers`; transitions are none."""
+        """Return each label once, in the order of `numbers`; transitions are none."""
         return [label for label in dict.fromkeys(self.labels) if label != TRANSITION]
 
     def numbers(self) -> Ints:
-        """The number of each frame's label, by `names`; `UNLABELLED` in transitions."""
+        """Return the number of each frame's label, by `names`; `UNLABELLED` in transitions."""
         numbers = {name: i for i, name in enumerate(self.names())}
         values = [numbers.get(label, UNLABELLED) for label in self.labels]
         return np.repeat(np.array(values, np.int64), np.diff(self.borders))
 
     def within(self, frames: NDArray[np.bool_]) -> Labelling:
-        """The same without the frames that are False; what vanishes is left out."""
+        """Return the same without the frames that are False; what vanishes is left out."""
         moved = np.concatenate([[0], np.cumsum(frames)])[self.borders]
         rows = np.flatnonzero(np.diff(moved) > 0)
         return Labelling(
@@ -131,7 +131,7 @@ class Labelling:
         )
 
     def merged(self) -> Labelling:
-        """The same labels with equal neighbours joined."""
+        """Return the same labels with equal neighbours joined."""
         labels = self.labels
         rows = [i for i, label in enumerate(labels) if not i or label != labels[i - 1]]
         return Labelling(
@@ -139,7 +139,7 @@ class Labelling:
         )
 
     def at(self, *, frames: int, fps: float) -> Labelling:
-        """The same intervals counted in frames of another rate.
+        """Return the same intervals counted in frames of another rate.
 
         Borders go to the nearest frame, halves up; what vanishes is left out.
 
@@ -255,7 +255,7 @@ class Truth:
         counts: Sequence[int | None] = (),
         tolerance_s: float = TOLERANCE_S,
     ) -> Truth:
-        """The truth in a labelling: a transition between two actions is an uncertain border.
+        """Return the truth in a labelling: a transition between two actions is an uncertain border.
 
         Its middle counts as the mean. A transition at the beginning or the
         end of the recording stays a row of its own. Counts are one for each interval.

@@ -73,7 +73,7 @@ def body_frame(
 
 
 def heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[int, Floats]:
-    """The pelvis's joint, and the angles (frames,) by which the body looks away from +z.
+    """Return the pelvis's joint, and the angles (frames,) by which the body looks away from +z.
 
     Radians about the vertical, positive towards +x: what ``body_frame`` takes
     away. Arguments and errors are those of ``body_frame``.
@@ -119,7 +119,7 @@ def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]
 
 
 def _ancestry(skeleton: Skeleton, joint: int) -> list[int]:
-    """The joints from the root down to ``joint``."""
+    """Return the joints from the root down to ``joint``."""
     chain = [joint]
     while skeleton.parents[chain[-1]] >= 0:
         chain.append(skeleton.parents[chain[-1]])

@@ -22,7 +22,7 @@ _FRAMES = 2000  # enough to tell how distances vary
 
 
 def have_bones(positions: ArrayLike) -> bool:
-    """Whether each point is joined to another one, and not all to all.
+    """Return whether each point is joined to another one, and not all to all.
 
     Parameters
     ----------

@@ -41,7 +41,7 @@ BINOMIAL = np.array([comb(10, k) for k in range(11)]) / 2**10
 
 
 def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) -> Floats:
-    """The features (frames, dims) with every frame moved towards similar ones.
+    """Return the features (frames, dims) with every frame moved towards similar ones.
 
     What the principal components leave out is lost: the result lies in their
     space. Turning, moving or scaling the features does the same to the result.

@@ -65,7 +65,7 @@ class Mixture(NamedTuple):
 
 
 def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
-    """The channels at the times 0, 1/new, 2/new, … up to their last frame.
+    """Return the channels at the times 0, 1/new, 2/new, … up to their last frame.
 
     Each value is the mean over `smoothing` seconds around its time, or over a frame of the old or
     new rate where that is longer. So nothing folds back from above the new rate. A lower rate is
@@ -104,7 +104,7 @@ def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> F
 
 
 def standardized(values: ArrayLike) -> Floats:
-    """The channels with mean 0 and standard deviation 1; those that never change are 0."""
+    """Return the channels with mean 0 and standard deviation 1; those that never change are 0."""
     centred = np.asarray(values, np.float64)
     centred = centred - centred.mean(axis=0)
     largest = np.abs(centred).max(axis=0)
@@ -158,7 +158,7 @@ def in_mixtures(
     window: float,
     bands: tuple[float, ...],
 ) -> list[Floats]:
-    """The statistics of each of these mixtures of the channels.
+    """Return the statistics of each of these mixtures of the channels.
 
     A band at a time: all bands of a long recording are many times as large as itself.
     """
@@ -175,14 +175,14 @@ def in_mixtures(
 
 
 def sampled_at(frames: int, fps: float, rate: float) -> Ints:
-    """The frames that are looked at, `rate` times a second."""
+    """Return the frames that are looked at, `rate` times a second."""
     n = int((frames - 1) / fps * rate + 1e-9) + 1
     at: Ints = np.minimum(np.rint(np.arange(n) * fps / rate).astype(np.int64), frames - 1)
     return at
 
 
 def _means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
-    """The means over the frames from first to last, at the ends over what is there.
+    """Return the means over the frames from first to last, at the ends over what is there.
 
     Of squares, the root of it.
     """
@@ -194,7 +194,7 @@ def _means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
 
 
 def _band(channels: Floats, fps: float, low: float, high: float) -> Floats:
-    """The channels between two frequencies, without delay (Butterworth, both ways)."""
+    """Return the channels between two frequencies, without delay (Butterworth, both ways)."""
     from scipy.signal import butter, sosfiltfilt
 
     edges = [low, min(high, NYQUIST * fps)]

@@ -90,7 +90,7 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
 
 
 def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
-    """The points (at most so many, ascending) that lie farthest from each other in the mean.
+    """Return the points (at most so many, ascending) that lie farthest from each other in the mean.
 
     Points of the lab, which stay where they are while the others go elsewhere,
     are left out; so is all but one of those in the same place.
@@ -114,7 +114,7 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
 
 
 def _of_the_lab(positions: Floats, varying: Floats) -> NDArray[np.bool_]:
-    """Which points never move, though none that move keep their distance from them."""
+    """Return which points never move, though none that move keep their distance from them."""
     movement = np.linalg.norm(positions - positions.mean(axis=0), axis=2)
     movement = np.sqrt((movement**2).mean(axis=0))
     moves = movement > _STILL * movement.max()
@@ -136,7 +136,7 @@ def _mean_and_deviation(positions: Floats) -> tuple[Floats, Floats]:
 
 
 def _without_spikes(values: Floats) -> Floats:
-    """Each value the median of itself and its two neighbours in time.
+    """Return each value the median of itself and its two neighbours in time.
 
     A marker that is taken for another for a frame or two would outweigh all movement.
     """

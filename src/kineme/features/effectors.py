@@ -138,7 +138,7 @@ def remedy(skeleton: Skeleton) -> str:
 
 
 def _listed(words: list[str], last: str = "and") -> str:
-    """The words as people list them: ``a, b and c``."""
+    """Return the words as people list them: ``a, b and c``."""
     return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
@@ -190,7 +190,7 @@ def _find_by_names(skeleton: Skeleton) -> dict[str, int]:
 
 
 def _crown(skeleton: Skeleton, head: int) -> int:
-    """The leaf that ends the head joint, or the head joint itself."""
+    """Return the leaf that ends the head joint, or the head joint itself."""
     leaves = [
         joint
         for joint, parent in enumerate(skeleton.parents)

@@ -26,7 +26,7 @@ def speed_of(path: Floats, fps: float) -> Floats:
 
 
 def low_and_slow(path: Floats, fps: float, *, height: float, speed: float) -> NDArray[np.bool_]:
-    """The frames in which a point stands.
+    """Return the frames in which a point stands.
 
     Parameters
     ----------

@@ -35,7 +35,7 @@ _SIDE = re.compile(r"(?:(?<![a-zA-Z])|(?<=[a-z])(?=[A-Z]))((?i:left|right|l|r))"
 
 
 def mirror(motion: Motion) -> Motion:
-    """The motion in a mirror that stands in the plane x = 0, left and right exchanged.
+    """Return the motion in a mirror that stands in the plane x = 0, left and right exchanged.
 
     The skeleton keeps its names and is mirrored, too: each left limb gets the
     lengths of the right one.
@@ -100,7 +100,7 @@ def mirror_features(features: ArrayLike) -> Floats:
 
 
 def _partners(skeleton: Skeleton) -> list[int]:
-    """For each joint that of the other side; itself on the midline."""
+    """Return for each joint that of the other side; itself on the midline."""
     names = skeleton.names
     index = {name: joint for joint, name in enumerate(names)}
     partners = [
@@ -122,7 +122,7 @@ def _partners(skeleton: Skeleton) -> list[int]:
 
 
 def _renamed(name: str) -> Iterator[str]:
-    """The name with one word for a side turned into the other, each way to do so."""
+    """Yield the name with one word for a side turned into the other, each way to do so."""
     for found in _SIDE.finditer(name):
         side = found[1]
         other = _SIDES[side.lower()]

@@ -43,7 +43,7 @@ def find_by_name(names: Sequence[str], words: Sequence[str], side: str | None) -
 
 @lru_cache(maxsize=4096)
 def words_of(name: str) -> tuple[str, ...]:
-    """The words of a name in lower case, without namespace, separators and numbers."""
+    """Return the words of a name in lower case, without namespace, separators and numbers."""
     local = re.split(r"[:|]", name)[-1]
     return tuple(word.lower() for word in _WORD.findall(local) if not word.isdigit())
 
@@ -61,7 +61,7 @@ def part_and_side(name: str) -> tuple[str, str]:
 
 @lru_cache(maxsize=4096)
 def _words_before(name: str, word: str, side: str | None) -> int | None:
-    """How many words are before ``word``, or None if the name says something else."""
+    """Return how many words are before ``word``, or None if the name says something else."""
     words = list(words_of(name))
     found_side = None
     for place, candidate in enumerate(words):

@@ -47,7 +47,7 @@ def cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -
 def fit_clouds(
     points: Floats, first: NDArray[np.int64], second: NDArray[np.int64], *, half: int
 ) -> tuple[Floats, Floats, Floats]:
-    """For each pair of frames its distance, and how the second is laid onto the first.
+    """Return for each pair of frames its distance, and how the second is laid onto the first.
 
     Parameters
     ----------

@@ -94,7 +94,7 @@ def _limb_pairs(
 def _pair(
     parents: Sequence[int], one: list[int], other: list[int], pose: Floats
 ) -> tuple[_Limb, _Limb] | None:
-    """The two branches as a pair of limbs, or None where their bones differ."""
+    """Return the two branches as a pair of limbs, or None where their bones differ."""
     if len(one) != len(other):
         return None
     paths = np.array([one, other])
@@ -124,7 +124,7 @@ def _left(legs: tuple[_Limb, _Limb], pose: Floats) -> Floats | None:
 def _head(
     parents: Sequence[int], arms: tuple[_Limb, _Limb], paths: list[list[int]], lengths: list[float]
 ) -> dict[str, int]:
-    """The end of the longest branch beside the arms."""
+    """Return the end of the longest branch beside the arms."""
     chest, used = arms[0].parent, {arm.branch for arm in arms}
     others = [j for j, parent in enumerate(parents) if parent == chest and j not in used]
     return {"head": paths[max(others, key=lambda j: lengths[j])][-1]} if others else {}

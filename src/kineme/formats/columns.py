@@ -57,7 +57,7 @@ def columns_to_motion(
     *,
     limit: float = LIMIT,
 ) -> Motion:
-    """The motion of the joints in a table's columns, one number per row each.
+    """Return the motion of the joints in a table's columns, one number per row each.
 
     ``name`` is that of the format, ``limit`` the confidence from which a keypoint counts as seen.
     ReadError where no joints are found, columns differ in length, or nothing tells the rate.
@@ -87,14 +87,14 @@ def columns_to_motion(
 
 
 def is_used(column: str) -> bool:
-    """Whether a column of this name tells a position, a time, a rate or a confidence."""
+    """Return whether a column of this name tells a position, a time, a rate or a confidence."""
     return is_timing(column) or any(
         pattern.fullmatch(column.strip()) for pattern in (COORDINATE, _CONFIDENCE)
     )
 
 
 def joint_names(columns: Iterable[str]) -> list[str]:
-    """The joints that columns of these names are the coordinates of, in order."""
+    """Return the joints that columns of these names are the coordinates of, in order."""
     return list(axes_by_point(columns))
 
 
@@ -122,7 +122,7 @@ def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
 def _in_one_unit(
     content: FileContent, joints: Joints, positions: Floats
 ) -> tuple[str | None, list[str | Note]]:
-    """The unit that the columns' names tell, and notes; None where none does.
+    """Return the unit that the columns' names tell, and notes; None where none does.
 
     Where they tell several, ``positions`` are brought to metres in place, and the unit is that.
     """

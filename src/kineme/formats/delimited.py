@@ -109,19 +109,19 @@ class DelimitedText:
 
     @cached_property
     def rows(self) -> Sequence[str]:
-        """The lines of the table below its names."""
+        """Return the lines of the table below its names."""
         rows = self.lines[self.below :]
         return ["\t".join(row.split()) for row in rows] if self.blanks else rows
 
     @cached_property
     def first_cells(self) -> list[str]:
-        """The cells of the first row that is not blank."""
+        """Return the cells of the first row that is not blank."""
         row = next(filter(str.strip, self.rows), "")
         return cells_of(row, self.separator) if row else []
 
     @cached_property
     def comma(self) -> bool:
-        """Whether its numbers have a decimal comma."""
+        """Return whether its numbers have a decimal comma."""
         if self.separator == ",":
             return False
         rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
@@ -130,7 +130,7 @@ class DelimitedText:
 
     @cached_property
     def dates(self) -> list[int]:
-        """The columns that tell the time by dates."""
+        """Return the columns that tell the time by dates."""
         return date_columns(self.names, self.first_cells)
 
     @cached_property
@@ -146,7 +146,7 @@ class DelimitedText:
 
     @cached_property
     def day_first(self) -> bool | None:
-        """Whether its dates name the day before the month; None where they do not tell."""
+        """Return whether its dates name the day before the month; None where they do not tell."""
         if self.day_before_month is not None:
             return self.day_before_month
         first = (self.first_cells[i] for i in self.dates)
@@ -156,7 +156,7 @@ class DelimitedText:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """The notes, and how numbers and dates are written."""
+        """Return the notes, and how numbers and dates are written."""
         notes = (*self.notes, COMMAS) if self.comma else self.notes
         doubtful = next(filter(is_ambiguous, (self.first_cells[i] for i in self.dates)), None)
         if doubtful is None or self.day_first is not None:
@@ -165,7 +165,7 @@ class DelimitedText:
         return (*notes, f"{doubtful!r} is taken for {day:%-d %B %Y}")
 
     def numbered(self) -> DelimitedText:
-        """The same table, its columns called by their numbers where it is headless."""
+        """Return the same table, its columns called by their numbers where it is headless."""
         if not self.headless:
             return self
         names = [str(i) for i in range(1, len(self.names) + 1)]
@@ -240,7 +240,7 @@ class DelimitedText:
 
 
 def named(names: Iterable[str]) -> list[str]:
-    """The names of columns, each of them once, and none of them empty."""
+    """Return the names of columns, each of them once, and none of them empty."""
     return unique(name.strip() or NAMELESS for name in names)
 
 
@@ -250,22 +250,22 @@ def separator_of(line: str) -> str:
 
 
 def cells_of(line: str, separator: str) -> list[str]:
-    """The cells of a line, without blanks and quotes around them."""
+    """Return the cells of a line, without blanks and quotes around them."""
     return [cell.strip().strip('"').strip() for cell in line.split(separator)]
 
 
 def is_number(cell: str) -> bool:
-    """Whether a cell is a number, with a decimal point or comma."""
+    """Return whether a cell is a number, with a decimal point or comma."""
     return bool(_NUMBER.fullmatch(cell))
 
 
 def has_comma(cell: str) -> bool:
-    """Whether a cell is a number with a decimal comma."""
+    """Return whether a cell is a number with a decimal comma."""
     return _COMMA.fullmatch(cell) is not None
 
 
 def dotted(cell: str) -> str:
-    """A cell with a decimal point in place of a decimal comma; other text as it is."""
+    """Return a cell with a decimal point in place of a decimal comma; other text as it is."""
     return cell.replace(",", ".") if has_comma(cell) else cell
 
 
@@ -281,7 +281,7 @@ def as_text(text: str) -> str:
 
 
 def from_text(cell: str) -> str:
-    """The text that `as_text` made a cell of.
+    """Return the text that `as_text` made a cell of.
 
     Examples
     --------
@@ -292,7 +292,7 @@ def from_text(cell: str) -> str:
 
 
 def is_finite(cell: str) -> bool:
-    """Whether a cell is a finite number."""
+    """Return whether a cell is a finite number."""
     try:
         numbers([cell])
     except ValueError:
@@ -301,7 +301,7 @@ def is_finite(cell: str) -> bool:
 
 
 def _seconds(content: FileContent, cell: str, line: int, day_first: bool | None) -> str:
-    """A date as a number in text; what is empty stays so."""
+    """Return a date as a number in text; what is empty stays so."""
     try:
         return cell if cell.lower() in EMPTY else repr(date_seconds(cell, day_first=day_first))
     except ValueError as error:

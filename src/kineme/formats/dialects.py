@@ -70,7 +70,7 @@ def dialect_of(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | Non
 
 
 def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
-    """Whether none of a table's columns is a coordinate of a joint or keypoint.
+    """Return whether none of a table's columns is a coordinate of a joint or keypoint.
 
     A table whose columns are coordinates of joints is a motion. Sensors have coordinates, too:
     ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.

@@ -59,7 +59,7 @@ class FileContent:
 
     @property
     def text(self) -> str:
-        """The bytes as text: UTF-8 or UTF-16, else as Windows writes them in Western Europe.
+        """Return the bytes as text: UTF-8 or UTF-16, else as Windows writes them in Western Europe.
 
         Where it is none of these, stray bytes are only ever in comments and names.
         """
@@ -72,7 +72,7 @@ class FileContent:
 
     @property
     def is_utf16(self) -> bool:
-        """Whether it begins as text of two bytes a letter does."""
+        """Return whether it begins as text of two bytes a letter does."""
         return self.data.startswith((BOM_UTF16_LE, BOM_UTF16_BE))
 
     def warn(self, reason: str, line: int | None = None) -> None:
@@ -105,7 +105,7 @@ class FileContent:
             )
 
     def line_at(self, offset: int) -> int:
-        """The line, counted from 1, that a byte stands in."""
+        """Return the line, counted from 1, that a byte stands in."""
         return self.data.count(b"\n", 0, offset) + 1
 
     def error(self, reason: str, line: int | None = None) -> ReadError:
@@ -113,7 +113,7 @@ class FileContent:
 
 
 def load(path: str | PathLike[str]) -> FileContent:
-    """The file as it is on disk; ReadError if there is none or it may not be read."""
+    """Return the file as it is on disk; ReadError if there is none or it may not be read."""
     try:
         refuse_pipe(path)
         return FileContent(Path(path), Path(path).read_bytes())
@@ -139,7 +139,7 @@ def find_beside(content: FileContent, place: str | PathLike[str]) -> Path:
 
 
 def numbers(words: Sequence[str | bytes]) -> list[float]:
-    """The words as finite numbers; ValueError names the first that is not one."""
+    """Return the words as finite numbers; ValueError names the first that is not one."""
     try:
         values = list(map(float, words))
     except ValueError:
@@ -172,7 +172,7 @@ def table(values: NDArray[np.float64]) -> list[str]:
 
 
 def spelled(path: Path, names: Sequence[str], spelling: Callable[[str], str]) -> list[str]:
-    """The names as a format can hold them, each once; a warning says what that changes.
+    """Return the names as a format can hold them, each once; a warning says what that changes.
 
     WriteError for a name that is no text: half of a pair of UTF-16.
     """
@@ -189,7 +189,7 @@ def spelled(path: Path, names: Sequence[str], spelling: Callable[[str], str]) ->
 
 
 def rotations_of(motion: Motion, path: Path, what: str) -> NDArray[np.float64]:
-    """The rotations of a motion that is to be written; WriteError where it has none."""
+    """Return the rotations of a motion that is to be written; WriteError where it has none."""
     if motion.rotations is None:
         raise WriteError(
             path,
@@ -199,12 +199,12 @@ def rotations_of(motion: Motion, path: Path, what: str) -> NDArray[np.float64]:
 
 
 def in_a_cell(name: str) -> str:
-    """A point's name as tables hold it: one line, without a colon at its ends."""
+    """Return a point's name as tables hold it: one line, without a colon at its ends."""
     return " ".join(name.split()).strip(": ")
 
 
 def unique(names: Iterable[str]) -> list[str]:
-    """The names, those that repeat an earlier one with a number behind them."""
+    """Return the names, those that repeat an earlier one with a number behind them."""
     distinct: dict[str, None] = {}
     tried: dict[str, int] = {}  # the last number behind each name
     for name in names:

@@ -94,13 +94,13 @@ def covered(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
 
 
 def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
-    """The motion with these frames [start, stop) in its gaps, besides those that it has."""
+    """Return the motion with these frames [start, stop) in its gaps, besides those that it has."""
     joined = covered([*motion.gaps, *spans], motion.n_frames)
     return replace(motion, gaps=tuple((a, b) for a, b in spans_of(joined).tolist()))
 
 
 def unseen(motion: Motion) -> list[bool]:
-    """For each frame whether it lies in a gap of the motion."""
+    """Return for each frame whether it lies in a gap of the motion."""
     return list(map(bool, covered(motion.gaps, motion.n_frames)))
 
 

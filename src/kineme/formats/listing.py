@@ -57,7 +57,7 @@ class Listing:
 
 
 def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
-    """The recordings in a folder, and where ``recursive`` in its folders.
+    """Return the recordings in a folder, and where ``recursive`` in its folders.
 
     A folder with nothing but the frames of a video, a file each, is one recording.
 
@@ -95,13 +95,13 @@ def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
 
 
 def files_in(folder: Path) -> list[Path]:
-    """The files of a folder in the order of their names, without hidden ones."""
+    """Return the files of a folder in the order of their names, without hidden ones."""
     found = [path for path in folder.iterdir() if not path.name.startswith(".")]
     return sorted((path for path in found if path.is_file()), key=lambda path: path.name)
 
 
 def holds_recording(path: Path) -> bool:
-    """Whether a file is a recording, by suffix and head; none where it is damaged."""
+    """Return whether a file is a recording, by suffix and head; none where it is damaged."""
     try:
         return _is_recording(path)
     except Exception:  # noqa: BLE001 (whatever is wrong with a file, it is no recording)
@@ -109,7 +109,7 @@ def holds_recording(path: Path) -> bool:
 
 
 def _recordings_among(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
-    """The recordings among files; what cannot be judged is noted in ``found``."""
+    """Yield the recordings among files; what cannot be judged is noted in ``found``."""
     for name in sorted(names):
         path = folder / name
         if name.startswith("."):

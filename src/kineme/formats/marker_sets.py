@@ -143,7 +143,7 @@ def find_body(names: Sequence[str], usable: Collection[int]) -> dict[str, tuple[
 
 
 def plain(name: str) -> str:
-    """A name as `TABLE` has it: ``R.ASIS`` and ``ASISr`` are ``RASIS``."""
+    """Return a name as `TABLE` has it: ``R.ASIS`` and ``ASISr`` are ``RASIS``."""
     ends = _SIDE_AT_THE_END.fullmatch(name)
     words = list(ends.groups()) if ends else _WORD.findall(name)
     for place, word in enumerate(words):
@@ -154,12 +154,12 @@ def plain(name: str) -> str:
 
 
 def is_nameless(name: str) -> bool:
-    """Whether a program has called a marker so that nobody had named, as ``*12``."""
+    """Return whether a program has called a marker so that nobody had named, as ``*12``."""
     return _NAMELESS.fullmatch(name.rpartition(":")[2]) is not None
 
 
 def of_one_subject(names: Sequence[str], person: str | None = None) -> tuple[list[str], list[str]]:
-    """The names without the subject's, and the subjects whose points make up a pelvis.
+    """Return the names without the subject's, and the subjects whose points make up a pelvis.
 
     ``Ann:LANK`` becomes ``LANK`` for that person of those subjects, else the first, or where
     all names begin with the same one; points of others keep their full names.
@@ -185,6 +185,6 @@ def described(body: Mapping[str, Iterable[int]], names: Sequence[str]) -> str:
 
 
 def _made_of(line: str, side: str, at: Mapping[str, int]) -> tuple[int, ...]:
-    """The points that a line of the table names, none unless all are there."""
+    """Return the points that a line of the table names, none unless all are there."""
     points = line.replace("*", side).split()
     return tuple(at[name] for name in points) if all(name in at for name in points) else ()

@@ -62,5 +62,5 @@ class ReadOptions:
 
     @property
     def channels(self) -> bool:
-        """Whether channels are asked for, whatever else a file holds."""
+        """Return whether channels are asked for, whatever else a file holds."""
         return self.columns is not None or self.emg

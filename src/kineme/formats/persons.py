@@ -16,7 +16,7 @@ def chosen_person(
     what: str = "people",
     shown: Sequence[str] = (),
 ) -> str:
-    """The one who is wanted, or the only one; SeveralPeopleError where that is nobody.
+    """Return the one who is wanted, or the only one; SeveralPeopleError where that is nobody.
 
     ``shown`` is how messages call the people, ``what`` how all of them.
     """

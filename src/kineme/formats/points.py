@@ -77,7 +77,7 @@ class Points:
 
 
 def to_motion(points: Points, provenance: Provenance) -> Motion:
-    """The motion in metres with y up.
+    """Return the motion in metres with y up.
 
     ReadError where no point was seen throughout, the body in no frame, or the person is not there.
     """
@@ -133,7 +133,7 @@ def _subjects_note(path: str, subjects: list[str], person: str | None) -> Note:
 
 
 def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:
-    """The joints that the points make up, from those that leave the shortest gaps.
+    """Return the joints that the points make up, from those that leave the shortest gaps.
 
     Points with open gaps are taken where a joint cannot be made without.
     """
@@ -219,7 +219,7 @@ def _tree(
     kept: list[int],
     is_visible: NDArray[np.bool_],
 ) -> tuple[Skeleton, Floats]:
-    """The skeleton and its joints' positions: the body's joints first, then the points."""
+    """Return the skeleton and its joints' positions: the body's joints first, then the points."""
     if not {"pelvis", "left_hip", "right_hip"} <= body.keys():
         alone = Skeleton(tuple(names[i] for i in kept), (-1,) * len(kept), np.zeros((len(kept), 3)))
         return alone, positions[:, kept]

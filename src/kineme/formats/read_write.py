@@ -33,7 +33,7 @@ def read(
     confidence: float | None = None,
     take: str | int | None = None,
 ) -> Motion | Signals:
-    """The recording in a file: a motion in metres with y up, or signals.
+    """Return the recording in a file: a motion in metres with y up, or signals.
 
     What the file holds decides which of the two: channels without a body are signals.
     What had to be inferred stands in the provenance; one KinemeWarning lists what is
@@ -141,7 +141,7 @@ def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, .
 
 
 def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
-    """The channels beside the motion in a file, such as force plates and muscles.
+    """Return the channels beside the motion in a file, such as force plates and muscles.
 
     Parameters
     ----------
@@ -175,7 +175,7 @@ def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
 
 
 def sketch(path: AnyPath, options: ReadOptions, most: int) -> Sketch | None:
-    """A pose here and there of a long file, to look at while it is read.
+    """Return a pose here and there of a long file, to look at while it is read.
 
     Parameters
     ----------

@@ -158,7 +158,7 @@ def register(new: Format, *, replace: bool = False) -> None:
 
 
 def supported_formats() -> tuple[Format, ...]:
-    """The formats, in the order in which they are tried.
+    """Return the formats, in the order in which they are tried.
 
     Returns
     -------
@@ -173,13 +173,13 @@ def supported_formats() -> tuple[Format, ...]:
 
 
 def writer_of(suffix: str) -> Format | None:
-    """The format that writes motions to files of this suffix; None where there is none."""
+    """Return the format that writes motions to files of this suffix; None where there is none."""
     found = (each for each in supported_formats() if each.write and suffix in each.suffixes)
     return next(found, None)
 
 
 def recognise(content: FileContent) -> Format:
-    """The format the content speaks for; where several or none do, the suffix decides."""
+    """Return the format the content speaks for; where several or none do, the suffix decides."""
     head = content.data[:HEAD]
     suffix = content.path.suffix.lower()
     formats = supported_formats()
@@ -200,7 +200,7 @@ def recognise(content: FileContent) -> Format:
 
 
 def speaks(name: str, recognises: Callable[..., bool], *evidence: Any) -> bool:
-    """Whether a format or dialect knows a file; one that cannot tell costs itself only."""
+    """Return whether a format or dialect knows a file; one that cannot tell costs itself only."""
     try:
         return recognises(*evidence)
     except Exception as error:  # noqa: BLE001 (whatever a stranger's format raises)

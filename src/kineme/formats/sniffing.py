@@ -47,7 +47,7 @@ _OF_A_FILTER = re.compile(r"cut|pass|notch|bandwidth|analog|range", re.IGNORECAS
 
 
 def sniff(content: FileContent) -> DelimitedText:
-    r"""The table in a file of text.
+    r"""Return the table in a file of text.
 
     The names are in the first line, unless a line below it, of more cells than all above, looks
     like names over rows of numbers, or is the first of rows of numbers without names.
@@ -111,7 +111,7 @@ def sniff(content: FileContent) -> DelimitedText:
 
 
 def _head_cells(content: FileContent, line: str, row: str, separator: str) -> list[str]:
-    """The cells of the line of names above a row.
+    """Return the cells of the line of names above a row.
 
     A separator between quotes is part of a name, but where the row has as many cells as there
     are without quotes.
@@ -200,7 +200,7 @@ def _lines_of_words(lines: Sequence[str], full: Sequence[int], separator: str) -
 
 
 def _are_words(cells: Sequence[str], row: Sequence[str], width: int) -> bool:
-    """Whether words stand over the numbers of a row."""
+    """Return whether words stand over the numbers of a row."""
     words = [i for i, cell in enumerate(cells) if cell.lower() not in EMPTY]
     return (
         bool(words)
@@ -225,13 +225,13 @@ def is_row(cells: Sequence[str]) -> bool:
 
 
 def _are_names(cells: Sequence[str]) -> bool:
-    """Whether most cells of a line hold something, and not all of them the same."""
+    """Return whether most cells of a line hold something, and not all of them the same."""
     full = [cell for cell in cells if cell]
     return 2 * len(full) > len(cells) and (len(cells) == 1 or len(set(full)) > 1)
 
 
 def _rate_in(lines: Sequence[str]) -> float | None:
-    """The frame rate that the lines above a table tell, if they tell one."""
+    """Return the frame rate that the lines above a table tell, if they tell one."""
     found = {
         float(match[1].replace(",", "."))
         for line in lines

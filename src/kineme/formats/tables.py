@@ -34,7 +34,7 @@ from kineme.recordings import Motion, Signals
 
 
 def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    """The joints or keypoints in a text table, or its channels where there are none."""
+    """Return the joints or keypoints in a text table, or its channels where there are none."""
     refuse_labels(content)
     table = find_table(content)
     dialect = dialect_of(table.names, table.lines)
@@ -50,13 +50,13 @@ def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
 
 
 def read_mot(content: FileContent, options: ReadOptions) -> Signals:
-    """The channels in a MOT or STO file."""
+    """Return the channels in a MOT or STO file."""
     channels = text_channels(find_table(content), options.columns or None)
     return to_signals(content, OPENSIM.name, channels, options.fps)
 
 
 def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    """The joint positions in a Parquet table, or its channels where there are none."""
+    """Return the joint positions in a Parquet table, or its channels where there are none."""
     file = parquet_file(content)
     stored = file.schema_arrow.names
     if options.channels or hold_channels(named(stored)):
@@ -86,7 +86,7 @@ def write_csv(motion: Motion, path: Path) -> None:
 
 
 def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
-    """The motion of the joints whose coordinates the columns are."""
+    """Return the motion of the joints whose coordinates the columns are."""
     table.refuse_interleaved()
     names, content = table.names, table.content
     remarks = list(table.remarks)
@@ -108,7 +108,7 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 def _lacks_time(name: str, cell: str) -> bool:
-    """Whether a column is called as times are, and its first cell is none."""
+    """Return whether a column is called as times are, and its first cell is none."""
     return is_timing(name) and not (is_number(cell) or is_date(cell) or cell.lower() in EMPTY)
 
 

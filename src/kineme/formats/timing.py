@@ -91,17 +91,17 @@ class Timing(NamedTuple):
 
 
 def is_timing(column: str) -> bool:
-    """Whether a column of this name tells a time or a rate."""
+    """Return whether a column of this name tells a time or a rate."""
     return any(pattern.fullmatch(column.strip()) for pattern in (_TIME, _RATE))
 
 
 def is_rate(column: str) -> bool:
-    """Whether a column of this name tells a rate."""
+    """Return whether a column of this name tells a rate."""
     return _RATE.fullmatch(column.strip()) is not None
 
 
 def date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
-    """Which columns of a text table tell the time by dates, as their first cells do.
+    """Return which columns of a text table tell the time by dates, as their first cells do.
 
     Where none is called as times are, the first that holds a time of day, whatever its name.
     """
@@ -126,7 +126,7 @@ def with_unit(name: str, unit: str) -> str:
 
 
 def clock_name(name: str) -> str | None:
-    """What to call a column that rises as clocks do, if its name says that it is one.
+    """Return what to call a column that rises as clocks do, if its name says that it is one.
 
     Examples
     --------
@@ -237,7 +237,7 @@ def seconds(values: ArrayLike, unit: str | None = None) -> Floats:
 
 
 def is_date(text: str) -> bool:
-    """Whether a cell holds a date or a time of day."""
+    """Return whether a cell holds a date or a time of day."""
     try:
         date_seconds(text)
     except ValueError:
@@ -268,7 +268,7 @@ def date_seconds(text: str, *, day_first: bool | None = None) -> float:
 
 
 def day_comes_first(texts: Sequence[str]) -> bool | None:
-    """Whether days stand before months in dates of numbers that end in the year.
+    """Return whether days stand before months in dates of numbers that end in the year.
 
     None where they are written otherwise, or each could be either.
 
@@ -286,7 +286,7 @@ def day_comes_first(texts: Sequence[str]) -> bool | None:
 
 
 def is_ambiguous(text: str) -> bool:
-    """Whether a date names day and month in an order that it does not tell."""
+    """Return whether a date names day and month in an order that it does not tell."""
     match = _WRITTEN.fullmatch(text)
     if match is None or len(match["first"]) == 4 or match["mark"] == ".":
         return False
@@ -311,7 +311,7 @@ def _times(
 
 
 def _hardly_seconds(rate: float) -> str:
-    """What to do about times that are so far apart that they are hardly seconds."""
+    """Return what to do about times that are so far apart that they are hardly seconds."""
     unit = next((unit for unit in _FINER if rate * _FINER[unit] > _SLOWEST), "milliseconds")
     return (
         f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
@@ -334,7 +334,7 @@ def _nan_or_date(value: Any) -> float:
 
 
 def _iso(date: re.Match[str], day_first: bool | None) -> str:
-    """A date as ISO 8601 writes it."""
+    """Return a date as ISO 8601 writes it."""
     first, second, third = date["first"], date["second"].lower(), date["third"]
     if len(first) == 4:
         year, month, day = first, second, third
@@ -367,7 +367,7 @@ def _unit_since_1970(numbers: Floats) -> str:
 
 
 def _is_even(times: Floats, steps: Floats) -> bool:
-    """Whether the times are even ones, give or take a tenth of a period."""
+    """Return whether the times are even ones, give or take a tenth of a period."""
     period = float(np.median(steps))
     if steps.min() <= 0:
         return False
@@ -416,6 +416,6 @@ def _unevenness(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: flo
 
 
 def _rounded(fps: float, share: float) -> float:
-    """The rate to thousandths of a hertz where it is within this share of that."""
+    """Return the rate to thousandths of a hertz where it is within this share of that."""
     rounded = round(fps, 3)
     return rounded if rounded > 0 and abs(fps - rounded) <= share * fps else fps

@@ -65,18 +65,18 @@ _HEIGHT = 1.7  # metres, given to a body measured in pixels
 
 
 def blocks(n_frames: int) -> Iterator[slice]:
-    """The frames in order, as many at a time as stay in the processor's cache."""
+    """Yield the frames in order, as many at a time as stay in the processor's cache."""
     for start in range(0, n_frames, BLOCK):
         yield slice(start, min(start + BLOCK, n_frames))
 
 
 def metres(unit: str | float) -> float:
-    """The metres in one ``unit``, a name in `UNITS` or already a length."""
+    """Return the metres in one ``unit``, a name in `UNITS` or already a length."""
     return UNITS[unit] if isinstance(unit, str) else float(unit)
 
 
 def unit_named(word: str) -> str | None:
-    """The unit that a file calls ``word`` ("mm", "Millimeters", "in"), or None."""
+    """Return the unit that a file calls ``word`` ("mm", "Millimeters", "in"), or None."""
     word = word.strip().lower()
     if metric := _METRES.fullmatch(word):
         return {"centi": "cm", "milli": "mm"}.get(metric[1], "m")
@@ -92,12 +92,12 @@ def upright(points: Floats, up: str) -> Floats:
 
 
 def up_rotation(up: str) -> Floats:
-    """The rotation that turns the axis ``up`` to y."""
+    """Return the rotation that turns the axis ``up`` to y."""
     return np.array(_TO_Y[up])
 
 
 def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
-    """The unit that makes this a body of human size, and the note that says so.
+    """Return the unit that makes this a body of human size, and the note that says so.
 
     The height is taken as three quarters of the longest path along the bones,
     hand to foot; in nine skeletons (CMU, HDM05, PyMO, aitviewer) that is
@@ -128,7 +128,7 @@ def height_of(skeleton: Skeleton, means: Floats) -> float:
 
 
 def infer_up(skeleton: Skeleton, positions: Floats) -> str:
-    """The axis along which the body stands, both at rest and most of the time; else "y"."""
+    """Return the axis along which the body stands, both at rest and most of the time; else "y"."""
     feet, head = ends_of_body(skeleton)
     if not head or not feet:
         return "y"
@@ -260,7 +260,7 @@ def ends_of_body(skeleton: Skeleton) -> tuple[list[int], list[int]]:
 
 
 def _axis_of(positions: Floats, feet: list[int], head: list[int], least: float) -> str | None:
-    """The axis that points from feet to head, ``-z`` among them, for a share at least."""
+    """Return the axis that points from feet to head, ``-z`` among them, for a share at least."""
     body = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
     length = np.linalg.norm(body, axis=1, keepdims=True)
     direction = np.median(body / np.where(length > 0, length, 1), axis=0)

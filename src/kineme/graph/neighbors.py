@@ -108,7 +108,7 @@ class NeighborGraph:
         return self.select(np.concatenate(map_threads(mask, even_slices(len(self)))))
 
     def select(self, mask: NDArray[np.bool_]) -> NeighborGraph:
-        """The same graph with the stored entries where the mask is true."""
+        """Return the same graph with the stored entries where the mask is true."""
         indptr = np.concatenate([[0], np.cumsum(mask)])[self.indptr]
         return NeighborGraph(
             indptr, self.indices[mask], self.distances[mask], self.n_columns, self.radius

@@ -23,7 +23,7 @@ Part = tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]
 def all_neighbors(
     rows: Floats, columns: Floats, *, radius: float, k: int | None, lag: int
 ) -> Iterator[list[Part]]:
-    """All neighbours, block of rows by block of rows.
+    """Yield all neighbours, block of rows by block of rows.
 
     The estimate ``|x|² + |y|² - 2 x·y`` errs in float32 by no more than
     ``margin``; what it lets through is measured in float64.

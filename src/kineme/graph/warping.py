@@ -84,12 +84,12 @@ class WarpingPaths:
         return (column_end - column_start) / (row_end - row_start)
 
     def within_slope(self, max_slope: float) -> NDArray[np.bool_]:
-        """Which paths match spans that differ by this factor at most in length."""
+        """Return which paths match spans that differ by this factor at most in length."""
         slopes = self.slopes
         return (slopes >= 1 / max_slope) & (slopes <= max_slope)
 
     def select(self, mask: NDArray[np.bool_]) -> WarpingPaths:
-        """The paths where the mask is true, in the same order."""
+        """Return the paths where the mask is true, in the same order."""
         nodes = np.repeat(mask, self.n_nodes)
         ptr = np.concatenate([[0], np.cumsum(self.n_nodes[mask])])
         return WarpingPaths(ptr, self.rows[nodes], self.columns[nodes], self.costs[mask])

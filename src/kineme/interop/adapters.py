@@ -64,7 +64,7 @@ def from_ruptures(breakpoints: Sequence[int], *, fps: float) -> Segmentation:
 
 
 def to_aeon(segmentation: Segmentation, *, level: Level = "activity") -> NDArray[np.int64]:
-    """The frames at which a segment starts, without 0: aeon's change points.
+    """Return the frames at which a segment starts, without 0: aeon's change points.
 
     aeon's other convention, a label for each frame, is
     `kineme.Segmentation.per_frame`.

@@ -42,7 +42,7 @@ DIMS = ("time", "space", "keypoints", "individuals")
 def to_movement(
     motion: Motion, segmentation: Segmentation | None = None, *, individual: str = "id_0"
 ) -> xr.Dataset:
-    """The motion as a poses dataset, confidence 1 where the body was recorded.
+    """Return the motion as a poses dataset, confidence 1 where the body was recorded.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def from_movement(
     up: str | None = None,
     confidence: float = LIMIT,
 ) -> Motion:
-    """The motion of one individual of a poses dataset, in metres with y up.
+    """Return the motion of one individual of a poses dataset, in metres with y up.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def from_movement(
 
 
 def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
-    """What the dataset holds of one individual."""
+    """Return what the dataset holds of one individual."""
     if "position" not in dataset or not {"time", "space", "keypoints"} <= {
         *dataset["position"].dims
     }:

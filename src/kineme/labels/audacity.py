@@ -30,7 +30,7 @@ def write(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
 
 
 def read(path: Path) -> Labels:
-    """The labels at ``path``."""
+    """Return the labels at ``path``."""
     spans = []
     with path.open(encoding="utf-8-sig", newline="\n") as file:
         for line, text in enumerate(file, 1):
@@ -46,7 +46,7 @@ def read(path: Path) -> Labels:
 
 
 def _recognises(path: Path) -> bool:
-    """Whether the first label has two times with a tab between."""
+    """Return whether the first label has two times with a tab between."""
     for line in head(path).decode(errors="replace").splitlines():
         cells = line.split("\t", 2)
         if cells != [""] and not cells[0].startswith("\\"):

@@ -60,7 +60,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 
 def read(path: Path) -> Labels:
-    """The labels of the one recording at ``path``."""
+    """Return the labels of the one recording at ``path``."""
     content = loaded(path)
     if isinstance(content, dict) and "dur" not in content:
         if len(content) > 1:
@@ -74,7 +74,7 @@ def read(path: Path) -> Labels:
 
 
 def labels_of(recording: Mapping[str, Any], path: Path) -> Labels:
-    """The labels of one recording of BABEL as Python has it."""
+    """Return the labels of one recording of BABEL as Python has it."""
     length = _seconds(recording, "dur", path)
     annotation = recording.get("frame_ann") or recording.get("seq_ann")
     one_span = not recording.get("frame_ann")

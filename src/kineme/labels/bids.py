@@ -68,7 +68,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 
 def read(path: Path) -> Labels:
-    """The events at ``path``, with what a sidecar beside them says."""
+    """Return the events at ``path``, with what a sidecar beside them says."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = read_rows(file, path, [NEEDED], delimiter="\t")
         spans, cuts, rates = [], [], []
@@ -122,7 +122,7 @@ def _span(cells: dict[str, str], path: Path, line: int) -> Span:
 
 
 def _rate(cells: dict[str, str], stop_s: float) -> float | None:
-    """The frame rate that a row tells by its last frame and second, if it has both."""
+    """Return the frame rate that a row tells by its last frame and second, if it has both."""
     text = cells.get("stop_frame", MISSING)
     valid = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
     return int(text) / stop_s if valid else None

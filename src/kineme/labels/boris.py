@@ -75,7 +75,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 
 def read(path: Path) -> Labels:
-    """The state events at ``path``."""
+    """Return the state events at ``path``."""
     headers = [("Time", "Behavior"), ("Start (s)", "Stop (s)", "Behavior")]
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = list(read_rows(file, path, headers))
@@ -93,12 +93,12 @@ def _events(row: Segment) -> Iterator[dict[str, Any]]:
 
 
 def _order(event: dict[str, Any]) -> tuple[int, bool]:
-    """What stops at a frame comes before what starts there."""
+    """Return what stops at a frame comes before what starts there."""
     return event["Image index"], event["Behavior type"] == "START"
 
 
 def _paired(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
-    """Each STOP with the START of the same behavior before it."""
+    """Yield each STOP with the START of the same behavior before it."""
     starts: dict[tuple[str, ...], float] = {}
     for line, cells in rows:
         kind = _kind(cells)
@@ -136,7 +136,7 @@ def _level(cells: Cells) -> Level:
 
 
 def _fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | None:
-    """What the first row says about the recording, if that is a positive number."""
+    """Return what the first row says about the recording, if that is a positive number."""
     for name in names:
         try:
             value = float(rows[0][1][name]) if rows else 0.0

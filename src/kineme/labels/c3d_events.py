@@ -36,7 +36,7 @@ SAME_S = 0.2
 
 
 def read_events(path: str | PathLike[str], *, names: Collection[str] | None = None) -> Segmentation:
-    """The spans between events as activities, each called after the event that starts it.
+    """Return the spans between events as activities, each called after the event that starts it.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def _side_and_label(name: str) -> tuple[str, str]:
 
 
 def read(path: Path, names: Collection[str] | None = None) -> Labels:
-    """The spans between the events of a C3D file, in seconds from its first frame."""
+    """Return the spans between the events of a C3D file, in seconds from its first frame."""
     from kineme.formats.files import load
     from kineme.formats.markers.c3d_file import parse_c3d
 

@@ -46,7 +46,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 
 def read(path: Path) -> Labels:
-    """The clips at ``path``."""
+    """Return the clips at ``path``."""
     spans: dict[Span, None] = {}
     sources: dict[str, None] = {}
     seconds: tuple[int, float] | None = None

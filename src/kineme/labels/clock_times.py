@@ -24,7 +24,7 @@ NAMED = 4
 
 
 def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
-    """The labels in seconds of the recording, and notes on how they were taken.
+    """Return the labels in seconds of the recording, and notes on how they were taken.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
 
 
 def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
-    """A note that names the labels which no frame has; none where there are none."""
+    """Return a note that names the labels which no frame has; none where there are none."""
     if not spans:
         return ()
     named = [f"{span.text!r:.60} {span.start:.10g} to {span.stop:.10g} {unit}" for span in spans]

@@ -54,7 +54,7 @@ class LabelSource:
     labels: Labels | None = None
 
     def of(self, *, n_frames: int, fps: float, clock: Clock | None = None) -> Segmentation:
-        """The labels in frames of their recording; what none covers is a transition."""
+        """Return the labels in frames of their recording; what none covers is a transition."""
         content: Labels | Segmentation | None = self.labels
         name = csv_table.FORMAT.name
         if content is None:
@@ -123,7 +123,7 @@ def labels_for(
 
 
 def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
-    """The labels as spans of a recording's frames that neither overlap nor run backwards.
+    """Return the labels as spans of a recording's frames that neither overlap nor run backwards.
 
     Examples
     --------
@@ -210,7 +210,7 @@ def _in_table(path: Path) -> dict[str, LabelSource]:
 
 
 def _in_folder(folder: Path) -> dict[str, LabelSource]:
-    """The label files by every name that a recording of theirs may have."""
+    """Return the label files by every name that a recording of theirs may have."""
     found: dict[str, LabelSource] = {}
     for path in sorted(folder.iterdir()):
         if path.is_file() and holds_labels(path):

@@ -74,7 +74,7 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
 
 
 def read(path: Path) -> Segmentation | Labels:
-    """What is at ``path``, with what lies beside it if it is there."""
+    """Return what is at ``path``, with what lies beside it if it is there."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         first = file.readline()
         comma = separator(first)
@@ -89,7 +89,7 @@ def read(path: Path) -> Segmentation | Labels:
 
 
 def _with_the_rest(columns: dict[str, list[Any]], path: Path) -> Segmentation:
-    """The table, with what lies beside it."""
+    """Return the table, with what lies beside it."""
     beside = provenance_path(path)
     if beside.is_file():
         head = parse(beside.read_text(encoding="utf-8-sig"), beside)
@@ -142,7 +142,7 @@ def intervals(path: Path) -> dict[str, Labels]:
 
 
 def _intervals(path: Path) -> Labels:
-    """The labels of a table of intervals of one recording."""
+    """Return the labels of a table of intervals of one recording."""
     found = intervals(path)
     if len(found) > 1:
         names = ", ".join(found)
@@ -221,7 +221,7 @@ def _digest(columns: Mapping[str, Any]) -> str:
 
 
 def _rate(columns: dict[str, list[Any]]) -> float | None:
-    """The frame rate that the last row tells, if it tells one."""
+    """Return the frame rate that the last row tells, if it tells one."""
     n_frames, seconds = max(zip(columns["stop_frame"], columns["stop_s"], strict=True))
     valid = 0 < n_frames < 2**53 and 0 < seconds < math.inf
     return roundest_rate(n_frames, seconds) if valid else None
@@ -244,7 +244,7 @@ def _cells(row: Segment) -> list[Any]:
 
 
 def _recognises(path: Path) -> bool:
-    """Whether the first line has the columns of a segment table or of intervals."""
+    """Return whether the first line has the columns of a segment table or of intervals."""
     found = columns_of(path)
     return any({*names, "label"} <= found for names in SPANS.values())
 

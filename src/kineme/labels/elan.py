@@ -92,7 +92,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 
 def read(path: Path) -> Labels:
-    """The annotations at ``path``."""
+    """Return the annotations at ``path``."""
     root = _parsed(path)
     if root.tag != "ANNOTATION_DOCUMENT":
         raise ReadError(path, f"is not an ELAN document but a {root.tag!r:.60}")
@@ -188,7 +188,7 @@ def _milliseconds(row: Segment) -> tuple[int, int]:
 
 
 def _allowed(text: str) -> str:
-    """The text without the two characters that XML cannot hold and labels can."""
+    """Return the text without the two characters that XML cannot hold and labels can."""
     return text.replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
 
 

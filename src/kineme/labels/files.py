@@ -84,7 +84,7 @@ def read_segments(
     n_frames: int | None = None,
     clock: Clock | None = None,
 ) -> Segmentation:
-    """The segmentation in a file of any label format.
+    """Return the segmentation in a file of any label format.
 
     Parameters
     ----------

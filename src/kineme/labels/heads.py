@@ -10,7 +10,7 @@ from kineme._files import head_of, tail_of
 
 
 def head(path: Path) -> bytes:
-    """The first bytes of a file; none if it cannot be read."""
+    """Return the first bytes of a file; none if it cannot be read."""
     try:
         return head_of(path).removeprefix(BOM_UTF8)
     except OSError:
@@ -18,7 +18,7 @@ def head(path: Path) -> bytes:
 
 
 def tail(path: Path) -> bytes:
-    """The last bytes of a file, where Parquet keeps what it knows of itself."""
+    """Return the last bytes of a file, where Parquet keeps what it knows of itself."""
     try:
         return tail_of(path)
     except OSError:
@@ -26,7 +26,7 @@ def tail(path: Path) -> bytes:
 
 
 def columns(path: Path) -> set[str]:
-    """The cells of a file's first line, commas or tabs between them."""
+    """Return the cells of a file's first line, commas or tabs between them."""
     first = head(path).decode(errors="replace").partition("\n")[0].strip("\r")
     try:
         cells = next(csv.reader([first], delimiter=separator(first)), [])

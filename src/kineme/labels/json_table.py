@@ -65,7 +65,7 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
 
 
 def dumps(segmentation: Segmentation) -> str:
-    """The JSON text: small parts indented, one line per segment."""
+    """Return the JSON text: small parts indented, one line per segment."""
     content = head_of(segmentation)
     levels = content.get("hierarchy", {}).pop("levels", [])
     head = _indented(content).removesuffix("\n}")
@@ -77,17 +77,17 @@ def dumps(segmentation: Segmentation) -> str:
 
 
 def as_object(segmentation: Segmentation) -> dict[str, Any]:
-    """What the JSON text holds, as Python has it."""
+    """Return what the JSON text holds, as Python has it."""
     return head_of(segmentation) | {"segments": [*_rows(segmentation.table)]}
 
 
 def read(path: Path) -> Segmentation:
-    """The segmentation at ``path``."""
+    """Return the segmentation at ``path``."""
     return loads(path.read_bytes(), path)
 
 
 def loads(content: bytes, path: Path) -> Segmentation:
-    """The segmentation in what a file of that path holds."""
+    """Return the segmentation in what a file of that path holds."""
     data = parse(content.decode("utf-8-sig"), path)
     rows = data.get("segments")
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
@@ -116,7 +116,7 @@ def head_of(segmentation: Segmentation) -> dict[str, Any]:
 
 
 def parse(text: str, path: Path) -> dict[str, Any]:
-    """The object in ``text``, if it is of a schema this version reads."""
+    """Return the object in ``text``, if it is of a schema this version reads."""
     data = decoded(text, path)
     schema = data.get("schema") if isinstance(data, dict) else None
     if not isinstance(data, dict) or not str(schema).startswith("kineme.segments/"):
@@ -130,7 +130,7 @@ def parse(text: str, path: Path) -> dict[str, Any]:
 
 
 def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segmentation:
-    """The segmentation of a table and what `head_of` gave."""
+    """Return the segmentation of a table and what `head_of` gave."""
     n_frames, fps = head.get("n_frames"), head.get("fps")
     if type(n_frames) is not int:
         raise ReadError(path, f'"n_frames" must be a whole number, not {n_frames!r:.40}')
@@ -157,7 +157,7 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
 
 
 def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
-    """A hierarchy as JSON holds it."""
+    """Return a hierarchy as JSON holds it."""
     levels: list[dict[str, Any]] = []
     for detail, table in zip(hierarchy.details, hierarchy.tables, strict=True):
         levels.append({"detail": detail})
@@ -168,7 +168,7 @@ def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
 
 
 def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
-    """What `_levels` gave, around a table."""
+    """Return what `_levels` gave, around a table."""
     tables = {}
     for level in data["levels"]:
         columns = level.get("columns")
@@ -183,13 +183,13 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
 
 
 def _column(rows: Sequence[Mapping[str, Any]], name: str) -> list[Any]:
-    """The cells of a column, or what holds where nothing is known."""
+    """Return the cells of a column, or what holds where nothing is known."""
     default = COLUMNS[name].default
     return _with_nan([row.get(name, default) for row in rows], name)
 
 
 def _with_nan(values: list[Any], name: str) -> list[Any]:
-    """The cells of a column; a number that nobody knows is null in JSON."""
+    """Return the cells of a column; a number that nobody knows is null in JSON."""
     if COLUMNS[name].type is not float:
         return values
     return [math.nan if value is None else value for value in values]
@@ -229,7 +229,7 @@ def _as_text(column: NDArray[Any]) -> list[str]:
 
 
 def _values(column: NDArray[Any]) -> list[Any]:
-    """The cells of a column; a number that nobody knows is None."""
+    """Return the cells of a column; a number that nobody knows is None."""
     values: list[Any] = column.tolist()
     if column.dtype.kind != "f":
         return values

@@ -53,7 +53,7 @@ def write(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
 
 
 def read(path: Path) -> Labels:
-    """A span per run of equal lines at ``path``."""
+    """Return a span per run of equal lines at ``path``."""
     if path.is_dir():
         raise ReadError(path, f"is a folder: name one of the files in its {FOLDER}")
     spans = []
@@ -69,7 +69,7 @@ def read(path: Path) -> Labels:
 
 
 def _classes(mapping: Path) -> dict[str, int]:
-    """The classes that are there, by name."""
+    """Return the classes that are there, by name."""
     if not mapping.is_file():
         return {}
     classes = {}
@@ -89,7 +89,7 @@ def _without_blanks(text: str) -> str:
 
 
 def _recognises(path: Path) -> bool:
-    """Whether the first line is one word or more, and no row of a table."""
+    """Return whether the first line is one word or more, and no row of a table."""
     first = next(iter(head(path).decode(errors="replace").split("\n", 1)), "").strip()
     return bool(first) and "\t" not in first and not first[0].isdigit() and first[0] not in "-+."
 

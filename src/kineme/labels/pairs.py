@@ -40,7 +40,7 @@ def differences(
     head_rate: float | None,
     row_rate: float | None,
 ) -> tuple[str, ...]:
-    """What to say of a table and its side file that were not written together.
+    """Return what to say of a table and its side file that were not written together.
 
     ``found`` is the `digest` of the table; side files that are older than it have none, and are
     believed. The rates are those in the side file and of frames and seconds in the table.

@@ -47,7 +47,7 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
 
 
 def read(path: Path) -> Segmentation:
-    """The segmentation at ``path``."""
+    """Return the segmentation at ``path``."""
     content = load(path)
     file = parquet_file(content)
     metadata = file.schema_arrow.metadata or {}

@@ -40,7 +40,7 @@ FORMATS: Registry[LabelFormat] = Registry(
 
 
 def label_formats() -> Mapping[str, LabelFormat]:
-    """The label formats by name, the package's own first.
+    """Return the label formats by name, the package's own first.
 
     Returns
     -------
@@ -80,7 +80,7 @@ def register(new: LabelFormat, *, replace: bool = False) -> None:
 
 
 def written_suffixes() -> tuple[str, ...]:
-    """The suffixes by which `write_segments` knows a format.
+    """Return the suffixes by which `write_segments` knows a format.
 
     Returns
     -------
@@ -97,7 +97,7 @@ def written_suffixes() -> tuple[str, ...]:
 
 
 def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
-    """The format in which a file is read: the one named, else by its content and suffix."""
+    """Return the format in which a file is read: the one named, else by its content and suffix."""
     if name is not None:
         return _named(name)
     suffix = Path(path).suffix.lower()
@@ -133,7 +133,7 @@ def format_to_write(path: str | PathLike[str], name: str | None = None) -> Label
 
 
 def holds_labels(path: str | PathLike[str]) -> bool:
-    """Whether a file is one that labels are kept in, by its suffix and its first bytes.
+    """Return whether a file is one that labels are kept in, by its suffix and its first bytes.
 
     Parameters
     ----------

@@ -88,7 +88,7 @@ class Labels:
 
 
 def text_of(row: Segment) -> str:
-    """The text of a segment: its label, or what else tells it from others."""
+    """Return the text of a segment: its label, or what else tells it from others."""
     if row.label or row.kind == "transition":
         return row.label or "transition"
     return f"cluster {row.cluster}" if row.cluster >= 0 else "activity"
@@ -107,7 +107,7 @@ def meaning(text: str) -> tuple[Kind, int, str]:
 def as_segmentation(
     labels: Labels, path: Path, name: str, *, fps: float | None = None, n_frames: int | None = None
 ) -> tuple[Segmentation, tuple[str, ...]]:
-    """The segmentation that labels speak of, and sentences on what of it is worth a warning.
+    """Return the segmentation that labels speak of, and sentences on what of it is worth a warning.
 
     What no label covers is a transition. Where all spans are of the primitive level they become
     activities, which every segmentation has; the provenance has the level, ``["labels"]["level"]``.
@@ -170,7 +170,7 @@ def as_segmentation(
 
 
 def one_line(text: str) -> str:
-    """The text with a blank for all that a label may not hold: tabs, line ends, controls."""
+    """Return the text with a blank for all that a label may not hold: tabs, line ends, controls."""
     if text.isprintable():
         return text
     bad = ("Cc", "Cs", "Zl", "Zp")
@@ -178,7 +178,7 @@ def one_line(text: str) -> str:
 
 
 def _row(span: Span, per_unit: float, path: Path) -> Row:
-    """A row of the table, with frames for the unit of the file."""
+    """Return a row of the table, with frames for the unit of the file."""
     start, stop = _frame(span.start, per_unit, path), _frame(span.stop, per_unit, path)
     if stop < start:
         raise ReadError(path, f"{span.text!r:.60} stops at {span.stop}, before {span.start}")
@@ -216,7 +216,7 @@ def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
 
 
 def _tiled(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
-    """The rows of one level in time order, and transitions where there are none."""
+    """Yield the rows of one level in time order, and transitions where there are none."""
     at = 0
     level = rows[0][0] if rows else "activity"
     for row in sorted(rows, key=lambda row: row[2:4]):

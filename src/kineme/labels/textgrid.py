@@ -50,7 +50,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 
 def read(path: Path) -> Labels:
-    """The intervals at ``path``."""
+    """Return the intervals at ``path``."""
     tokens = _tokens(path)
     if _text(tokens, path) != "ooTextFile" or _text(tokens, path) != "TextGrid":
         raise ReadError(path, "is not a TextGrid in text form")

@@ -150,7 +150,7 @@ def build(
 
 
 def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Built:
-    """The library brought up to date, for one that holds it."""
+    """Return the library brought up to date, for one that holds it."""
     progress("looking for recordings")
     before = _former_recordings(plan.folder, head)
     found = listed(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
@@ -180,7 +180,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
 
 
 def _former_recordings(folder: Path, head: Head) -> Former:
-    """The recordings that the library has."""
+    """Return the recordings that the library has."""
     if not head:
         return {}
     table = read_table(folder, head["tables"], "recordings")

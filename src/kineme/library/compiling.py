@@ -42,7 +42,7 @@ def compiled(
     executor: Executor,
     progress: Progress,
 ) -> tuple[dict[str, Any], int]:
-    """The tables of a library by name, and the first number that no cluster was given.
+    """Return the tables of a library by name, and the first number that no cluster was given.
 
     ``entries`` are in the order of their names, ``before`` are the activities that recordings had,
     see `activities_in`: clusters that are found again keep their numbers.
@@ -68,7 +68,7 @@ def compiled(
 
 
 def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
-    """The activities of each recording with their clusters, in tables of a library."""
+    """Return the activities of each recording with their clusters, in tables of a library."""
     if tables is None:
         return {}
     table = read_table(folder, tables, "segments")
@@ -90,7 +90,7 @@ def _joined_words(
     executor: Executor,
     progress: Progress,
 ) -> _Words:
-    """The words of each vocabulary, joined; clusters are counted on from one to the next."""
+    """Return the words of each vocabulary, joined; clusters are counted on from one to the next."""
     places: list[Place] = []
     parts: list[Joined] = []
     count = 0
@@ -122,7 +122,7 @@ def _joined_words(
 
 
 def _shared(analyses: Sequence[Analysis], words: _Words) -> list[Ints]:
-    """The cluster of each segment of each analysis in the common vocabulary, -1 in none."""
+    """Return the cluster of each segment of each analysis in the common vocabulary, -1 in none."""
     label = {
         (place.recording, place.cluster): cluster
         for place, cluster in zip(words.places, words.joined.labels.tolist(), strict=True)
@@ -136,7 +136,7 @@ def _shared(analyses: Sequence[Analysis], words: _Words) -> list[Ints]:
 
 
 def _spans(columns: Columns, clusters: Ints) -> Spans:
-    """The activities of a recording with their clusters, and what only primitives are of."""
+    """Return the activities of a recording with their clusters, and what only primitives are of."""
     active, coarse = columns["kind"] != "transition", columns["level"] == "activity"
     rows = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))
     return columns["start_s"][rows], columns["stop_s"][rows], clusters[rows]
@@ -208,6 +208,6 @@ def _rows(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
 
 
 def _all(parts: Iterable[NDArray[Any]]) -> NDArray[Any]:
-    """The parts one after the other, of which there may be none."""
+    """Return the parts one after the other, of which there may be none."""
     given = list(parts)
     return np.concatenate(given) if given else np.empty(0)

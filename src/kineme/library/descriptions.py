@@ -63,11 +63,11 @@ class Description:
     poses: Floats | None = None
 
     def between(self, start_s: float, stop_s: float) -> Float32s:
-        """The samples from one second to another, one at least."""
+        """Return the samples from one second to another, one at least."""
         return self.features[self._samples(start_s, stop_s)]
 
     def embedding(self, start_s: float, stop_s: float) -> Float32s:
-        """A segment in `EMBEDDED` numbers; all 0 where there are no features."""
+        """Return a segment in `EMBEDDED` numbers; all 0 where there are no features."""
         samples = self._samples(start_s, stop_s)
         if self.poses is not None:
             return embedding(self.poses[samples])
@@ -88,7 +88,7 @@ def describe(
     effectors: Names | None = None,
     emg: bool = False,
 ) -> Description:
-    """The features of a recording; none, with the reason, where it has no body.
+    """Return the features of a recording; none, with the reason, where it has no body.
 
     ``effectors`` are joints to take for head, hands and feet where names do not tell. With ``emg``
     the envelopes of muscle signals are taken.

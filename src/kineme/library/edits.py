@@ -62,26 +62,26 @@ class Edits:
 
     @property
     def following(self) -> int:
-        """The first number above those of all clusters in the edits."""
+        """Return the first number above those of all clusters in the edits."""
         return max([-1, *self.names, *self.merged, *(split.into for split in self.splits)]) + 1
 
     def number(self, cluster: int) -> int:
-        """The cluster that a computed one belongs to now."""
+        """Return the cluster that a computed one belongs to now."""
         return self.merged.get(cluster, cluster)
 
     def name(self, cluster: int) -> str:
-        """The name of a cluster, empty where it has none."""
+        """Return the name of a cluster, empty where it has none."""
         return self.names.get(self.number(cluster), "")
 
     def with_name(self, cluster: int, name: str) -> Edits:
-        """The edits with a name; an empty one takes it away."""
+        """Return the edits with a name; an empty one takes it away."""
         if name != name.strip() or not name.isprintable():
             raise ParameterError(f"a name is one line of plain text, not {name!r:.60}")
         names = {**self.names, self.number(cluster): name}
         return replace(self, names={number: text for number, text in names.items() if text})
 
     def with_merge(self, cluster: int, others: Sequence[int]) -> Edits:
-        """The edits with others made part of a cluster, which keeps its number and name."""
+        """Return the edits with others made part of a cluster, which keeps its number and name."""
         target = self.number(cluster)
         moved = {self.number(other) for other in others} - {target}
         merged = {old: target if new in moved else new for old, new in self.merged.items()}
@@ -119,7 +119,7 @@ class Edits:
 
 
 def read_edits(folder: Path) -> Edits:
-    """What people said of a library so far."""
+    """Return what people said of a library so far."""
     path = folder / EDITS
     content = read_json(path)
     if not content:
@@ -144,7 +144,7 @@ def read_edits(folder: Path) -> Edits:
 
 
 def _cluster(written: Any) -> int:
-    """The number of a cluster; ValueError for one that no table can hold."""
+    """Return the number of a cluster; ValueError for one that no table can hold."""
     number = int(written)
     if not -1 <= number < MOST_CLUSTERS:
         raise ValueError(f"no cluster has the number {number}")
@@ -152,7 +152,7 @@ def _cluster(written: Any) -> int:
 
 
 def edited(table: Any, edits: Edits) -> Any:
-    """A computed table as it is now: clusters split and merged, names beside them.
+    """Return a computed table as it is now: clusters split and merged, names beside them.
 
     A ``label`` goes with ``cluster``, an ``action_label`` with ``action`` where there is one.
     """
@@ -176,7 +176,7 @@ def edited(table: Any, edits: Edits) -> Any:
 
 
 def _names(clusters: Ints, edits: Edits) -> Any:
-    """The name of each cluster, as pyarrow has texts."""
+    """Return the name of each cluster, as pyarrow has texts."""
     unique, inverse = np.unique(clusters, return_inverse=True)
     names = as_column([edits.name(number) for number in unique.tolist()], str)
     return names.take(as_column(inverse, int))

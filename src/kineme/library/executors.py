@@ -57,7 +57,7 @@ class Executor(Protocol):
         *,
         workers: int | None = None,
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Each task and what came of it, as they come.
+        """Yield each task and what came of it, as they come.
 
         Parameters
         ----------
@@ -90,7 +90,7 @@ class InProcess:
         *,
         workers: int | None = None,  # noqa: ARG002 (there is one)
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Each task and what came of it, as they come; see `Executor`."""
+        """Yield each task and what came of it, as they come; see `Executor`."""
         for task in tasks:
             yield task, work(task)
 
@@ -109,7 +109,7 @@ class Processes:
         *,
         workers: int | None = None,
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Each task and what came of it, as they come; see `Executor`.
+        """Yield each task and what came of it, as they come; see `Executor`.
 
         For one task alone no process is started either, unless that is begun already.
         """
@@ -209,7 +209,7 @@ class Cluster:
         *,
         workers: int | None = None,  # noqa: ARG002 (they are there already)
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Each task and what came of it, as they come; see `Executor`."""
+        """Yield each task and what came of it, as they come; see `Executor`."""
         distributed = _distributed()
         waiting, running = iter(tasks), {}
         done = distributed.as_completed(loop=self._client.loop, raise_errors=False)
@@ -258,7 +258,7 @@ def _distributed() -> Any:
 
 
 def _outcome(future: Any) -> Any:
-    """What came of a task; None where its workers died."""
+    """Return what came of a task; None where its workers died."""
     if future.status == "finished":
         return future.result()
     error = future.exception() if future.status == "error" else None
@@ -273,7 +273,7 @@ def _outcome(future: Any) -> Any:
 
 
 def _version() -> str:
-    """The version of kineme on a worker."""
+    """Return the version of kineme on a worker."""
     return __version__
 
 

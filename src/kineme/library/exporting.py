@@ -41,7 +41,7 @@ def table_called(tables: OpenTables, name: str) -> Any:
 
 
 def answer(tables: OpenTables, sql: str) -> Any:
-    """The answer to a question in SQL over all tables of a library, a pyarrow.Table."""
+    """Return the answer to a question in SQL over all tables of a library, a pyarrow.Table."""
     try:
         import duckdb
     except ImportError as error:
@@ -95,12 +95,12 @@ def write_hits(tables: OpenTables, hits: Sequence[Hit], folder: str | PathLike[s
 
 
 def _cell(value: object) -> object:
-    """What stands in a table of text: nothing where nothing is known."""
+    """Return what stands in a table of text: nothing where nothing is known."""
     return "" if value is None or value != value else value  # noqa: PLR0124 (nan)
 
 
 def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:
-    """A hit in frames of its recording, one at least."""
+    """Return a hit in frames of its recording, one at least."""
     fps, n = recording.fps, recording.n_frames
     start = min(round(hit.start_s * fps), n - 1)
     stop = min(max(round(hit.stop_s * fps), start + 1), n)
@@ -163,7 +163,7 @@ def _write(strips: list[tuple[Cluster, Motion | Signals]], path: Path) -> None:
 
 
 def _title(cluster: Cluster) -> str:
-    """A cluster in a line."""
+    """Return a cluster in a line."""
     named = f"{cluster.cluster} {cluster.label}".strip()
     times = cluster.repetitions or cluster.activities
     n = cluster.recordings
@@ -174,6 +174,6 @@ def _title(cluster: Cluster) -> str:
 
 
 def _file_name(cluster: Cluster) -> str:
-    """A name for the file of a cluster, of letters that every system takes."""
+    """Return a name for the file of a cluster, of letters that every system takes."""
     label = re.sub(r"[^\w-]+", "-", cluster.label).strip("-")[:40]
     return "-".join(filter(None, [f"cluster-{cluster.cluster}", label]))

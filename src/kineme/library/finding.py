@@ -74,14 +74,14 @@ def hits_like(
 
 
 def _all_parts(tables: OpenTables, vocabulary: str) -> Parts:
-    """All recordings of a vocabulary."""
+    """Return all recordings of a vocabulary."""
     rows = np.array(_rows_of(tables, vocabulary), np.int64)
     samples = np.array(tables.recordings["samples"], np.int64)[rows]
     return Parts(rows, np.zeros_like(rows), samples)
 
 
 def _likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
-    """What is most like any of the examples, where there is an index that tells."""
+    """Return what is most like any of the examples, where there is an index that tells."""
     found = []
     for example in examples:
         windows = open_index(
@@ -94,7 +94,7 @@ def _likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) ->
 
 
 def typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
-    """The most typical words of a cluster, by number or name, as examples."""
+    """Return the most typical words of a cluster, by number or name, as examples."""
     words = tables.columns("words")
     rows = np.flatnonzero(np.isin(words["cluster"], numbers_of(tables, cluster)))
     rows = rows[np.argsort(words["spread"][rows], kind="stable")][:TYPICAL]
@@ -103,7 +103,7 @@ def typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
 
 
 def _rows_of(tables: OpenTables, vocabulary: str) -> list[int]:
-    """The recordings of a vocabulary, by row; ParameterError where there are none."""
+    """Return the recordings of a vocabulary, by row; ParameterError where there are none."""
     kinds = tables.recordings["vocabulary"]
     rows = [row for row, kind in enumerate(kinds) if kind == vocabulary]
     if not rows:
@@ -180,7 +180,7 @@ def features_of(tables: OpenTables, examples: Sequence[Example]) -> list[tuple[s
 
 
 def one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
-    """What all examples are of; ParameterError where they do not compare."""
+    """Return what all examples are of; ParameterError where they do not compare."""
     kinds = sorted({kind for kind, _ in described})
     if len(kinds) > 1:
         raise ParameterError(f"the examples do not compare with each other: {'; '.join(kinds)}")
@@ -188,7 +188,7 @@ def one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
 
 
 def _description(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Description:
-    """The features of a recording, from the library where it is one of it."""
+    """Return the features of a recording, from the library where it is one of it."""
     recordings, settings = tables.recordings, tables.settings
     if isinstance(recording, str) and (
         isinstance(recording, Named) or not place(recording).exists()
@@ -210,7 +210,7 @@ def _description(tables: OpenTables, recording: AnyPath | Motion | Signals) -> D
 
 
 def _comparable(described: Description, name: str) -> Description:
-    """The description, where there are features."""
+    """Return the description, where there are features."""
     if not described.vocabulary:
         reason = described.reason or "it has no body that could be told"
         raise ReadError(name, f"cannot be searched for: {reason}")

@@ -65,7 +65,7 @@ class Gathered:
 
 
 def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Progress) -> Gathered:
-    """The analyses of recordings, made where there is none.
+    """Return the analyses of recordings, made where there is none.
 
     Files that look as they did when they were last read are not read again.
     """
@@ -175,7 +175,7 @@ def _split(group: Group, criterion: Callable[[Task], str]) -> list[Group]:
 
 
 def _sample(task: Task) -> str:
-    """What is in the middle of a file."""
+    """Return what is in the middle of a file."""
     if task.path.is_dir():
         return "folder"
     try:
@@ -238,19 +238,19 @@ class Outcome:
 
 
 def tasks_for(paths: Iterable[Path], analyses: Path, settings: Settings) -> list[Task]:
-    """The tasks of recordings, the largest first: the last ones to be done are short."""
+    """Return the tasks of recordings, the largest first: the last ones to be done are short."""
     tasks = [Task(path, analyses, settings, size_of(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 
 def outcomes_of(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
-    """Each task and what came of it, as they come."""
+    """Yield each task and what came of it, as they come."""
     for task, outcome in executor.completed(work_on, tasks, workers=workers_for(tasks)):
         yield task, outcome or Outcome(error=DIED)
 
 
 def workers_for(tasks: Iterable[Task]) -> int:
-    """How many processes are worth to be started for so many and so large recordings."""
+    """Return how many processes are worth to be started for so many and so large recordings."""
     return 1 + sum(task.size for task in tasks) // PER_WORKER
 
 

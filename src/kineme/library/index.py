@@ -84,7 +84,7 @@ class Task:
 
 
 def parts_like(windows: Windows, example: Float32s, top: int) -> Parts:
-    """The parts of recordings around the windows that are nearest to an example."""
+    """Return the parts of recordings around the windows that are nearest to an example."""
     near = _nearest(windows, parts_at_speeds(example), top)
     rows = np.searchsorted(windows.firsts, near, side="right") - 1
     middles = (near - windows.firsts[rows]) * step(windows.length) + windows.length // 2
@@ -115,7 +115,7 @@ def matches_in(
     sought: Sought,
     executor: Executor | None,
 ) -> dict[int, Matches]:
-    """The matches in parts of recordings by row, the best of each first."""
+    """Return the matches in parts of recordings by row, the best of each first."""
     tasks = [
         Task(folder, {row: analyses[row] for row in set(batch.rows.tolist())}, batch, sought)
         for batch in _batches(parts)
@@ -133,7 +133,7 @@ def matches_in(
 
 
 def search_parts(task: Task) -> dict[int, Matches]:
-    """The matches in the parts of a task by row, the best of each first."""
+    """Return the matches in the parts of a task by row, the best of each first."""
     parts, sought = task.parts, task.sought
     lasts = parts.stops - parts.starts
     firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
@@ -157,7 +157,7 @@ def search_parts(task: Task) -> dict[int, Matches]:
 
 
 def _nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
-    """The windows that are nearest to any part of an example, in their order."""
+    """Return the windows that are nearest to any part of an example, in their order."""
     n = len(windows.embedded)
     least = np.empty(n, np.int32)
 

@@ -61,7 +61,7 @@ class Library:
 
     @property
     def head(self) -> dict[str, Any]:
-        """What ``library.json`` says: settings, sources, constants."""
+        """Return what ``library.json`` says: settings, sources, constants."""
         return self._tables.head
 
     @property
@@ -71,12 +71,12 @@ class Library:
 
     @property
     def failed(self) -> dict[str, str]:
-        """What could not be read or segmented, by path, and why."""
+        """Return what could not be read or segmented, by path, and why."""
         return dict(self.head["failed"])
 
     @property
     def recordings(self) -> dict[str, list[Any]]:
-        """The table of recordings by column; see `kineme.library.storage.tables`."""
+        """Return the table of recordings by column; see `kineme.library.storage.tables`."""
         return self._tables.recordings
 
     @property
@@ -101,11 +101,11 @@ class Library:
         return table_called(self._tables, name)
 
     def clusters(self) -> list[Cluster]:
-        """The clusters of the library, those of most seconds first."""
+        """Return the clusters of the library, those of most seconds first."""
         return clusters_of(self._tables)
 
     def unsure(self) -> list[Word]:
-        """The words whose cluster is uncertain, those of least confidence first."""
+        """Return the words whose cluster is uncertain, those of least confidence first."""
         words, most = self._tables.columns("words"), self.head["vocabulary"]["unsure"]
         confidence = words["confidence"]
         rows = np.flatnonzero((confidence < most) & (words["cluster"] != words["following"]))
@@ -114,7 +114,7 @@ class Library:
         return [Word(*row) for row in zip(*columns, strict=True)]
 
     def numbers(self, cluster: int | str) -> list[int]:
-        """The clusters of that number or name; ParameterError where there is none."""
+        """Return the clusters of that number or name; ParameterError where there is none."""
         return numbers_of(self._tables, cluster)
 
     def search(
@@ -187,7 +187,7 @@ class Library:
         return write_hits(self._tables, hits, folder)
 
     def query(self, sql: str) -> Any:
-        """The answer, a pyarrow.Table, to a question in SQL over the tables of the library.
+        """Return the answer, a pyarrow.Table, to a question in SQL over the tables of the library.
 
         Parameters
         ----------
@@ -223,7 +223,7 @@ class Library:
         write_table(self.table(table), path)
 
     def name(self, cluster: int | str, name: str) -> Self:
-        """The same library, with a name for a cluster; an empty one takes it away."""
+        """Return the same library, with a name for a cluster; an empty one takes it away."""
         with self._tables.editing():
             edits = self._tables.edits
             for number in self.numbers(cluster):
@@ -242,7 +242,7 @@ class Library:
         return self
 
     def split(self, cluster: int | str, recordings: Iterable[str]) -> int:
-        """The number of a new cluster: what one has in some, not all, of its recordings."""
+        """Return the number of a new cluster: what one has in some, not all, of its recordings."""
         chosen, tables = list(recordings), self._tables
         with tables.editing():
             (number, *_) = self.numbers(cluster)
@@ -258,7 +258,7 @@ class Library:
         return into
 
     def path_of(self, recording: str) -> Path:
-        """The file that a recording of the library was read from."""
+        """Return the file that a recording of the library was read from."""
         return self._tables.path_of(recording)
 
     def read(self, recording: str) -> Motion | Signals:

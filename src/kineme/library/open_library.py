@@ -54,12 +54,12 @@ class OpenTables:
 
     @cached_property
     def recordings(self) -> dict[str, list[Any]]:
-        """The table of recordings by column."""
+        """Return the table of recordings by column."""
         found: dict[str, list[Any]] = self.table("recordings").to_pydict()
         return found
 
     def path_of(self, recording: str) -> Path:
-        """The file that a recording of the library was read from."""
+        """Return the file that a recording of the library was read from."""
         try:
             row = self.recordings["recording"].index(recording)
         except ValueError:
@@ -67,11 +67,11 @@ class OpenTables:
         return place(self.recordings["path"][row])
 
     def read(self, recording: str) -> Motion | Signals:
-        """A recording of the library, read as it was when the library was built."""
+        """Return a recording of the library, read as it was when the library was built."""
         return read_at(self.path_of(recording), self.settings.reading)
 
     def table(self, name: str) -> Any:
-        """A table, one of `kineme.library.storage.tables.DESCRIBED`, as a pyarrow.Table."""
+        """Return a table, one of `kineme.library.storage.tables.DESCRIBED`, as a pyarrow.Table."""
         if name not in self._computed:
             self._computed[name] = read_table(self.folder, self.head["tables"], name)
         tables = self._edited  # an edit, in another thread, begins a new one
@@ -80,7 +80,7 @@ class OpenTables:
         return tables[name]
 
     def columns(self, name: str) -> Columns:
-        """The same as arrays."""
+        """Return the same as arrays."""
         arrays = self._arrays
         if name not in arrays:
             table = self.table(name)
@@ -114,7 +114,7 @@ class OpenTables:
         self._arrays: dict[str, Columns] = {}
 
     def _read(self) -> dict[str, Any]:
-        """All tables but the embeddings, which few need."""
+        """Return all tables but the embeddings, which few need."""
         names = [name for name in DESCRIBED if name != "embeddings"]
         tables = {name: read_table(self.folder, self.head["tables"], name) for name in names}
         recordings = {*tables["recordings"].column("recording").to_pylist()}
@@ -186,7 +186,7 @@ class Word(NamedTuple):
 
 
 def clusters_of(tables: OpenTables) -> list[Cluster]:
-    """The clusters of a library, those of most seconds first."""
+    """Return the clusters of a library, those of most seconds first."""
     words, segments = tables.columns("words"), tables.columns("segments")
     recordings = tables.recordings
     vocabularies = dict(zip(recordings["recording"], recordings["vocabulary"], strict=True))
@@ -220,7 +220,7 @@ def clusters_of(tables: OpenTables) -> list[Cluster]:
 
 
 def cluster_table(clusters: Sequence[Cluster]) -> Any:
-    """The clusters as a pyarrow.Table."""
+    """Return the clusters as a pyarrow.Table."""
     pa, _ = arrow()
     hints = get_type_hints(Cluster)
     return pa.table(
@@ -232,7 +232,7 @@ def cluster_table(clusters: Sequence[Cluster]) -> Any:
 
 
 def numbers_of(tables: OpenTables, cluster: int | str) -> list[int]:
-    """The numbers of the clusters of that number or name, one at least."""
+    """Return the numbers of the clusters of that number or name, one at least."""
     numbers = sorted(set(tables.columns("words")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)
     named = isinstance(cluster, str)  # a whole number is never taken for a name of digits

@@ -59,7 +59,7 @@ def plan_of(
     recursive: bool | None,
     settings: Settings | None,
 ) -> Plan:
-    """The plan of a build; what was not said is as it was the last time."""
+    """Return the plan of a build; what was not said is as it was the last time."""
     every = sources_after(folder, sources, remove)
     if not every and not head:
         raise ParameterError(NOTHING.format(folder))
@@ -91,7 +91,7 @@ def sources_after(
 
 
 def opened(into: AnyPath, named: Sequence[Path]) -> Path:
-    """The folder of a library, made where there is none, unless nothing is named."""
+    """Return the folder of a library, made where there is none, unless nothing is named."""
     folder = place(into, "build")
     owned = OwnedFolder(folder)
     owned.path(ANALYSES)
@@ -121,5 +121,5 @@ def as_paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
 
 
 def absolute(path: Path) -> Path:
-    """The path from the root; links are not followed."""
+    """Return the path from the root; links are not followed."""
     return path if is_remote(path) else Path(os.path.abspath(path))  # noqa: PTH100

@@ -131,7 +131,7 @@ def best(
 def _union(
     features: Float32s, examples: Sequence[Float32s], threshold: float, top: int | None
 ) -> Matches:
-    """The spans that are like any of the examples, apart from each other, the best first."""
+    """Return the spans that are like any of the examples, apart from each other, the best first."""
     found = [search(example, features, threshold=threshold, top=top) for example in examples]
     if len(found) == 1:
         return found[0]

@@ -86,7 +86,7 @@ class Settings:
             ) from None
 
     def to_json(self) -> dict[str, Any]:
-        """What JSON can hold of them; ``Settings.from_json`` takes it back."""
+        """Return what JSON can hold of them; ``Settings.from_json`` takes it back."""
         content: dict[str, Any] = json.loads(json.dumps(asdict(self), default=_plain))
         return content
 
@@ -111,12 +111,12 @@ class Settings:
             ) from error
 
     def key(self, digest: str) -> str:
-        """The name of the analysis of a recording whose files have this digest."""
+        """Return the name of the analysis of a recording whose files have this digest."""
         return sha256(f"{self._digest} {digest}".encode()).hexdigest()[:32]
 
     @cached_property
     def _digest(self) -> str:
-        """A digest of the version and of everything that decides what is found."""
+        """Return a digest of the version and of everything that decides what is found."""
         presets = []
         for signals in (False, True):
             with suppress(ParameterError):  # constants of one that the other does not have
@@ -177,7 +177,7 @@ class VocabularyConstants:
         check(self)
 
     def parameters(self) -> Mapping[str, Any]:
-        """The value of each constant by name, for the head of a library."""
+        """Return the value of each constant by name, for the head of a library."""
         return {each.name: each.value for each in constants_of(self)}
 
 

@@ -27,7 +27,7 @@ _AMC = ".amc"
 
 
 def files_of(path: Path, skeleton: AnyPath | None) -> list[Path]:
-    """The files that a recording is read from, its own first."""
+    """Return the files that a recording is read from, its own first."""
     if path.is_dir():
         return [file for _, file in frame_files(path)]
     if skeleton is not None:
@@ -41,7 +41,7 @@ def files_of(path: Path, skeleton: AnyPath | None) -> list[Path]:
 
 
 def size_of(path: Path) -> int:
-    """The bytes of a recording; 0 where they cannot be told."""
+    """Return the bytes of a recording; 0 where they cannot be told."""
     try:
         files = path.iterdir() if path.is_dir() else [path]
         return sum(file.stat().st_size for file in files)
@@ -91,7 +91,7 @@ def states_of(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, str
 
 
 def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:
-    """Each recording in the sources, an absolute path, and the first source it was found in.
+    """Return each recording in the sources, an absolute path, and the first source it was found in.
 
     Files ``without`` are left out: those of the library itself.
     """
@@ -138,7 +138,7 @@ def _skeletons_in(folder: Path) -> str:
 
 
 def recordings_under(folder: Path, *, recursive: bool) -> list[Path]:
-    """The recordings in a folder; elsewhere, only such as are one file."""
+    """Return the recordings in a folder; elsewhere, only such as are one file."""
     if not is_remote(folder):
         return recordings_in(folder, recursive=recursive).recordings
     remote: Any = folder
@@ -171,7 +171,7 @@ def fetched(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
 
 
 def read_at(path: Path, reading: Mapping[str, Any]) -> Motion | Signals:
-    """The recording at a place, with keywords of `kineme.read`."""
+    """Return the recording at a place, with keywords of `kineme.read`."""
     if not is_remote(path):
         return read(path, **reading)
     with fetched(path, reading.get("skeleton")) as here:

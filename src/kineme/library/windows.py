@@ -37,7 +37,7 @@ def step(length: int) -> int:
 
 
 def count(samples: Ints, length: int) -> Ints:
-    """How many windows of a length there are in recordings of so many samples.
+    """Return how many windows of a length there are in recordings of so many samples.
 
     A recording that is shorter is one window.
     """
@@ -56,12 +56,12 @@ def windows_of(features: Float32s, length: int) -> Bytes:
 
 
 def all_windows(features: Float32s) -> Bytes:
-    """The windows of all `LENGTHS`, one length after the other."""
+    """Return the windows of all `LENGTHS`, one length after the other."""
     return np.concatenate([windows_of(features, length) for length in LENGTHS])
 
 
 def by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]:
-    """Each of `LENGTHS` and its part of `all_windows`."""
+    """Yield each of `LENGTHS` and its part of `all_windows`."""
     first = 0
     for length in LENGTHS:
         n = int(count(np.array(samples), length))
@@ -70,7 +70,7 @@ def by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]:
 
 
 def length_for(example: Float32s) -> int:
-    """The length of windows that is nearest to that of an example."""
+    """Return the length of windows that is nearest to that of an example."""
     return min(LENGTHS, key=lambda length: abs(np.log(length / max(len(example), 1))))
 
 

@@ -38,7 +38,7 @@ _COSINES *= np.sqrt(np.where(np.arange(_FINEST) == 0, 1.0, 2.0))[:, None] / _LEN
 
 
 def embedding(poses: ArrayLike) -> NDArray[np.float32]:
-    """A unit vector (32,) for a whole segment.
+    """Return a unit vector (32,) for a whole segment.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def embedding(poses: ArrayLike) -> NDArray[np.float32]:
 
 
 def embedded(poses: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
-    """The unit vector of where a course lies from the mean, along the axes."""
+    """Return the unit vector of where a course lies from the mean, along the axes."""
     values = (course(poses) - mean) @ axes
     return np.asarray(values / max(float(np.linalg.norm(values)), 1e-9), np.float32)
 
@@ -88,6 +88,6 @@ def course(features: Floats) -> Floats:
 
 @cache
 def axes_of_embeddings() -> tuple[Floats, Floats]:
-    """The mean (68,) and the axes (68, 32)."""
+    """Return the mean (68,) and the axes (68, 32)."""
     with np.load(Path(__file__).with_name("axes.npz"), allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)

@@ -110,7 +110,7 @@ def search(
     threshold: float = THRESHOLD,
     top: int | None = None,
 ) -> Matches:
-    """The matches of an example in a recording that do not overlap, the best first.
+    """Return the matches of an example in a recording that do not overlap, the best first.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def search(
 
 
 def two_way_distance(one: ArrayLike, other: ArrayLike) -> float:
-    """The larger of the distances of each one's best match in the other; inf without one.
+    """Return the larger of the distances of each one's best match in the other; inf without one.
 
     Small only where neither is a mere part of the other.
 

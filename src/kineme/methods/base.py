@@ -66,7 +66,7 @@ class Found(Protocol):
         """
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """A sentence for each result of low confidence, the lowest first.
+        """Return a sentence for each result of low confidence, the lowest first.
 
         Parameters
         ----------
@@ -152,7 +152,7 @@ class Preset(ABC):
         mirror: Mirror | None = None,
         progress: Progress | None = None,
     ) -> Found:
-        """What the method finds in features (samples, dims) at the working rate.
+        """Return what the method finds in features (samples, dims) at the working rate.
 
         Parameters
         ----------
@@ -165,15 +165,15 @@ class Preset(ABC):
         """
 
     def for_signals(self) -> Self:
-        """The preset with its lengths in the unit of channels."""
+        """Return the preset with its lengths in the unit of channels."""
         return self
 
     def signal_unit(self, features: NDArray[np.float64]) -> float:  # noqa: ARG002
-        """How many standard deviations one unit of length is in these features."""
+        """Return how many standard deviations one unit of length is in these features."""
         return 1.0
 
     def at_most(self, fps: float) -> Self:  # noqa: ARG002 (most methods ask for no less)
-        """The preset for a recording of that rate, which is the highest working rate."""
+        """Return the preset for a recording of that rate, which is the highest working rate."""
         return self
 
     def frames(self, seconds: float) -> int:
@@ -181,15 +181,15 @@ class Preset(ABC):
         return round(seconds * self.working_fps)
 
     def constants(self) -> tuple[Constant, ...]:
-        """Each constant with its meaning, unit, value and limits."""
+        """Return each constant with its meaning, unit, value and limits."""
         return constants_of(self)
 
     def parameters(self) -> Mapping[str, Any]:
-        """The value of each constant by name, for the provenance."""
+        """Return the value of each constant by name, for the provenance."""
         return values_of(self)
 
     def replace(self, **overrides: Any) -> Self:
-        """The same preset with some constants changed.
+        """Return the same preset with some constants changed.
 
         Raises
         ------

@@ -36,7 +36,7 @@ class Limits(NamedTuple):
     above: bool = False
 
     def allow(self, value: object) -> bool:
-        """Whether ``value`` is a number within the limits."""
+        """Return whether ``value`` is a number within the limits."""
         if isinstance(value, bool) or not isinstance(value, int | float | np.number):
             return False
         try:
@@ -50,7 +50,7 @@ class Limits(NamedTuple):
         )
 
     def describe(self) -> str:
-        """The limits in words."""
+        """Return the limits in words."""
         low = f"above {self.minimum:g}" if self.above else f"from {self.minimum:g}"
         return f"a number {low} to {self.maximum:g}"
 
@@ -113,7 +113,7 @@ class Constant:
 
     @property
     def allowed(self) -> str:
-        """The values that it may take, in words; empty for a text.
+        """Return the values that it may take, in words; empty for a text.
 
         Examples
         --------
@@ -147,7 +147,7 @@ def constant(
     fine: bool = False,
     default: Any = MISSING,
 ) -> Any:
-    """A field of a preset, with its help, unit and limits.
+    """Return a field of a preset, with its help, unit and limits.
 
     Parameters
     ----------
@@ -175,7 +175,7 @@ def constant(
 
 
 def constants_of(preset: Any) -> tuple[Constant, ...]:
-    """The constants of a preset, in the order of its fields."""
+    """Return the constants of a preset, in the order of its fields."""
     hints = _hints(preset.__class__)
     defaults = {each.name: each.default for each in fields(preset)}
     return tuple(
@@ -187,7 +187,7 @@ def constants_of(preset: Any) -> tuple[Constant, ...]:
 
 
 def values_of(preset: Any) -> dict[str, Any]:
-    """The value of each constant of a preset by name."""
+    """Return the value of each constant of a preset by name."""
     return {name: getattr(preset, name) for name in _details(preset.__class__)}
 
 
@@ -200,7 +200,7 @@ def check(preset: Any) -> None:
 
 
 def unknown(name: str, names: Collection[str]) -> str:
-    """The hint for a name that is none of these: the nearest, or all there are.
+    """Return the hint for a name that is none of these: the nearest, or all there are.
 
     Examples
     --------

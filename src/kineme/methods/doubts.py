@@ -18,7 +18,7 @@ UNSURE = 0.5
 
 
 def doubts(columns: Columns, fps: float) -> list[str]:
-    """A sentence for each cluster, count or border of low confidence, at most five.
+    """Return a sentence for each cluster, count or border of low confidence, at most five.
 
     Parameters
     ----------

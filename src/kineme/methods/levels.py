@@ -59,7 +59,7 @@ class FineSegments:
 def clusters_at(
     fine: FineSegments, details: tuple[float, ...], *, border_price: float, cluster_price: float
 ) -> dict[float, Ints]:
-    """The cluster of each fine segment at each detail, -1 for transitions.
+    """Return the cluster of each fine segment at each detail, -1 for transitions.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def clusters_at(
 def tables_at(
     columns: Columns, borders: Ints, clusters: Mapping[float, Ints], longest: float
 ) -> dict[float, Columns]:
-    """The table at each detail; of neighbours that are one and the same, the coarsest.
+    """Return the table at each detail; of neighbours that are one and the same, the coarsest.
 
     Those that are the same as at detail 1 are left out.
 
@@ -123,7 +123,7 @@ def tables_at(
 
 
 def at_detail(before: Columns, inner: Columns, starts: Ints, clusters: Ints, end: int) -> Columns:
-    """The columns of a table with other activities: segments joined, repetitions kept.
+    """Return the columns of a table with other activities: segments joined, repetitions kept.
 
     Every primitive border stays.
 
@@ -184,13 +184,13 @@ def _joins(
 def _weakest(
     differences: Floats, prices: Floats, sizes: Floats, among: Ints, cluster_price: float
 ) -> list[Join]:
-    """The joins of some clusters into one, those that cost least first; details never rise.
+    """Return the joins of some clusters into one, those that cost least first; details never rise.
 
     The arrays are changed: rows and columns of joined clusters are summed.
     """
 
     def details(of: Ints) -> Floats:
-        """The detail below which each of these clusters and each of all are one."""
+        """Return the detail below which each of these clusters and each of all are one."""
         within = np.diagonal(differences)
         rows, others = within[of][:, None], within[among]
         sums = rows + others + 2 * differences[of[:, None], among]
@@ -220,7 +220,7 @@ def _weakest(
 
 
 def _over_transitions(borders: Ints, labels: Ints, longest: float) -> Ints:
-    """The labels with short transitions between neighbours of one cluster as part of it."""
+    """Return the labels with short transitions between neighbours of one cluster as part of it."""
     joined = labels.copy()
     before, after, short = labels[:-2], labels[2:], np.diff(borders)[1:-1] <= longest
     between = (labels[1:-1] < 0) & (before == after) & (after >= 0) & short
@@ -245,14 +245,14 @@ def _rows(source: Columns, starts: Ints, end: int) -> Columns:
 
 
 def _same_spans(rows: Columns, source: Columns) -> NDArray[np.bool_]:
-    """Which rows have the span of one of the source."""
+    """Return which rows have the span of one of the source."""
     spans = {*zip(source["start_frame"].tolist(), source["stop_frame"].tolist(), strict=True)}
     found = zip(rows["start_frame"].tolist(), rows["stop_frame"].tolist(), strict=True)
     return np.array([span in spans for span in found], bool)
 
 
 def _inherited(activities: Columns, primitives: Columns) -> bool:
-    """Whether each primitive is in the cluster of its activity."""
+    """Return whether each primitive is in the cluster of its activity."""
     parents = np.searchsorted(activities["start_frame"], primitives["start_frame"], "right") - 1
     in_cluster = primitives["kind"] == "activity"
     return bool((activities["cluster"][parents] == primitives["cluster"])[in_cluster].all())

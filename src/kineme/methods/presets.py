@@ -59,7 +59,7 @@ def register(preset: Preset, *, replace: bool = False) -> None:
 
 
 def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: Any) -> Preset:
-    """A preset by name or as it is, with some constants changed.
+    """Return a preset by name or as it is, with some constants changed.
 
     Parameters
     ----------

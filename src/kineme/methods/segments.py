@@ -59,7 +59,7 @@ def columns_of(
 
 
 def by_first_appearance(labels: NDArray[np.integer]) -> Ints:
-    """The same labels counted from 0 in order of appearance; -1 stays.
+    """Return the same labels counted from 0 in order of appearance; -1 stays.
 
     Examples
     --------

@@ -53,7 +53,7 @@ MAX_GAPS = 400  # bars; more are drawn without gaps between them
 def plot_matrix(
     segmentation: Segmentation, graph: NeighborGraph | Found, *, ax: Axes | None = None
 ) -> Axes:
-    """The matrix with frames around activities and primitives, seconds along both edges.
+    """Return the matrix with frames around activities and primitives, seconds along both edges.
 
     Parameters
     ----------
@@ -233,7 +233,7 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
 
 
 def _cross(at: float, within: Segment) -> list[list[tuple[float, float]]]:
-    """A line across an activity in each direction."""
+    """Return a line across an activity in each direction."""
     return [
         [(at, within.start_s), (at, within.stop_s)],
         [(within.start_s, at), (within.stop_s, at)],
@@ -262,7 +262,7 @@ def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.floa
 
 
 def _legend(segmentation: Segmentation) -> list[Patch]:
-    """The largest clusters by number of primitives, in the order of their numbers."""
+    """Return the largest clusters by number of primitives, in the order of their numbers."""
     counts = segmentation.repetitions()
     shown = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
     handles = [
@@ -277,7 +277,7 @@ def _legend(segmentation: Segmentation) -> list[Patch]:
 
 
 def _graph_of(graph: Any, caller: str) -> NeighborGraph:
-    """The neighbour graph given, or that of what a method found; else ParameterError."""
+    """Return the neighbour graph given, or that of what a method found; else ParameterError."""
     from kineme.graph import NeighborGraph  # compiled code
 
     given = getattr(graph, "graph", graph)

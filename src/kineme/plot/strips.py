@@ -43,7 +43,7 @@ def plot_strip(
     color: str | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """A span of a recording as a strip of small figures, or as the lines of its channels.
+    """Return a span of a recording as a strip of small figures, or as the lines of its channels.
 
     Parameters
     ----------

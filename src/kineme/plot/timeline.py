@@ -147,7 +147,7 @@ def matched_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]
 
 
 def _clusters_at(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[np.int64]:
-    """The cluster at each time; -1 where there is none."""
+    """Return the cluster at each time; -1 where there is none."""
     row = np.searchsorted(table.start_s, times, side="right") - 1
     inside = times < table.stop_s[row]
     return np.where(inside, table.cluster[row], -1)
@@ -158,7 +158,7 @@ def _renumbered(table: SegmentTable, numbers: dict[int, int]) -> list[Segment]:
 
 
 def _names(results: Sequence[Segmentation]) -> list[str]:
-    """What tells the results apart: presets, else files, else their numbers."""
+    """Return what tells the results apart: presets, else files, else their numbers."""
     numbers = [f"result {number}" for number in range(1, len(results) + 1)]
     presets = [result.provenance.get("preset") for result in results]
     paths = [(result.provenance.get("input") or {}).get("path") for result in results]

@@ -35,7 +35,7 @@ def frozen(
 
 
 def as_rate(fps: object, *, error: Error = ParameterError) -> float:
-    """The frame rate as a float; ``error`` unless it is one positive number."""
+    """Return the frame rate as a float; ``error`` unless it is one positive number."""
     if not (is_number(fps) and fps > 0):  # type: ignore[operator]
         raise error(f"the frame rate is {fps!r:.60}: it must be a positive number")
     if not SLOWEST <= fps <= FASTEST:  # type: ignore[operator]

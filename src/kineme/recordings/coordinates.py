@@ -26,7 +26,7 @@ _SENSOR = re.compile(
 
 
 def axes_by_point(columns: Iterable[str]) -> dict[str, dict[str, str]]:
-    """For each point, of a joint or a sensor, the columns of its axes: x and y at least.
+    """Return for each point, of a joint or a sensor, the columns of its axes: x and y at least.
 
     Examples
     --------
@@ -43,7 +43,7 @@ def axes_by_point(columns: Iterable[str]) -> dict[str, dict[str, str]]:
 
 
 def is_body(name: str) -> bool:
-    """Whether a name with coordinates is that of a joint, and not of a sensor.
+    """Return whether a name with coordinates is that of a joint, and not of a sensor.
 
     What stands before a colon is whose joint it is.
 
@@ -57,7 +57,7 @@ def is_body(name: str) -> bool:
 
 
 def beginnings(name: str) -> Iterator[str]:
-    """What a name begins with, word by word; of long ones the first few.
+    """Yield what a name begins with, word by word; of long ones the first few.
 
     Examples
     --------

@@ -110,7 +110,7 @@ class Motion(Recording):
         translations: ArrayLike | None = None,
         provenance: Provenance | None = None,
     ) -> Motion:
-        """The motion whose positions follow from rotations; see `forward_kinematics`."""
+        """Return the motion whose positions follow from rotations; see `forward_kinematics`."""
         positions = forward_kinematics(
             skeleton, rotations, root_positions, translations=translations
         )
@@ -131,7 +131,7 @@ class Motion(Recording):
         return len(self.positions)
 
     def joint(self, name: str) -> int:
-        """The index of the joint called ``name``; ParameterError if there is none."""
+        """Return the index of the joint called ``name``; ParameterError if there is none."""
         return self.skeleton.joint(name)
 
     def _sliced(self, start: int, stop: int, gaps: Spans, provenance: Provenance) -> Motion:

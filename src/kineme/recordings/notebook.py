@@ -23,7 +23,7 @@ _STYLE = 'fill="none" stroke="currentColor" stroke-width="1" stroke-linejoin="ro
 def page_of(
     title: str, picture: str, facts: Sequence[tuple[str, str]], provenance: Provenance
 ) -> str:
-    """The HTML that a notebook shows: a repr, an SVG, facts, the file and its warnings."""
+    """Return the HTML that a notebook shows: a repr, an SVG, facts, the file and its warnings."""
     rows = [*facts, *([("file", provenance.path)] if provenance.path else [])]
     rows += [("warning", note) for note in provenance.warnings]
     cells = "".join(
@@ -58,7 +58,7 @@ def poses_svg(skeleton: Skeleton, positions: Floats) -> str:
 
 
 def channels_svg(values: Floats) -> str:
-    """The first channels over time, one below the other, each in its own range: an SVG."""
+    """Return the first channels over time, one below the other, each in its own range: an SVG."""
     at = np.linspace(0, len(values) - 1, min(_SAMPLES, len(values))).round().astype(int)
     shown = values[at, :_CHANNELS]
     band = _HEIGHT / shown.shape[1]

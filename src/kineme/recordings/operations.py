@@ -26,7 +26,7 @@ AnyRecording = TypeVar("AnyRecording", Motion, Signals)
 
 
 def resample(motion: Motion, fps: float) -> Motion:
-    """The motion at the times 0, 1/fps, 2/fps, ... up to its last frame.
+    """Return the motion at the times 0, 1/fps, 2/fps, ... up to its last frame.
 
     n = floor((N - 1) fps / old) + 1 frames. Where the old rate is a whole
     multiple of the new one these are frames of the motion, taken as they are.
@@ -88,7 +88,7 @@ def resample(motion: Motion, fps: float) -> Motion:
 
 
 def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
-    """The frames start, ..., stop - 1, and the gaps and events in them.
+    """Return the frames start, ..., stop - 1, and the gaps and events in them.
 
     As ``recording[start:stop]``, but frames that are not there are refused.
 
@@ -123,7 +123,7 @@ def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
 
 
 def split_at_gaps(recording: AnyRecording) -> list[tuple[int, AnyRecording]]:
-    """What the gaps leave, each after the frame at which it starts.
+    """Return what the gaps leave, each after the frame at which it starts.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def split_at_gaps(recording: AnyRecording) -> list[tuple[int, AnyRecording]]:
 
 
 def scale(motion: Motion, factor: float) -> Motion:
-    """The motion of a body ``factor`` times as large, which goes as much farther.
+    """Return the motion of a body ``factor`` times as large, which goes as much farther.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def scale(motion: Motion, factor: float) -> Motion:
 
 
 def turn(motion: Motion, angle: float) -> Motion:
-    """The motion turned about the vertical through the origin.
+    """Return the motion turned about the vertical through the origin.
 
     Parameters
     ----------
@@ -226,7 +226,7 @@ def turn(motion: Motion, angle: float) -> Motion:
 
 
 def move(motion: Motion, offset: ArrayLike) -> Motion:
-    """The motion with an offset added to every position.
+    """Return the motion with an offset added to every position.
 
     Parameters
     ----------

@@ -97,12 +97,12 @@ class Provenance:
 
     @property
     def warnings(self) -> tuple[Note, ...]:
-        """The notes of severity "warning"."""
+        """Return the notes of severity "warning"."""
         return tuple(note for note in self.notes if note.severity == "warning")
 
     @property
     def input(self) -> dict[str, str | None]:
-        """What a result says of where it was found: the file; take and person of several."""
+        """Return what a result says of where it was found: the file; take and person of several."""
         found = {"path": self.path, "format": self.format, "sha256": self.sha256}
         if len(self.takes) > 1:
             found["take"] = self.take
@@ -111,15 +111,15 @@ class Provenance:
         return found
 
     def noted(self, *notes: Note | str) -> Provenance:
-        """The same with notes added; plain texts become notes of severity "info"."""
+        """Return the same with notes added; plain texts become notes of severity "info"."""
         return replace(self, notes=self.notes + _as_notes(notes))
 
     def marked(self, events: Iterable[tuple[float, str]]) -> Provenance:
-        """The same with these events, seconds and labels, in place of its own."""
+        """Return the same with these events, seconds and labels, in place of its own."""
         return replace(self, events=tuple(events))
 
     def timed(self, clock: Clock | None) -> Provenance:
-        """The same with this clock in place of its own."""
+        """Return the same with this clock in place of its own."""
         return replace(self, clock=clock)
 
     def of_take(self, name: str, names: Iterable[str]) -> Provenance:
@@ -127,7 +127,7 @@ class Provenance:
         return replace(self, take=name, takes=tuple(names))
 
     def of_person(self, name: str, people: Iterable[str]) -> Provenance:
-        """The same of this person, one of those in the file."""
+        """Return the same of this person, one of those in the file."""
         return replace(self, person=name, people=tuple(people))
 
 

@@ -58,15 +58,15 @@ class Recording(Protocol):
 
     @abstractmethod
     def _sliced(self, start: int, stop: int, gaps: Spans, provenance: Provenance) -> Self:
-        """The frames [start, stop), which are there, with these gaps and this provenance."""
+        """Return the frames [start, stop), which are there, with these gaps and this provenance."""
 
     @abstractmethod
     def _facts(self) -> list[tuple[str, str]]:
-        """What a notebook shows of this kind of recording: names and values."""
+        """Return what a notebook shows of this kind of recording: names and values."""
 
     @abstractmethod
     def _picture(self) -> str:
-        """A small SVG of it."""
+        """Return a small SVG of it."""
 
     @property
     def duration(self) -> float:
@@ -75,7 +75,7 @@ class Recording(Protocol):
 
     @property
     def times(self) -> NDArray[np.float64]:
-        """The second at which each frame was taken, from 0."""
+        """Return the second at which each frame was taken, from 0."""
         return np.arange(self.n_frames) / self.fps
 
     def spans(self) -> list[tuple[int, int]]:
@@ -85,11 +85,11 @@ class Recording(Protocol):
         return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
 
     def noted(self, *notes: Note | str) -> Self:
-        """The same with notes added to the provenance."""
+        """Return the same with notes added to the provenance."""
         return replace(self, provenance=self.provenance.noted(*notes))  # type: ignore[type-var]
 
     def seconds(self, start: float = 0.0, stop: float | None = None) -> Self:
-        """The frames from one second to another, each rounded to the nearest frame.
+        """Return the frames from one second to another, each rounded to the nearest frame.
 
         Parameters
         ----------
@@ -126,7 +126,7 @@ class Recording(Protocol):
     __iter__: ClassVar[None] = None  # frames are no recordings: slices are
 
     def __getitem__(self, frames: slice) -> Self:
-        """The frames of a slice, and the gaps and events in them, as numpy counts them."""
+        """Return the frames of a slice, and the gaps and events in them, as numpy counts them."""
         if not isinstance(frames, slice):
             raise ParameterError(f"a recording is sliced by frames, as in [0:600], not {frames!r}")
         try:
@@ -184,7 +184,7 @@ def as_gaps(
 
 
 def _cut(provenance: Provenance, start: int, stop: int, fps: float) -> Provenance:
-    """What is true of the frames [start, stop): the events in them, and their clock."""
+    """Return what is true of the frames [start, stop): the events in them, and their clock."""
     first, last = start / fps, stop / fps
     events: Iterable[tuple[float, str]] = (
         (at - first, name) for at, name in provenance.events if first <= at < last

@@ -115,7 +115,7 @@ class Skeleton:
 
     @cached_property
     def children(self) -> tuple[tuple[int, ...], ...]:
-        """For each joint the indices of its children, in order."""
+        """Return for each joint the indices of its children, in order."""
         lists: list[list[int]] = [[] for _ in self.names]
         for joint, parent in enumerate(self.parents):
             if parent >= 0:
@@ -124,7 +124,7 @@ class Skeleton:
 
     @cached_property
     def carrier(self) -> int:
-        """The joint that carries the body: the hips, also where root bones lie above them.
+        """Return the joint that carries the body: the hips, also where root bones lie above them.
 
         It is the first joint from the root down, always into the largest branch, that has two
         limbs: children with the same number of joints below them, two bones or more deep. Where
@@ -153,7 +153,7 @@ class Skeleton:
 
     @cached_property
     def body(self) -> tuple[int, ...]:
-        """The joints of the body: all but those that lie above the carrier or beside it."""
+        """Return the joints of the body: all but those that lie above the carrier or beside it."""
         if self.parents[self.carrier] < 0:
             return tuple(range(self.n_joints))
         inside = {self.carrier}

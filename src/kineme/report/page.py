@@ -99,7 +99,7 @@ def filled(
     curves: dict[str, object] | None = None,
     cycles: ReportCurves | None = None,
 ) -> str:
-    """The template with the data in place of its comments.
+    """Return the template with the data in place of its comments.
 
     Tiles are PNGs by "level/row/column"; ``curves`` has ``list`` and ``tiles``, where there are
     any; ``cycles`` are the curves of repetitions.

@@ -175,7 +175,7 @@ def _counts(sheet: Sheet) -> str:
 
 
 def _groups(sheet: Sheet) -> list[str]:
-    """The groups that are in both sessions, those with most repetitions first."""
+    """Return the groups that are in both sessions, those with most repetitions first."""
     groups = list(dict.fromkeys(sheet.numbers["group"].tolist()))
     return sorted(groups, key=lambda group: -min(_count(each, group) for each in sheet.sessions))
 
@@ -198,7 +198,7 @@ def _row(sheet: Sheet, group: str, measure: str) -> dict[str, float]:
 
 
 def _channels(sheet: Sheet, group: str) -> list[str]:
-    """The channels, those first whose range changed most surely."""
+    """Return the channels, those first whose range changed most surely."""
 
     def certainty(channel: str) -> float:
         row = _row(sheet, group, f"{channel}.range")
@@ -209,7 +209,7 @@ def _channels(sheet: Sheet, group: str) -> list[str]:
 
 
 def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
-    """A table of what changed in a group."""
+    """Return a table of what changed in a group."""
     units = dict(zip(sheet.sessions[0].channels, sheet.sessions[0].units, strict=True))
     labels = NAMES | {
         f"{channel}.range": f"{channel} range{f' ({unit})' if (unit := units[channel]) else ''}"
@@ -244,7 +244,7 @@ def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
 
 
 def _panels(channels: dict[str, list[str]]) -> list[tuple[str, str]]:
-    """Which curves are drawn first: of each group in turn the channel that changed most."""
+    """Return which curves are drawn first: of each group in turn the channel that changed most."""
     turns = max(len(names) for names in channels.values())
     return [
         (group, names[turn])
@@ -279,7 +279,7 @@ def _pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
 
 
 def _picture(curves: Columns, group: str, channel: str) -> bytes:
-    """An SVG without names: fonts of the page have more letters."""
+    """Return an SVG without names: fonts of the page have more letters."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
@@ -334,7 +334,7 @@ def _ranges(sides: Columns) -> dict[tuple[str, str, str], tuple[float, float, fl
 
 
 def _rest(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
-    """What the sheet has no room for, and what made it."""
+    """Return what the sheet has no room for, and what made it."""
     channels = len(sheet.sessions[0].channels)
     omitted = []
     if len(groups) > MOST_GROUPS:
@@ -354,7 +354,7 @@ def _cells(texts: Sequence[str], tag: str = "td") -> str:
 
 
 def _digits(*values: float) -> int:
-    """How many digits after the point numbers of this size are told with."""
+    """Return how many digits after the point numbers of this size are told with."""
     size = max((abs(value) for value in values if np.isfinite(value)), default=0.0)
     return max(1, 2 - floor(log10(size))) if size > 0 else 1
 

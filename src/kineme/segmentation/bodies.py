@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 
 
 def view_of_motion(motion: Motion, preset: Preset, effectors: Names | None) -> View:
-    """The features of a motion between its gaps, at the working rate of the preset.
+    """Return the features of a motion between its gaps, at the working rate of the preset.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def _rotations(motion: Motion, preset: Preset) -> Floats:
 def _without_a_body(
     motions: list[Motion], preset: Preset, error: MotionError
 ) -> tuple[list[Floats], list[str]]:
-    """The distances between the points of each span, and notes that say so and why."""
+    """Return the distances between the points of each span, and notes that say so and why."""
     reason = error.reason if isinstance(error, EndEffectorError) else str(error)
     if getattr(preset, "mirror", False):
         raise ParameterError(

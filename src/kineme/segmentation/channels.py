@@ -39,7 +39,7 @@ def view_of_signals(
     standardize: bool = True,
     unit: float | None = None,
 ) -> View:
-    """The features of signals between their gaps, at the working rate of the preset.
+    """Return the features of signals between their gaps, at the working rate of the preset.
 
     Parameters
     ----------

@@ -112,7 +112,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         return self
 
     def get_params(self, deep: bool = True) -> dict[str, Any]:
-        """The parameters and the constants that were changed."""
+        """Return the parameters and the constants that were changed."""
         return {**super().get_params(deep=deep), **self._constants}
 
     def set_params(self, **params: Any) -> Self:
@@ -138,7 +138,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
 
 
 def _constants_of(preset: str | Preset) -> Mapping[str, Any]:
-    """The constants of a preset by name; none of what is no preset, which ``fit`` says."""
+    """Return the constants of a preset by name; none of what is no preset, which ``fit`` says."""
     try:
         return resolve_preset(preset, signals=True).parameters()
     except ParameterError:

@@ -27,7 +27,7 @@ guesses shake as much as hands move."""
 
 
 def joints_among(signals: Signals) -> Indices | None:
-    """The channels that are x, y and z of a body's points, by their names and by its bones.
+    """Return the channels that are x, y and z of a body's points, by their names and by its bones.
 
     Parameters
     ----------

@@ -78,7 +78,7 @@ class SegmentOptions:
         return cls(constants=constants, **given)
 
     def resolved(self, *, signals: bool = False) -> Preset:
-        """The preset with its constants, for a motion or for signals.
+        """Return the preset with its constants, for a motion or for signals.
 
         Features of another making are averaged over time only where `smoothing` says so.
 

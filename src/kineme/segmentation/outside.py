@@ -35,7 +35,7 @@ def as_channels(recording: Motion | Signals, features: ArrayLike, fps: float | N
 
 
 def on_recording(view: View, recording: Motion | Signals, fps: float) -> View:
-    """The view with its spans, so far in rows at `fps`, in frames of the recording."""
+    """Return the view with its spans, so far in rows at `fps`, in frames of the recording."""
     per_row, n = recording.fps / fps, recording.n_frames
     spans = [
         replace(span, start=round(span.start * per_row), stop=min(round(span.stop * per_row), n))

@@ -117,7 +117,7 @@ def segment(
 def segment_and_found(
     recording: Motion | Signals, *, progress: Progress | None = None, **options: Any
 ) -> tuple[Segmentation, Found]:
-    """The segments, and what the method found on the way to them (for pictures).
+    """Return the segments, and what the method found on the way to them (for pictures).
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def segment_and_found(
 def segmented(
     recording: Motion | Signals, options: SegmentOptions, *, progress: Progress | None = None
 ) -> tuple[Segmentation, Found]:
-    """The same for options that are together already.
+    """Return the same for options that are together already.
 
     Parameters
     ----------
@@ -212,7 +212,7 @@ def analyze(
     progress: Progress | None = None,
     **constants: Any,
 ) -> Found:
-    """What each stage of a method finds in a sequence of features.
+    """Return what each stage of a method finds in a sequence of features.
 
     Parameters
     ----------
@@ -253,7 +253,7 @@ def analyze(
 def _result(
     recording: Motion | Signals, preset: Preset, view: View, found: Found, timings: dict[str, float]
 ) -> Segmentation:
-    """What was found, in frames of the recording, with where it came from."""
+    """Return what was found, in frames of the recording, with where it came from."""
     n_frames, fps = recording.n_frames, recording.fps
 
     def placed(columns: Columns) -> Columns:

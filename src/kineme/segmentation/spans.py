@@ -52,7 +52,7 @@ def in_frames(
     *,
     near: float = 0.0,
 ) -> Columns:
-    """The columns in frames, cut at the ends of the spans, gaps filled with transitions.
+    """Return the columns in frames, cut at the ends of the spans, gaps filled with transitions.
 
     Rows that vanish at the rate of the recording are left out.
 
@@ -103,7 +103,7 @@ def in_frames(
 
 
 def gaps_between(spans: Sequence[RecordedSpan], n_frames: int) -> Spans:
-    """What lies between the spans of the recording: frames [start, stop)."""
+    """Return what lies between the spans of the recording: frames [start, stop)."""
     starts = [0, *(span.stop for span in spans)]
     stops = [*(span.start for span in spans), n_frames]
     return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]

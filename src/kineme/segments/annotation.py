@@ -58,7 +58,7 @@ class Annotation:
 
     @classmethod
     def from_json(cls, content: object) -> Self:
-        """The annotation that a file holds.
+        """Return the annotation that a file holds.
 
         Raises
         ------
@@ -71,12 +71,12 @@ class Annotation:
             raise ParameterError(f"the annotation is not as kineme writes it: {error}") from error
 
     def to_json(self) -> dict[str, Any]:
-        """What a file holds of it: the parts that there are, empty where there is none."""
+        """Return what a file holds of it: the parts that there are, empty where there is none."""
         parts: dict[str, Any] = msgspec.to_builtins(self, str_keys=True)
         return {name: part for name, part in parts.items() if part}
 
     def excludes(self, start_frame: int, stop_frame: int) -> bool:
-        """Whether a primitive of these frames counts in no mean."""
+        """Return whether a primitive of these frames counts in no mean."""
         return any(start_frame <= frame < stop_frame for frame in self.excluded)
 
 

@@ -93,11 +93,11 @@ class Hierarchy:
 
     @property
     def table(self) -> SegmentTable:
-        """The table that is looked at."""
+        """Return the table that is looked at."""
         return self.tables[self.details.index(self.detail)]
 
     def at(self, detail: float) -> Hierarchy:
-        """The hierarchy with the finest table looked at that is no finer than this.
+        """Return the hierarchy with the finest table looked at that is no finer than this.
 
         Parameters
         ----------
@@ -118,7 +118,7 @@ class Hierarchy:
         return Hierarchy(self.details, self.tables, self.details[max(0, int(place))])
 
     def borders(self, level: Level = "activity") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """The borders of the finest table, and the least detail at which each is there.
+        """Return the borders of the finest table, and the least detail at which each is there.
 
         Parameters
         ----------

@@ -44,17 +44,17 @@ class History(Generic[State]):
     future: tuple[State, ...] = ()
 
     def followed_by(self, state: State) -> History[State]:
-        """The history with a new present; what was undone cannot be redone any more."""
+        """Return the history with a new present; what was undone cannot be redone any more."""
         return History(state, (*self.past, self.present)[-LONGEST:])
 
     def undone(self) -> History[State]:
-        """The history one step back."""
+        """Return the history one step back."""
         if not self.past:
             raise ParameterError("there is nothing to undo")
         return History(self.past[-1], self.past[:-1], (self.present, *self.future))
 
     def redone(self) -> History[State]:
-        """The history one step forward again."""
+        """Return the history one step forward again."""
         if not self.future:
             raise ParameterError("there is nothing to redo")
         return History(self.future[0], (*self.past, self.present), self.future[1:])

@@ -103,7 +103,7 @@ def plain_json(value: Mapping[str, Any], name: str) -> dict[str, Any]:
 
 
 def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
-    """A copy of plain JSON; an input that is a text is the path of one.
+    """Return a copy of plain JSON; an input that is a text is the path of one.
 
     ParameterError where something that the package writes there is of another shape.
     """

@@ -119,7 +119,7 @@ class Segmentation:
         timings: Mapping[str, float] | None = None,
         annotation: Annotation = NO_ANNOTATION,
     ) -> Segmentation:
-        """A segmentation from columns in any row order.
+        """Return a segmentation from columns in any row order.
 
         ``level``, ``kind``, ``start_frame`` and ``stop_frame`` are needed.
         ``cluster`` is -1, ``label`` empty, ``confidence`` and ``border_confidence``
@@ -158,12 +158,12 @@ class Segmentation:
 
     @property
     def activities(self) -> SegmentTable:
-        """The activity level: activities and the transitions between them."""
+        """Return the activity level: activities and the transitions between them."""
         return self.level("activity")
 
     @property
     def primitives(self) -> SegmentTable:
-        """The primitive level: single repetitions, and transitions whole."""
+        """Return the primitive level: single repetitions, and transitions whole."""
         return self.level("primitive")
 
     def level(self, level: Level) -> SegmentTable:
@@ -217,16 +217,16 @@ class Segmentation:
         return replace(self, table=chosen.table, provenance=provenance, hierarchy=chosen)
 
     def cuts(self, level: Level = "activity") -> NDArray[np.int64]:
-        """The frames where one segment of a level ends and the next starts."""
+        """Return the frames where one segment of a level ends and the next starts."""
         return self.level(level).start_frame[1:]
 
     def repetitions(self) -> dict[int, int]:
-        """How many primitives each cluster has; those in no cluster are not counted."""
+        """Return how many primitives each cluster has; those in no cluster are not counted."""
         clusters = self.primitives.cluster
         return dict(sorted(Counter(clusters[clusters >= 0].tolist()).items()))
 
     def per_frame(self, column: str = "cluster", *, level: Level = "primitive") -> NDArray[Any]:
-        """A column of the table spread over the frames.
+        """Return a column of the table spread over the frames.
 
         Parameters
         ----------
@@ -257,7 +257,7 @@ class Segmentation:
         return np.repeat(values, rows.stop_frame - rows.start_frame)
 
     def describe(self) -> str:
-        """How many of each there are, for people; primitives without transitions."""
+        """Return how many of each there are, for people; primitives without transitions."""
         kinds = self.activities.kind.tolist()
         clusters = {*self.activities.cluster.tolist(), *self.primitives.cluster.tolist()}
         counts = {
@@ -275,7 +275,7 @@ class Segmentation:
         return None if content is None else Clock.from_json(content)
 
     def start_times(self) -> list[str]:
-        """What the clock shows when each segment of the table starts; empty without a clock.
+        """Return what the clock shows when each segment of the table starts; empty without a clock.
 
         Returns
         -------
@@ -286,7 +286,7 @@ class Segmentation:
         return [] if clock is None else [clock.shown(row.start_s) for row in self]
 
     def to_dataframe(self) -> pd.DataFrame:
-        """The table of both levels, as `SegmentTable.to_dataframe` gives it.
+        """Return the table of both levels, as `SegmentTable.to_dataframe` gives it.
 
         Returns
         -------

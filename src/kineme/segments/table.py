@@ -166,17 +166,17 @@ NEEDED = [name for name, column in COLUMNS.items() if not column.optional]
 
 
 def lacking(names: Container[str]) -> list[str]:
-    """The columns of `NEEDED` that are not among these names."""
+    """Return the columns of `NEEDED` that are not among these names."""
     return [name for name in NEEDED if name not in names]
 
 
 def kind_of(level: Level, *, transition: bool) -> Kind:
-    """The kind of a segment of a level that is a transition, or none."""
+    """Return the kind of a segment of a level that is a transition, or none."""
     return "transition" if transition else level
 
 
 def _of_columns(table: type[Values]) -> type[Values]:
-    """The class as a dataclass of one array for each column."""
+    """Return the class as a dataclass of one array for each column."""
     table.__annotations__ = dict.fromkeys(COLUMNS, NDArray[Any])
     return dataclass(frozen=True, eq=False, repr=False)(table)
 
@@ -209,11 +209,11 @@ class SegmentTable:
         return seconds
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """The columns by name, in the documented order."""
+        """Return the columns by name, in the documented order."""
         return {name: getattr(self, name) for name in COLUMNS}
 
     def with_columns(self, **columns: NDArray[Any]) -> Self:
-        """The same segments with other values in some columns, which are not checked."""
+        """Return the same segments with other values in some columns, which are not checked."""
         return type(self)(**{**self.columns(), **columns})
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -240,7 +240,7 @@ class SegmentTable:
         return frame
 
     def select(self, rows: slice | ArrayLike) -> Self:
-        """The rows that a mask, a slice or an index array picks, as ``table[rows]``.
+        """Return the rows that a mask, a slice or an index array picks, as ``table[rows]``.
 
         Parameters
         ----------
@@ -316,7 +316,7 @@ class SegmentTable:
 
 
 def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
-    """A table from columns in any row order; see `Segmentation.from_columns`."""
+    """Return a table from columns in any row order; see `Segmentation.from_columns`."""
     needed = {name: column for name, column in COLUMNS.items() if not column.derived}
     for name, column in needed.items():
         if column.default is None and name not in columns:
@@ -347,7 +347,7 @@ def kinds_of(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.st
 
 
 def _derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArray[Any]]:
-    """The columns that follow from others."""
+    """Return the columns that follow from others."""
     start = arrays["start_frame"]
     activities = np.flatnonzero(arrays["level"] == "activity")
     activities = activities[np.argsort(start[activities], kind="stable")]
@@ -399,7 +399,7 @@ def _texts(array: NDArray[Any], name: str, allowed: tuple[str, ...]) -> NDArray[
 
 
 def _picked(rows: ArrayLike, n: int) -> NDArray[Any]:
-    """A mask or row numbers of a table of n rows, checked."""
+    """Return a mask or row numbers of a table of n rows, checked."""
     try:
         picked = np.asarray(rows)
     except ValueError:

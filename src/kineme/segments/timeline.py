@@ -109,7 +109,7 @@ def draw_timeline(
 
 
 def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
-    """The same as an ``<svg>``: never more bars in a row than it has pixels."""
+    """Return the same as an ``<svg>``: never more bars in a row than it has pixels."""
     height = HEIGHT * len(rows)
     labels = label_colors(segment for table in rows for segment in table)
     bars = [
@@ -174,7 +174,7 @@ def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float
 
 
 def _description(segment: Row) -> str:
-    """What a bar says when the pointer is on it."""
+    """Return what a bar says when the pointer is on it."""
     name = segment.label or (f"cluster {segment.cluster}" if segment.cluster >= 0 else segment.kind)
     return escape(f"{name}: {segment.start_s:.2f} to {segment.stop_s:.2f} s")
 

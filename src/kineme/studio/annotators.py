@@ -39,7 +39,7 @@ class Annotator:
 
 
 def annotators_of(recordings: OpenRecordings) -> dict[str, Annotator]:
-    """The people who labelled recordings of the folder by id; whoever works here last."""
+    """Return the people who labelled recordings of the folder by id; whoever works here last."""
     listed = _by_file(recordings)
     paths = [*listed]
     files = recordings.folder.annotations(listed.values()).values()
@@ -75,7 +75,7 @@ def annotator_choices(recordings: OpenRecordings) -> list[AnnotatorChoice]:
 
 
 def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
-    """How far some of them agree, over all recordings for which two of them have labels."""
+    """Return how far some of them agree, over all recordings for which two of them have labels."""
     from kineme.evaluation.annotator_files import labels_of_annotators
     from kineme.evaluation.annotators import annotator_agreement
     from kineme.evaluation.tables import finite
@@ -119,7 +119,7 @@ def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement
 
 
 def lanes_of(recordings: OpenRecordings, name: str, chosen: Sequence[str]) -> list[LabelLane]:
-    """What some of them say of a recording, one lane each."""
+    """Return what some of them say of a recording, one lane each."""
     from kineme.web.page_data import segments_message
 
     listed = recordings.get(name).listed
@@ -138,7 +138,7 @@ def lanes_of(recordings: OpenRecordings, name: str, chosen: Sequence[str]) -> li
 
 
 def _by_file(recordings: OpenRecordings) -> dict[Path, ListedRecording]:
-    """The recordings of the folder by the files that labels of them are called after."""
+    """Return the recordings of the folder by the files that labels of them are called after."""
     return {each.called: each for each in recordings.folder.recordings().values()}
 
 

@@ -54,7 +54,7 @@ def create_app(
     limit: int = LIMIT,
     development: bool = False,
 ) -> Guard:
-    """The studio of some recordings, as an ASGI application.
+    """Return the studio of some recordings, as an ASGI application.
 
     Where there is a ``library``, its page is shown when neither a recording nor the folder is
     named. ``static`` has the built pages, ``limit`` is in bytes of an upload; pages of the
@@ -92,7 +92,7 @@ def create_app(
 
 
 def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> list[Route]:
-    """The addresses of a library, if there is one."""
+    """Return the addresses of a library, if there is one."""
     if library is None:
         return []
     from kineme.studio.library_routes import LibraryApi  # reads Parquet

@@ -33,7 +33,7 @@ UNITS = {"body sizes": "body heights"}
 
 
 def presets() -> list[PresetChoice]:
-    """The presets, the default first."""
+    """Return the presets, the default first."""
     return [
         PresetChoice(
             name=name,
@@ -46,7 +46,7 @@ def presets() -> list[PresetChoice]:
 
 
 def details() -> list[float]:
-    """The levels of detail that a segmentation can have, the coarsest first."""
+    """Return the levels of detail that a segmentation can have, the coarsest first."""
     return sorted({*DETAILS, DEFAULT_DETAIL})
 
 
@@ -90,7 +90,7 @@ def same_again(table: Segmentation, *, signals: bool) -> SegmentAgain:
 
 
 def export_formats() -> list[ExportFormat]:
-    """Every format that segments can be downloaded in."""
+    """Return every format that segments can be downloaded in."""
     return [
         *(
             ExportFormat(name=each.name, suffix=each.download_suffix, help=each.help)
@@ -117,7 +117,7 @@ def _parameters(preset: str, *, signals: bool) -> list[Parameter]:
 
 
 def _parameter(declared: Constant, slider: Slider) -> Parameter:
-    """A constant with a slider that can stand at the preset's own value."""
+    """Return a constant with a slider that can stand at the preset's own value."""
     below = math.floor((declared.value - slider.minimum) / slider.step + 1e-6)
     return Parameter(
         name=declared.name,

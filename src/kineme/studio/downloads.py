@@ -131,13 +131,13 @@ def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]
 
 
 def _stem_of(opened: OpenRecording) -> str:
-    """What downloads are called after: the recording, in letters that archives can hold."""
+    """Return what downloads are called after: the recording, in letters that archives can hold."""
     stem = opened.listed.called.stem
     return stem if is_text(stem) else safe_name(stem)
 
 
 def _with_video(opened: OpenRecording) -> Segmentation:
-    """The table, and in its provenance the video of the recording, if there is one."""
+    """Return the table, and in its provenance the video of the recording, if there is one."""
     video = video_beside(opened.path)
     if video is None:
         return opened.table
@@ -155,7 +155,7 @@ def _what(kind: str, level: Level | None) -> str:
 
 
 def _called(stem: str, what: str, file: tuple[str, bytes]) -> tuple[str, bytes]:
-    """The file under the name of a download."""
+    """Return the file under the name of a download."""
     name, content = file
     return f"{stem}.{what}{Path(name).suffix}", content
 

@@ -54,10 +54,10 @@ class Surroundings(Protocol):
     """Where an edit finds what it names."""
 
     def knowledge_base(self, name: str) -> Path:
-        """The file of a knowledge base by its id."""
+        """Return the file of a knowledge base by its id."""
 
     def annotation(self, name: str) -> Path:
-        """A label file by its id."""
+        """Return a label file by its id."""
 
 
 def edited(
@@ -67,7 +67,7 @@ def edited(
     files: Surroundings,
     version: Callable[[int], Segmentation],
 ) -> Outcome:
-    """The table after an edit other than undo and redo; KinemeError where it cannot be made.
+    """Return the table after an edit other than undo and redo; KinemeError where it cannot be made.
 
     ``version`` gives a table that was replaced, by its number.
     """
@@ -100,7 +100,7 @@ def edited(
 
 
 def _by_hand(table: Segmentation, edit: Struct) -> Segmentation:
-    """The table after a correction, which it counts; what a person made of it is marked."""
+    """Return the table after a correction, which it counts; what a person made of it is marked."""
     fields = (getattr(edit, name) for name in edit.__struct_fields__)
     after = BY_HAND[type(edit)](table, *fields)
     if isinstance(edit, sent.Check | sent.Remark | sent.Exclude):

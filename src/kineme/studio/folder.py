@@ -37,7 +37,7 @@ class Folder:
             self._files.append(path)
 
     def recordings(self) -> dict[str, ListedRecording]:
-        """The recordings by id, in the order of their names, or as given."""
+        """Return the recordings by id, in the order of their names, or as given."""
         if self._files is not None:
             files = [path for path in self._files if path.is_file()]
         else:
@@ -46,7 +46,7 @@ class Folder:
         return {each.id: each for each in listed_in(files)}
 
     def knowledge_bases(self) -> dict[str, Path]:
-        """The knowledge bases by id."""
+        """Return the knowledge bases by id."""
         archives = [path for path in self._listed() if path.suffix.lower() == ".npz"]
         if not archives:
             return {}
@@ -55,7 +55,7 @@ class Folder:
         return {file_id(path): path for path in archives if holds_knowledge(path)}
 
     def annotations(self, recordings: Iterable[ListedRecording] | None = None) -> dict[str, Path]:
-        """The label files by id, without the tables that the studio itself saves.
+        """Return the label files by id, without the tables that the studio itself saves.
 
         ``recordings`` are those of the folder, where they have been listed already.
         """
@@ -65,7 +65,7 @@ class Folder:
         return {file_id(path): path for path in found}
 
     def folders(self) -> list[Path]:
-        """The folders in it, where people may keep their labels."""
+        """Return the folders in it, where people may keep their labels."""
         try:
             inside = sorted(self.root.iterdir())
         except OSError:
@@ -73,7 +73,7 @@ class Folder:
         return [path for path in inside if path.is_dir() and not path.name.startswith(".")]
 
     def first_table(self, path: Path) -> Segmentation | None:  # noqa: ARG002 (of a library)
-        """The table of a recording for which nobody has saved one, where it is known."""
+        """Return the table of a recording for which nobody has saved one, where it is known."""
         return None
 
     def _listed(self) -> list[Path]:
@@ -94,7 +94,7 @@ class Progress:
 
 
 def progress(listed: ListedRecording) -> Progress | None:
-    """How far a recording is; None where it has no table, or one that cannot be read."""
+    """Return how far a recording is; None where it has no table, or one that cannot be read."""
     path = usual_table(listed)
     table = saved_brief(path) if path else None
     if table is None:

@@ -83,7 +83,7 @@ class ShownLibrary:
         self._tables: LibraryTables | None = None
 
     def library(self) -> Library:
-        """The library as it is on the disk now."""
+        """Return the library as it is on the disk now."""
         with self._lock:
             stamp = self._changed()
             if stamp != self._stamp:
@@ -92,7 +92,7 @@ class ShownLibrary:
             return self._library
 
     def table_of(self, path: Path) -> Segmentation | None:
-        """The table of a recording as the library has it; None where it has none."""
+        """Return the table of a recording as the library has it; None where it has none."""
         library = self.library()
         with self._lock:
             if self._tables is None:
@@ -106,7 +106,7 @@ class ShownLibrary:
         return ReadingOptions(settings.options(), settings.effectors)
 
     def files(self) -> list[Path]:
-        """The files of its recordings, without those at URLs."""
+        """Return the files of its recordings, without those at URLs."""
         library = self.library()
         found = (library.path_of(name) for name in library.recordings["recording"])
         return [path for path in found if not is_remote(path)]
@@ -116,7 +116,7 @@ class ShownLibrary:
         return LibraryFolder(self)
 
     def state(self) -> LibraryState:
-        """All that the page shows but the figures."""
+        """Return all that the page shows but the figures."""
         library = self.library()
         columns = library.recordings
         rows = zip(
@@ -135,7 +135,7 @@ class ShownLibrary:
         )
 
     def edit(self, edit: LibraryEdit) -> LibraryState:
-        """The library after an edit, which is on the disk."""
+        """Return the library after an edit, which is on the disk."""
         library = self.library()
         with self._lock:
             before = self._history.present()
@@ -184,7 +184,7 @@ class ShownLibrary:
         return self.update_tables(recordings, names=False)
 
     def search(self, sent: SearchRequest) -> LibraryHits:
-        """What is like the examples; SupersededError where a newer search was asked for."""
+        """Return what is like the examples; SupersededError where a newer search was asked for."""
         found = self._searches.search(self.library(), sent)
         return LibraryHits(hits=[self._with_name(hit) for hit in found.hits])
 
@@ -199,7 +199,7 @@ class ShownLibrary:
         return structs.replace(hit, name=name) if name else hit
 
     def _file(self, recording: str) -> Path | None:
-        """The file of a recording of the library, where it is there."""
+        """Return the file of a recording of the library, where it is there."""
         library = self.library()
         if recording not in {*library.recordings["recording"]}:
             return None
@@ -207,7 +207,7 @@ class ShownLibrary:
         return None if is_remote(path) or not path.is_file() else path
 
     def _changed(self) -> tuple[int, ...]:
-        """What is another one when somebody has written the library."""
+        """Return what is another one when somebody has written the library."""
         return tuple(_modified(self._folder / name) for name in (HEAD, EDITS))
 
 
@@ -221,7 +221,7 @@ class LibraryFolder(Folder):
         self._shown = shown
 
     def first_table(self, path: Path) -> Segmentation | None:
-        """The table of a recording as the library has it."""
+        """Return the table of a recording as the library has it."""
         return self._shown.table_of(path)
 
     def recordings(self) -> dict[str, ListedRecording]:
@@ -239,7 +239,7 @@ class Searches:
         self._searching = threading.Lock()
 
     def search(self, library: Library, sent: SearchRequest) -> LibraryHits:
-        """What a library has that is like the examples.
+        """Return what a library has that is like the examples.
 
         SupersededError where a newer search was asked for meanwhile, ParameterError where there is
         nothing to search for.
@@ -274,7 +274,7 @@ class Interruptible:
     def completed(
         self, work: Callable[[Task], Outcome], tasks: Sequence[Task]
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Each task and what came of it; see `kineme.library.executors.Executor`."""
+        """Yield each task and what came of it; see `kineme.library.executors.Executor`."""
         for first in range(0, len(tasks), AT_ONCE):
             self._check()
             some = tasks[first : first + AT_ONCE]
@@ -343,7 +343,7 @@ def _made(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> s
 
 
 def _above(files: list[Path]) -> Path:
-    """The folder that holds all files; that of the first where there is none."""
+    """Return the folder that holds all files; that of the first where there is none."""
     folders = [str(path.absolute().parent) for path in files] or [str(Path.cwd())]
     with suppress(ValueError):  # several drives
         return Path(os.path.commonpath(folders))

@@ -39,7 +39,7 @@ class LibraryHistory:
         self._path = folder / FOLDER / NAME
 
     def present(self) -> dict[str, Any]:
-        """What the file of edits holds."""
+        """Return what the file of edits holds."""
         return read_json(self._folder / EDITS)
 
     def add(self, what: str, before: dict[str, Any]) -> None:
@@ -49,7 +49,7 @@ class LibraryHistory:
             self._write([*self._steps(), Step(what, before, _digest(after))])
 
     def last(self) -> str:
-        """The edit that can be taken back, in words; empty where there is none."""
+        """Return the edit that can be taken back, in words; empty where there is none."""
         steps = self._steps()
         return steps[-1].what if steps and steps[-1].after == _digest(self.present()) else ""
 

@@ -95,7 +95,7 @@ class Figures:
         self._recent: OrderedDict[tuple[Path, Stamp], Motion | Signals] = OrderedDict()
 
     def figure(self, library: Library, name: str, start_s: float, stop_s: float) -> LibraryFigure:
-        """What is drawn of a span.
+        """Return what is drawn of a span.
 
         ParameterError where there is no such recording or nothing in the span, ReadError where the
         file is gone.
@@ -126,7 +126,7 @@ class Figures:
 
 
 def _curves(signals: Signals) -> list[list[float]]:
-    """The first channels, thinned, each between 0 and 1; not seen is in the middle."""
+    """Return the first channels, thinned, each between 0 and 1; not seen is in the middle."""
     every = max(1, signals.n_frames // POINTS)
     shown = signals.values[::every, :CHANNELS].astype(float)
     low, high = np.nanmin(shown, axis=0), np.nanmax(shown, axis=0)

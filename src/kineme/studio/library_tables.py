@@ -52,7 +52,7 @@ class LibraryTables:
         }
 
     def of(self, path: Path) -> Segmentation | None:
-        """The table of the recording in a file; None where the library has none."""
+        """Return the table of the recording in a file; None where the library has none."""
         facts = self._facts.get(path.absolute())
         if facts is None or facts[0] not in self._rows:
             return None
@@ -80,7 +80,7 @@ class LibraryTables:
 
 
 def in_library(table: Segmentation, of_library: Segmentation) -> dict[int, int]:
-    """The clusters of a table that are clusters of the library, with its numbers.
+    """Return the clusters of a table that are clusters of the library, with its numbers.
 
     A cluster is the one of the library that most of its frames lie in.
     """
@@ -136,7 +136,7 @@ def as_in_library(
 def _numbers(
     table: Segmentation, places: dict[int, int], edits: Edits, present: set[int]
 ) -> dict[int, int]:
-    """The numbers that the clusters of a table get, the largest first."""
+    """Return the numbers that the clusters of a table get, the largest first."""
     sizes: Counter[int] = Counter(table.table.cluster.tolist())
     del sizes[-1]
     following = max([-1, *sizes, *present]) + 1
@@ -153,5 +153,5 @@ def _numbers(
 
 
 def _by_frame(rows: SegmentTable) -> NDArray[np.int64]:
-    """The cluster of each frame of a level."""
+    """Return the cluster of each frame of a level."""
     return np.repeat(rows.cluster, rows.stop_frame - rows.start_frame)

@@ -61,21 +61,21 @@ class LoadedRecording:
 
     @property
     def recording(self) -> Motion | Signals:
-        """The recording itself, read again if need be."""
+        """Return the recording itself, read again if need be."""
         if self.changed():
             raise ReadError(self.path, "has changed since it was opened: open it again")
         return self._cache.read(self.listed)
 
     @property
     def motion(self) -> Motion:
-        """The same where it is the motion of a body; ParameterError otherwise."""
+        """Return the same where it is the motion of a body; ParameterError otherwise."""
         found = self.recording
         if not isinstance(found, Motion):
             raise ParameterError(f"{self.path.name} holds signals: this needs the motion of a body")
         return found
 
     def changed(self) -> bool:
-        """Whether the file is another now, or gone."""
+        """Return whether the file is another now, or gone."""
         try:
             return stamp_of(self.path) != self._stamp
         except ReadError:
@@ -83,11 +83,11 @@ class LoadedRecording:
 
     @property
     def is_long(self) -> bool:
-        """Whether segmenting it takes longer than people like to wait for a picture."""
+        """Return whether segmenting it takes longer than people like to wait for a picture."""
         return self.n_frames > LONG * self.fps
 
     def page_data(self) -> PageData:
-        """All that a page draws but the segments."""
+        """Return all that a page draws but the segments."""
         from kineme.web.page_data import page_data
 
         with self._lock:
@@ -102,7 +102,7 @@ class LoadedRecording:
             self._page_data = self._curves = self._cycle_curves = self._found = None
 
     def curves(self) -> Curves:
-        """What is drawn over time."""
+        """Return what is drawn over time."""
         from kineme.web.curves import Curves
 
         with self._lock:
@@ -111,7 +111,7 @@ class LoadedRecording:
             return self._curves
 
     def cycle_curves(self) -> CycleCurves:
-        """What is drawn of repetitions."""
+        """Return what is drawn of repetitions."""
         from kineme.web.cycle_curves import CycleCurves
 
         with self._lock:
@@ -120,11 +120,11 @@ class LoadedRecording:
             return self._cycle_curves
 
     def _analog(self) -> Signals | None:
-        """The channels beside a motion."""
+        """Return the channels beside a motion."""
         return self._cache.analog(self.listed) if self.is_motion else None
 
     def source(self, analog: bool) -> Motion | Signals:
-        """What a curve is of: the recording, or the channels beside it."""
+        """Return what a curve is of: the recording, or the channels beside it."""
         found = self._analog() if analog else None
         return self.recording if found is None else found
 
@@ -135,7 +135,7 @@ class LoadedRecording:
         detail: float = DEFAULT_DETAIL,
         run: Run | None = None,
     ) -> Segmentation:
-        """The segments by a preset, with some of the constants it offers changed.
+        """Return the segments by a preset, with some of the constants it offers changed.
 
         Those found last are kept: what was looked at is often taken, or looked at in another
         detail. CancelledError where ``run`` was cancelled, or all of them (`runs`).
@@ -166,7 +166,7 @@ class LoadedRecording:
         return segments if detail == DEFAULT_DETAIL else segments.at_detail(detail)
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
-        """The table before anybody made another, and what people should know about it.
+        """Return the table before anybody made another, and what people should know about it.
 
         By the default preset; one segment for all where there is a single point only.
         """
@@ -187,7 +187,7 @@ class LoadedRecording:
         threshold: float,
         spread: bool,
     ) -> Segmentation:
-        """The segments with labels, as `kineme.transfer.transfer_labels` gives them."""
+        """Return the segments with labels, as `kineme.transfer.transfer_labels` gives them."""
         from kineme.transfer import transfer_features, transfer_labels
 
         features = transfer_features(self.motion, effectors=self.effectors)
@@ -204,7 +204,7 @@ class LoadedRecording:
         return digest == self.provenance.sha256 or name == self.path.name
 
     def is_of_another(self, segmentation: Segmentation) -> bool:
-        """Whether a table says that it is of another take or person of the file."""
+        """Return whether a table says that it is of another take or person of the file."""
         file, read = _input_of(segmentation), self.provenance
         names = {"take": read.take, "person": read.person}
         return any(file.get(option, name) != name for option, name in names.items())
@@ -219,7 +219,7 @@ class LoadedRecording:
 
 
 def without_others(recording: Motion | Signals) -> Motion | Signals:
-    """The recording without the markers of the other people in its file."""
+    """Return the recording without the markers of the other people in its file."""
     provenance = recording.provenance
     others = {*provenance.people} - {provenance.person}
     if not others or not isinstance(recording, Motion) or recording.rotations is not None:
@@ -237,12 +237,12 @@ def without_others(recording: Motion | Signals) -> Motion | Signals:
 
 
 def digest_in(segmentation: Segmentation) -> str:
-    """The digest of the recording that a table was made from, empty if it does not say."""
+    """Return the digest of the recording that a table was made from, empty if it does not say."""
     return str(_input_of(segmentation).get("sha256") or "")
 
 
 def _input_of(segmentation: Segmentation) -> dict[str, Any]:
-    """What a table says of the file it was made from."""
+    """Return what a table says of the file it was made from."""
     read: Any = segmentation.provenance.get("input")
     return read if isinstance(read, dict) else {}
 
@@ -250,7 +250,7 @@ def _input_of(segmentation: Segmentation) -> dict[str, Any]:
 def one_segment(
     kind: Kind, n_frames: int, fps: float, provenance: Mapping[str, Any] | None = None
 ) -> Segmentation:
-    """A table of one segment for all."""
+    """Return a table of one segment for all."""
     columns: dict[str, Sequence[str] | Sequence[int]] = {
         "level": ["activity"],
         "kind": [str(kind)],

@@ -35,7 +35,7 @@ def ranked(opened: OpenRecording) -> Loops:
 
 
 def played(opened: OpenRecording, number: int) -> PlayedLoop:
-    """The loop that a row of the table would be written as."""
+    """Return the loop that a row of the table would be written as."""
     table, motion = opened.table, _motion(opened)
     if not 0 <= number < len(table):
         raise ParameterError("choose the segment to play: this one is not in the table")

@@ -117,12 +117,12 @@ class OpenRecording:
 
     @property
     def table_path(self) -> Path:
-        """The file of its table."""
+        """Return the file of its table."""
         return self._file.path
 
     @property
     def table(self) -> Segmentation:
-        """The table as it is, once its segments are found."""
+        """Return the table as it is, once its segments are found."""
         self.find()
         with self._lock:
             return self._table
@@ -170,7 +170,7 @@ class OpenRecording:
         name: str = "",
         brief: bool = False,
     ) -> Edited:
-        """The table after an edit of that revision, which is on the disk.
+        """Return the table after an edit of that revision, which is on the disk.
 
         Where it is ``brief``, only the rows that differ from those at that revision.
         An edit whose name has been made is not made again. ConflictError where the table is of
@@ -220,7 +220,7 @@ class OpenRecording:
             return True
 
     def preview(self, request: PreviewRequest) -> Preview:
-        """What segmenting again would make of the table, which stays as it is.
+        """Return what segmenting again would make of the table, which stays as it is.
 
         CancelledError where it is not wanted any more, or another one is.
         """
@@ -242,7 +242,7 @@ class OpenRecording:
         )
 
     def versions(self) -> list[Version]:
-        """The tables that were replaced, the latest first."""
+        """Return the tables that were replaced, the latest first."""
         with self._lock:
             steps = self._journal.versions()
             tables = {number: self._journal.table(number) for number in steps}
@@ -259,7 +259,7 @@ class OpenRecording:
         ]
 
     def version(self, number: int) -> Comparison:
-        """A table that was replaced, to lay beside the present one."""
+        """Return a table that was replaced, to lay beside the present one."""
         from kineme.web.page_data import segments_message
 
         with self._lock:
@@ -295,7 +295,7 @@ class OpenRecording:
         return self._journal.table(number)
 
     def _read_anew(self) -> bool:
-        """The table that another program left; undo brings back the one from before."""
+        """Return the table that another program left; undo brings back the one from before."""
         self._file, table, self._notes = self._saved_table()
         self._table = self._table if table is None else table
         self._journal = Journal(self._file.path, self._table)
@@ -303,12 +303,12 @@ class OpenRecording:
         return True
 
     def _saved_table(self) -> tuple[TableFile, Segmentation | None, list[str]]:
-        """What is on the disk."""
+        """Return what is on the disk."""
         loaded = self.loaded
         return saved_table(self.listed, loaded.fits, self._others, of_another=loaded.is_of_another)
 
     def _edited(self, notes: list[str], before: Segmentation | None = None) -> Edited:
-        """The present table; of one ``before``, one revision ago, only rows that differ."""
+        """Return the present table; of one ``before``, one revision ago, only rows that differ."""
         from kineme.web.page_data import segments_message
         from kineme.web.table_changes import table_change
 
@@ -328,7 +328,7 @@ class OpenRecording:
 
     @property
     def _saved(self) -> str:
-        """The name of the table's file, empty as long as there is none."""
+        """Return the name of the table's file, empty as long as there is none."""
         return self._file.path.name if self._file.exists else ""
 
 
@@ -347,7 +347,7 @@ class FirstSegments:
             self._found.set_exception(error)
 
     def are_soon(self) -> bool:
-        """Whether they are there within the time that people wait for."""
+        """Return whether they are there within the time that people wait for."""
         return bool(wait([self._found], SOON).done)
 
     def result(self) -> Found:

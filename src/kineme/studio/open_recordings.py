@@ -67,7 +67,7 @@ class OpenRecordings:
         self._opening: dict[str, threading.Lock] = {}
 
     def get(self, name: str) -> OpenRecording:
-        """The recording of that id, opened if it is not, and again if its file has changed.
+        """Return the recording of that id, opened if it is not, and again if its file has changed.
 
         UnknownError where none is listed, ReadError where it cannot be read.
         """
@@ -146,7 +146,7 @@ class OpenRecordings:
         self._changed(name, revision)
 
     def message(self, name: str) -> Recording:
-        """All that a page shows of the recording of that id."""
+        """Return all that a page shows of the recording of that id."""
         if instead := self._sketch(name):
             return instead.message
         message, anew = self.get(name).message()
@@ -155,7 +155,7 @@ class OpenRecordings:
         return message
 
     def poses(self, name: str, n_samples: int) -> bytes:
-        """The poses that a message named so many of; those of all it has, otherwise."""
+        """Return the poses that a message named so many of; those of all it has, otherwise."""
         instead = self._sketcher.get(name)
         head = instead.message.motion if instead else None
         if instead is not None and head is not None and head.n_samples == n_samples:
@@ -169,7 +169,7 @@ class OpenRecordings:
                 self.message(name)
 
     def tables(self) -> FolderTables:
-        """The tables of all recordings, those that were found and not saved among them."""
+        """Return the tables of all recordings, those that were found and not saved among them."""
         listed = self.folder.recordings().items()
         return FolderTables(
             recordings=[FolderRecording(id=name, table=self._brief(each)) for name, each in listed]
@@ -200,7 +200,7 @@ class OpenRecordings:
         return is_other
 
     def edit(self, name: str, sent: EditRequest) -> Edited:
-        """The recording's table after an edit, as `OpenRecording.edit` makes it."""
+        """Return the recording's table after an edit, as `OpenRecording.edit` makes it."""
         if sent.revision == SKETCH_REVISION:
             raise ParameterError(STILL_FINDING)
         result = self.get(name).edit(
@@ -249,7 +249,7 @@ class OpenRecordings:
         return self._cache.extent(listed)
 
     def progress(self, name: str) -> Progress:
-        """What is being computed for a recording, which nobody opens for it."""
+        """Return what is being computed for a recording, which nobody opens for it."""
         opened = self._open.get(name)
         if opened is not None:
             return opened.loaded.runs.progress()
@@ -265,11 +265,11 @@ class OpenRecordings:
             instead.is_open = False
 
     def knowledge_base(self, name: str) -> Path:
-        """The file of the knowledge base of that id."""
+        """Return the file of the knowledge base of that id."""
         return _found(self.folder.knowledge_bases(), name, "knowledge base")
 
     def annotation(self, name: str) -> Path:
-        """The label file of that id."""
+        """Return the label file of that id."""
         return _found(self.folder.annotations(), name, "label file")
 
 

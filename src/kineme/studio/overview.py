@@ -30,7 +30,7 @@ MOST_TABLES = 10_000
 
 
 def saved_brief(path: Path) -> BriefTable | None:
-    """The table in a file in brief; None where there is none, or one that cannot be read."""
+    """Return the table in a file in brief; None where there is none, or one that cannot be read."""
     try:
         return _of_file(path, *stamp_of(path))
     except Exception:  # noqa: BLE001 (a table that is damaged in any way costs itself only)
@@ -38,7 +38,7 @@ def saved_brief(path: Path) -> BriefTable | None:
 
 
 def brief_of(table: Segmentation) -> BriefTable:
-    """A table in brief."""
+    """Return a table in brief."""
     return _brief(table, [*table], marked(table, "checked"), len(comments(table)))
 
 

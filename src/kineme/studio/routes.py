@@ -156,7 +156,7 @@ class Api:
         return share_labels(self._recordings.folder.root, sent.labels)
 
     def knowledge(self, _: Request, sent: KnowledgeRequest) -> FileChoice:
-        """A knowledge base of the named primitives of some recordings, in the folder."""
+        """Return a knowledge base of the named primitives of some recordings, in the folder."""
         from kineme.transfer import KnowledgeBase
 
         if not sent.recordings:
@@ -174,7 +174,7 @@ class Api:
         return FileChoice(id=file_id(path), name=path.name)
 
     def export_checked(self, request: Request) -> Response:
-        """The recordings all of whose segments are checked, in one ZIP."""
+        """Return the recordings all of whose segments are checked, in one ZIP."""
         from kineme.studio import downloads
 
         kind, level = request.path_params["format"], _level(request)
@@ -358,12 +358,12 @@ class Api:
 
 
 def _numbers(request: Request, *names: str) -> list[int]:
-    """The numbers in an address."""
+    """Return the numbers in an address."""
     return [number_in(request.path_params[name]) for name in names]
 
 
 def _level(request: Request) -> Level | None:
-    """The level that an address names, if it names one."""
+    """Return the level that an address names, if it names one."""
     level = request.query_params.get("level") or None
     if level not in (None, *get_args(Level)):
         raise ParameterError(f"level must be {' or '.join(get_args(Level))}")

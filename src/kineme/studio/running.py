@@ -63,7 +63,7 @@ class Run:
         self._stage, self._starts = name, (self._starts[0], self._clock())
 
     def progress(self) -> Progress:
-        """What a page is told."""
+        """Return what a page is told."""
         if self._cancelled.is_set():
             return ENDING
         stage, (first, last) = self._stage, self._starts

@@ -113,7 +113,7 @@ def serve(
 
 
 def listening(port: int | None) -> socket.socket:
-    """A socket of this machine alone; ParameterError where the port is in use, or not one.
+    """Return a socket of this machine alone; ParameterError where the port is in use, or not one.
 
     None is the first free port from 8750, 0 any.
     """

@@ -75,7 +75,7 @@ def synthesize(
     start: Placement | None = None,
     plant: bool = True,
 ) -> Motion:
-    """The motion of a route: its nodes played one after the other.
+    """Return the motion of a route: its nodes played one after the other.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def synthesize(
 
 
 def spans_of(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[PlacedSpan]:
-    """The spans to play; nodes that follow each other in a recording are one."""
+    """Return the spans to play; nodes that follow each other in a recording are one."""
     if not route:
         raise ParameterError("a route needs at least one node")
     first = graph.nodes[route[0]]
@@ -156,7 +156,7 @@ def spans_of(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[Pl
 
 
 def jump_frames(spans: Sequence[PlacedSpan]) -> list[int]:
-    """The frame of the new motion at the middle of each jump."""
+    """Return the frame of the new motion at the middle of each jump."""
     return list(accumulate(span.stop - span.start for span in spans))[:-1]
 
 

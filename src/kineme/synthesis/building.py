@@ -41,7 +41,7 @@ def motion_graph(
     window: float = WINDOW,
     prune: bool = True,
 ) -> MotionGraph:
-    """The graph whose nodes are the primitives of all motions.
+    """Return the graph whose nodes are the primitives of all motions.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def check_source(motion: Motion, first: Motion) -> None:
 
 
 def _nodes_of(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
-    """All primitives, and the edges to their successors."""
+    """Return all primitives, and the edges to their successors."""
     nodes: list[Node] = []
     edges: list[Edge] = []
     for source, segmentation in enumerate(found):

@@ -41,7 +41,7 @@ STRAIGHT = 0.999
 
 
 def plant_feet(motion: Motion) -> Motion:
-    """The motion with each standing foot held in place; as it is where no feet are found.
+    """Return the motion with each standing foot held in place; as it is where no feet are found.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def plant_feet(motion: Motion) -> Motion:
 
 
 def foot_contacts(path: Floats, fps: float) -> Spans:
-    """The spans [start, stop) of frames over which an ankle is low and slow.
+    """Return the spans [start, stop) of frames over which an ankle is low and slow.
 
     Parameters
     ----------
@@ -104,14 +104,14 @@ def foot_contacts(path: Floats, fps: float) -> Spans:
 
 
 def slides(path: Floats, contacts: Spans) -> Floats:
-    """For each contact, how far the ankle gets on the floor from where it began, metres."""
+    """Return for each contact, how far the ankle gets on the floor from where it began, metres."""
     floor = path[:, [0, 2]]
     far = [np.linalg.norm(floor[a:b] - floor[a], axis=1).max() for a, b in contacts]
     return np.array(far)
 
 
 def _corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
-    """What to add to the ankle's path, (frames, 3); nothing along y."""
+    """Return what to add to the ankle's path, (frames, 3); nothing along y."""
     floor = path[:, [0, 2]]
     fade = round(FADE * fps)
     frames, values = [-fade], [np.zeros(2)]
@@ -143,7 +143,7 @@ def _holds(floor: Floats, contacts: Spans, gap: int) -> Spans:
 
 
 def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
-    """The motion with the ankle at ``target``, or as near as the leg can reach.
+    """Return the motion with the ankle at ``target``, or as near as the leg can reach.
 
     The knee opens or closes about its hinge until the ankle is as far from the
     hip as the target, then the leg turns about the hip.
@@ -183,7 +183,7 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
 
 
 def _hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
-    """The knee's axis in the world; that of the whole motion where the leg is straight."""
+    """Return the knee's axis in the world; that of the whole motion where the leg is straight."""
     axis = np.cross(thigh, shin)
     size = np.linalg.norm(axis, axis=1, keepdims=True)
     usual = rot.rotate(rot.conjugate(above), axis).sum(axis=0)
@@ -199,7 +199,7 @@ def _about(axis: Floats, angle: Floats) -> Floats:
 
 
 def _arc(a: Floats, b: Floats) -> Floats:
-    """The smallest rotations that turn the direction of a into that of b."""
+    """Return the smallest rotations that turn the direction of a into that of b."""
     a, b = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (a, b))
     q = np.concatenate([1 + (a * b).sum(1, keepdims=True), np.cross(a, b)], axis=1)
     arc: Floats = q / np.linalg.norm(q, axis=1, keepdims=True)

@@ -78,7 +78,7 @@ class Node:
 
     @property
     def name(self) -> str:
-        """The super-node: the label, else the cluster's number; empty for neither."""
+        """Return the super-node: the label, else the cluster's number; empty for neither."""
         return self.label or (str(self.cluster) if self.cluster >= 0 else "")
 
 
@@ -163,7 +163,7 @@ class MotionGraph:
 
     @cached_property
     def leaving(self) -> tuple[tuple[int, ...], ...]:
-        """For each node the numbers of the edges that leave it."""
+        """Return for each node the numbers of the edges that leave it."""
         lists: list[list[int]] = [[] for _ in self.nodes]
         for number, edge in enumerate(self.edges):
             lists[edge.tail].append(number)
@@ -171,18 +171,18 @@ class MotionGraph:
 
     @cached_property
     def edge_between(self) -> dict[tuple[int, int], int]:
-        """The number of the edge from one node to another."""
+        """Return the number of the edge from one node to another."""
         return {(edge.tail, edge.head): number for number, edge in enumerate(self.edges)}
 
     def nodes_of(self, name: str) -> list[int]:
-        """The nodes of a super-node; ParameterError if there is none of that name."""
+        """Return the nodes of a super-node; ParameterError if there is none of that name."""
         if name not in self.names:
             listing = ", ".join(f"{name} ({n})" for name, n in self.names.items())
             raise ParameterError(f"no node is called {name!r}; there are {listing or 'no names'}")
         return [i for i, node in enumerate(self.nodes) if node.name == name]
 
     def core(self) -> Ints:
-        """The largest strongly connected component: its nodes all reach each other.
+        """Return the largest strongly connected component: its nodes all reach each other.
 
         Ties go to the component of more edges, then to the earlier one. A node alone
         is one only if it can repeat itself; empty if there is none.
@@ -197,7 +197,7 @@ class MotionGraph:
         return np.flatnonzero(component == largest)
 
     def pruned(self) -> MotionGraph:
-        """The graph of the core alone; ParameterError if there is none."""
+        """Return the graph of the core alone; ParameterError if there is none."""
         kept = self.core().tolist()
         if not kept:
             raise ParameterError(

@@ -83,7 +83,7 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
 
 
 def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
-    """The graph at ``path``.
+    """Return the graph at ``path``.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def _check_complete(row: dict[str, Any], kind: Any) -> None:
 
 
 def _at_home(source: Source, folder: Path) -> Source:
-    """A source whose paths, in the file relative to its folder, are found from anywhere."""
+    """Return a source whose paths, in the file relative to its folder, are found from anywhere."""
     options = {name: value for name, value in source.options.items() if name in OPTIONS}
     if "skeleton" in options:
         options["skeleton"] = str(folder / options["skeleton"])
@@ -208,7 +208,7 @@ def _at_home(source: Source, folder: Path) -> Source:
 
 
 def _sound(graph: MotionGraph) -> Iterator[tuple[object, bool]]:
-    """Every part of a graph, and whether it can be of its recordings."""
+    """Yield every part of a graph, and whether it can be of its recordings."""
     for name in ("fps", "threshold", "window"):
         value = getattr(graph, name)
         yield f"{name} is {value}", 0 < value < _FASTEST

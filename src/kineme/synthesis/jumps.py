@@ -42,7 +42,7 @@ class _Ends:
 def jumps(
     motions: Sequence[Motion], nodes: Sequence[Node], threshold: float, window: float
 ) -> list[Edge]:
-    """The best jump of every pair of nodes that has one below the threshold."""
+    """Return the best jump of every pair of nodes that has one below the threshold."""
     rate = POSES.working_fps
     slow = [resample(motion, rate) for motion in motions]
     firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
@@ -98,7 +98,7 @@ def _ends_of(
 
 
 def _nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
-    """The indices of the ``count`` smallest distances of each group."""
+    """Return the indices of the ``count`` smallest distances of each group."""
     order = np.lexsort((distances, groups))
     sizes = np.unique(groups[order], return_counts=True)[1]
     starts = np.repeat(np.cumsum(sizes) - sizes, sizes)

@@ -75,7 +75,7 @@ def line_route(
     actions: Collection[str] = (),
     tolerance: float = TOLERANCE,
 ) -> tuple[list[int], Placement]:
-    """The route whose root follows a line, and where its first node is laid.
+    """Return the route whose root follows a line, and where its first node is laid.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def line_route(
 def _search(
     graph: MotionGraph, floors: Sequence[Complex], points: Complex, nodes: set[int]
 ) -> tuple[_Candidate, _Progress] | None:
-    """The cheapest candidate at the end of the line; None where all end before it."""
+    """Return the cheapest candidate at the end of the line; None where all end before it."""
     heap: list[tuple[int, float, int, _Candidate]] = []
     done: list[tuple[_Candidate, _Progress]] = []
     visited: set[tuple[int, int, int]] = set()
@@ -175,7 +175,7 @@ def _expanded(
     nodes: set[int],
     candidate: _Candidate,
 ) -> tuple[_Progress, list[_Candidate]]:
-    """How far a candidate comes in its last node, and those that are longer by one."""
+    """Return how far a candidate comes in its last node, and those that are longer by one."""
     step = max(round(STEP * graph.fps), 1)
     node = graph.nodes[candidate.node]
     edges = [graph.edges[number] for number in graph.leaving[candidate.node]]
@@ -192,14 +192,14 @@ def _expanded(
 
 
 def _steps(start: int, stop: int, step: int) -> int:
-    """How many poses lie in frames [start, stop)."""
+    """Return how many poses lie in frames [start, stop)."""
     return -(-(stop - start) // step)
 
 
 def _played(
     candidate: _Candidate, floor: Complex, points: Complex, seconds: float
 ) -> list[_Progress]:
-    """The progress before each of some poses, ``seconds`` apart, and after the last."""
+    """Return the progress before each of some poses, ``seconds`` apart, and after the last."""
     now = candidate.progress
     reached = [now]
     ahead = round(AHEAD / SPACING)
@@ -218,7 +218,7 @@ def _played(
 
 
 def _allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
-    """The nodes that may be played: those named, and transition phases."""
+    """Return the nodes that may be played: those named, and transition phases."""
     if not actions:
         return set(range(len(graph.nodes)))
     named = {node for name in actions for node in graph.nodes_of(name)}

@@ -56,7 +56,7 @@ def parse_actions(text: str) -> list[tuple[str, int]]:
 
 
 def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list[int]:
-    """The route of least distance in sum that plays the named primitives in this order.
+    """Return the route of least distance in sum that plays the named primitives in this order.
 
     Between two of them only transition phases may come, which have no name.
 
@@ -107,7 +107,7 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
 
 
 def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
-    """A random walk of at least ``duration`` seconds that stays where it can go on.
+    """Return a random walk of at least ``duration`` seconds that stays where it can go on.
 
     All edges of a node are equally likely; the same seed gives the same walk.
 
@@ -155,7 +155,7 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
 
 
 def following(graph: MotionGraph, name: str) -> list[str]:
-    """The super-nodes of which some primitive can come after one of ``name``.
+    """Return the super-nodes of which some primitive can come after one of ``name``.
 
     Parameters
     ----------
@@ -205,7 +205,7 @@ def _cheapest_paths(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
 
 
 def _path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
-    """The nodes from start to stop, without stop."""
+    """Return the nodes from start to stop, without stop."""
     n = len(before)
     path = [int(before[start, n + stop])]
     while path[0] != start:

@@ -46,7 +46,7 @@ class ChannelSamples:
 
 
 def channel_samples(signals: Signals) -> ChannelSamples:
-    """The samples of a recording, `RATE` a second outside of its gaps.
+    """Return the samples of a recording, `RATE` a second outside of its gaps.
 
     Examples
     --------
@@ -90,7 +90,7 @@ class Units:
 
     @classmethod
     def of(cls, means: Float32s, deviations: Float32s) -> Units:
-        """The units of these samples, (samples, channels) each."""
+        """Return the units of these samples, (samples, channels) each."""
         values, within = means.astype(np.float64), deviations.astype(np.float64)
         varies = values.std(axis=0)
         varies = np.where(varies > 0, varies, np.sqrt((within**2).mean(axis=0)))

@@ -98,7 +98,7 @@ class KnowledgeBase:
     def from_recording(
         cls, motion: Motion, segments: Segmentation, *, effectors: Names | None = None
     ) -> Self:
-        """The labelled primitives of a recording.
+        """Return the labelled primitives of a recording.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class KnowledgeBase:
 
     @classmethod
     def merged(cls, *bases: KnowledgeBase) -> Self:
-        """All primitives of all; of a recording that several hold, those of the last.
+        """Return all primitives of all; of a recording that several hold, those of the last.
 
         Raises
         ------
@@ -169,7 +169,7 @@ class KnowledgeBase:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
-        """The knowledge base in a file that `save` wrote.
+        """Return the knowledge base in a file that `save` wrote.
 
         Raises
         ------
@@ -190,21 +190,21 @@ class KnowledgeBase:
         knowledge_file.write({"features": self.features, **self.columns()}, SETTINGS, path)
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """What is known of each primitive, by name, without the features."""
+        """Return what is known of each primitive, by name, without the features."""
         names = ("lengths", "labels", "sources", "digests", "start_s", "stop_s")
         return {name: getattr(self, name) for name in names}
 
     def select(self, mask: NDArray[np.bool_]) -> Self:
-        """The primitives where the mask is true."""
+        """Return the primitives where the mask is true."""
         columns = {name: column[mask] for name, column in self.columns().items()}
         return replace(self, features=self.features[np.repeat(mask, self.lengths)], **columns)
 
     def counts(self) -> dict[str, int]:
-        """How many primitives bear each label."""
+        """Return how many primitives bear each label."""
         return dict(sorted(Counter(self.labels.tolist()).items()))
 
     def primitives(self) -> Primitives:
-        """The primitives to search; those that touch under one label are one run."""
+        """Return the primitives to search; those that touch under one label are one run."""
         follows = self.start_s[1:] == self.stop_s[:-1]
         for column in (self.labels, self.sources, self.digests):
             follows &= column[1:] == column[:-1]
@@ -220,7 +220,7 @@ class KnowledgeBase:
 
 
 def _labelled(segments: Segmentation) -> SegmentTable:
-    """The rows to learn from, with their labels."""
+    """Return the rows to learn from, with their labels."""
     rows = segments.primitives
     if len(rows):
         inherited = segments.activities.label[rows.activity]

@@ -94,7 +94,7 @@ def _check_head(head: Any, settings: dict[str, Any], path: str | PathLike[str]) 
 
 
 def holds_knowledge(path: Path) -> bool:
-    """Whether a file is a knowledge base, as far as the directory of its archive tells."""
+    """Return whether a file is a knowledge base, as far as the directory of its archive tells."""
     if path.suffix.lower() != ".npz":
         return False
     try:

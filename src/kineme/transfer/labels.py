@@ -45,7 +45,7 @@ def transfer_labels(
     threshold: float = THRESHOLD,
     spread: bool = False,
 ) -> Segmentation:
-    """The same segments, with labels from the knowledge base and the margin as confidence.
+    """Return the same segments, with labels from the knowledge base and the margin as confidence.
 
     A recording without activities, as one that is too short to repeat anything, is searched for
     every known primitive, and cut into what is found. Labels that are there already stay. An
@@ -125,7 +125,7 @@ def transfer_labels(
 
 
 def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segmentation:
-    """The same segments, each called as most of its frames are in ``labels``.
+    """Return the same segments, each called as most of its frames are in ``labels``.
 
     Parameters
     ----------
@@ -241,7 +241,7 @@ def _spread_in_clusters(
 
 
 def _activity_labels(segmentation: Segmentation, labels: NDArray[Any]) -> list[str]:
-    """The label of each activity: its own, else that of more than half of its frames."""
+    """Return the label of each activity: its own, else that of more than half of its frames."""
     primitives = segmentation.primitives
     names = []
     for row in segmentation.activities:
@@ -267,7 +267,7 @@ def _checked(features: ArrayLike, segmentation: Segmentation) -> Floats:
 
 
 def _primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
-    """The rows with their frames; those of a cluster that touch are a run."""
+    """Return the rows with their frames; those of a cluster that touch are a run."""
     starts, stops = working_frames(rows, fps, len(features))
     follows = (rows.start_frame[1:] == rows.stop_frame[:-1]) & (
         rows.cluster[1:] == rows.cluster[:-1]

@@ -57,7 +57,7 @@ class Primitives:
 
     @cached_property
     def frame_runs(self) -> Ints:
-        """The run of each frame."""
+        """Return the run of each frame."""
         return np.repeat(self.runs, self.lengths)
 
     def __len__(self) -> int:
@@ -81,7 +81,7 @@ def label_costs(
 
 
 def mutual_matches(unknown: Primitives, examples: Primitives, radius: float) -> Matches:
-    """Every match of an unknown primitive with a run of known ones: number, run, cost."""
+    """Return every match of an unknown primitive with a run of known ones: number, run, cost."""
     u, example_run, forward = _matches_within(unknown, examples, np.arange(len(unknown)), radius)
     reached = np.flatnonzero(np.isin(examples.runs, example_run))
     k, unknown_run, backward = _matches_within(examples, unknown, reached, radius)
@@ -127,7 +127,7 @@ def _matches_within(
 
 
 def _with_walls(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
-    """The features with a wall after each run, and where each run begins among them."""
+    """Return the features with a wall after each run, and where each run begins among them."""
     frames = np.arange(len(primitives.frame_runs)) + primitives.frame_runs
     n_runs = int(primitives.runs[-1]) + 1
     separated = np.full((len(frames) + n_runs, primitives.features.shape[1]), _WALL, np.float32)
@@ -137,7 +137,7 @@ def _with_walls(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
 
 
 def _medians(keys: Ints, costs: Floats, sizes: Ints) -> tuple[Ints, Floats]:
-    """Each key once, ascending, with the lower median of its costs.
+    """Return each key once, ascending, with the lower median of its costs.
 
     ``keys % len(sizes)`` is a run, of so many primitives; where less than half of them have a
     cost, the key is left out.

@@ -33,7 +33,7 @@ def share_clusters(
     threshold: float = THRESHOLD,
     n_clusters: int | None = None,
 ) -> list[Segmentation]:
-    """The same segments, in which equal cluster numbers are equal movements everywhere.
+    """Return the same segments, in which equal cluster numbers are equal movements everywhere.
 
     Of motions the clusters of the first keep their numbers. A later cluster takes the number that
     most of its members match in the recordings before, if more than half match it. Of two clusters
@@ -94,7 +94,7 @@ def share_clusters(
 def _numbered_on(
     motions: Sequence[Motion], segmentations: Sequence[Segmentation], threshold: float
 ) -> list[Segmentation]:
-    """The clusters of motions by the numbers of those before, or by the next ones."""
+    """Return the clusters of motions by the numbers of those before, or by the next ones."""
     base: KnowledgeBase | None = None
     shared, following = [], 0
     for motion, found in zip(motions, segmentations, strict=True):
@@ -115,7 +115,7 @@ def _numbered_on(
 def _numbers_before(
     motion: Motion, found: Segmentation, base: KnowledgeBase, threshold: float
 ) -> dict[int, int]:
-    """The numbers of the clusters that are found in the knowledge."""
+    """Return the numbers of the clusters that are found in the knowledge."""
     unnamed = found.table.with_columns(label=np.full(len(found), ""))
     bare = replace(found, table=unnamed, hierarchy=None)
     named = transfer_labels(bare, transfer_features(motion), base, threshold=threshold)
@@ -134,7 +134,7 @@ def _numbers_before(
 
 
 def _named_by_cluster(found: Segmentation) -> Segmentation:
-    """Every segment of a cluster labelled with its number, all others without label."""
+    """Return every segment of a cluster labelled with its number, all others without label."""
     labels: NDArray[np.str_] = np.array(
         [str(c) if c >= 0 else "" for c in found.table.cluster.tolist()]
     )

@@ -89,7 +89,7 @@ def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmen
 
 
 def _tiled(rows: list[Row], n_frames: int) -> list[Row]:
-    """The rows, and what lies between them without a label."""
+    """Return the rows, and what lies between them without a label."""
     tiled: list[Row] = []
     at = 0
     for start, stop, label in [*rows, (n_frames, n_frames, "")]:

@@ -36,7 +36,7 @@ def share_by_samples(
     *,
     n_clusters: int | None = None,
 ) -> list[Segmentation]:
-    """The same segments, in which equal cluster numbers are equal movements everywhere.
+    """Return the same segments, in which equal cluster numbers are equal movements everywhere.
 
     Repetitions have the cluster of their activity, transitions none. Where no number of clusters is
     given, `likely_number` tells it.
@@ -59,7 +59,7 @@ def share_by_samples(
 
 
 def centres_of(points: Float32s, n_clusters: int) -> Float32s:
-    """The best centres of `STARTS` runs of k-means; fewer where no so many points differ."""
+    """Return the best centres of `STARTS` runs of k-means; fewer where no so many points differ."""
     from sklearn.cluster import KMeans
 
     count = min(n_clusters, len(np.unique(points, axis=0)))
@@ -71,7 +71,7 @@ def centres_of(points: Float32s, n_clusters: int) -> Float32s:
 
 
 def _typical(samples: ChannelSamples, features: Float32s, found: Segmentation) -> Floats:
-    """The mean features of each activity; of a short one those of the sample before."""
+    """Return the mean features of each activity; of a short one those of the sample before."""
     rows = found.activities
     sums = np.concatenate([np.zeros((1, features.shape[1])), np.cumsum(features, 0, np.float64)])
     first = np.searchsorted(samples.frames, rows.start_frame)
@@ -82,7 +82,7 @@ def _typical(samples: ChannelSamples, features: Float32s, found: Segmentation) -
 
 
 def likely_number(points: Float32s) -> int:
-    """How many clusters points have: one more must explain `WORTH` of their variance.
+    """Return how many clusters points have: one more must explain `WORTH` of their variance.
 
     Examples
     --------

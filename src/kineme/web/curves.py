@@ -49,7 +49,7 @@ class Curves:
         self._lock = Lock()
 
     def head(self) -> CurveList:
-        """Which curves there are, and how their tiles are asked for."""
+        """Return which curves there are, and how their tiles are asked for."""
         curves = [Curve(name=each.name, group=each.group, unit=each.unit) for each in self._drawn]
         return CurveList(
             curves=curves, factor=FACTOR, tile=TILE, levels=len(level_sizes(self.n_frames))
@@ -83,7 +83,7 @@ class Curves:
 
 
 def recorded(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Signals:
-    """The recording; signals where it is an array (frames, channels) of that rate."""
+    """Return the recording; signals where it is an array (frames, channels) of that rate."""
     if isinstance(recording, Motion | Signals):
         return recording
     return Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
@@ -92,7 +92,7 @@ def recorded(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Si
 def curves_of(
     recording: Motion | Signals | ArrayLike, fps: float, most_bytes: int = MOST_BYTES
 ) -> tuple[CurveList, dict[str, bytes]]:
-    """The curves of signals, with tiles by "curve/level/number", for a page that cannot ask.
+    """Return the curves of signals, with tiles by "curve/level/number", for a page that cannot ask.
 
     ``fps`` is that of an array (frames, channels). Finer levels are left out where all together
     would be longer than ``most_bytes``.
@@ -132,7 +132,7 @@ def levels_of(values: Floats) -> list[Pairs]:
 
 
 def level_sizes(n_frames: int) -> list[int]:
-    """How many bins each level has."""
+    """Return how many bins each level has."""
     sizes = [n_frames]
     while sizes[-1] > TILE:
         sizes.append(ceil(sizes[-1] / FACTOR))

@@ -156,7 +156,7 @@ class CycleCurves:
         )
 
     def report(self, table: Segmentation, others: Sequence[Segmentation] = ()) -> ReportCurves:
-        """The curves of all clusters, of as many channels and cycles as fit into a page.
+        """Return the curves of all clusters, of as many channels and cycles as fit into a page.
 
         ``others`` are the tables at other details, of which long recordings have none.
         """
@@ -222,7 +222,7 @@ class CycleCurves:
     def _together(
         self, table: Segmentation, other: CycleCurves, other_table: Segmentation
     ) -> tuple[Cycles, Cycles]:
-        """The cycles of both, without channels; movements of one name begin at one phase."""
+        """Return the cycles of both, without channels; movements of one name begin at one phase."""
         from kineme.cycles.measure import cycles, with_left_out
 
         tables = table, other_table
@@ -236,7 +236,7 @@ class CycleCurves:
         return _with_frames(found.select(first), table), found.select(~first)
 
     def _measured(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
-        """The cycles with these channels."""
+        """Return the cycles with these channels."""
         with self._lock:
             return self._with_channels(cycles, names)
 
@@ -263,18 +263,18 @@ class CycleCurves:
 
 
 def _in_memory(channel: Channel) -> Channel:
-    """The same channel with its numbers, without the recording that they come from."""
+    """Return the same channel with its numbers, without the recording that they come from."""
     values = channel.values()
     return replace(channel, compute=lambda: values, gaps=())
 
 
 def _timed(table: Segmentation, recording: Motion | Signals) -> Segmentation:
-    """The table at the rate of its recording, without what people say of its segments."""
+    """Return the table at the rate of its recording, without what people say of its segments."""
     return replace(table, fps=recording.fps, annotation=NO_ANNOTATION)
 
 
 def _same_segments(before: Sequence[Segmentation | None], now: Sequence[Segmentation]) -> bool:
-    """Whether the tables have the same segments, whatever people say of them."""
+    """Return whether the tables have the same segments, whatever people say of them."""
     return all(
         old is new or (old is not None and (old.table, old.fps) == (new.table, new.fps))
         for old, new in zip(before, now, strict=True)
@@ -282,7 +282,7 @@ def _same_segments(before: Sequence[Segmentation | None], now: Sequence[Segmenta
 
 
 def _with_frames(cycles: Cycles, table: Segmentation) -> Cycles:
-    """The cycles of a table with the first frames of their segments."""
+    """Return the cycles of a table with the first frames of their segments."""
     frames = [row.start_frame for row in table.primitives if row.kind == "primitive"]
     columns = {**cycles.columns, "segment_frame": np.array(frames, np.int64)}
     return replace(cycles, columns=columns)
@@ -293,7 +293,7 @@ def _clusters(cycles: Cycles) -> list[int]:
 
 
 def _spans(cycles: Cycles) -> tuple[object, ...]:
-    """All that curves of these cycles depend on."""
+    """Return all that curves of these cycles depend on."""
     names = ("start_s", "stop_s", "place", "excluded")
     return _turned(cycles), *(tuple(cycles.columns[name].tolist()) for name in names)
 
@@ -312,7 +312,7 @@ def _with_opposite_in(head: CycleChannel, names: Sequence[str]) -> CycleChannel:
 
 
 def _rows_of(cycles: Cycles, cluster: int) -> NDArray[np.bool_]:
-    """Which cycles are of the group of a cluster: its own, and those with the same name."""
+    """Return which cycles are of the group of a cluster: its own, and those with the same name."""
     groups = cycles.columns["group"][cycles.columns["cluster"] == cluster]
     if cluster < 0 or len(groups) == 0:
         return np.zeros(len(cycles), bool)
@@ -320,7 +320,7 @@ def _rows_of(cycles: Cycles, cluster: int) -> NDArray[np.bool_]:
 
 
 def _liveliest(group: Cycles, every: Cycles) -> list[str]:
-    """The channels, the one whose mean goes farthest first.
+    """Return the channels, the one whose mean goes farthest first.
 
     Without a unit, as a share of what the channel spans in all cycles.
     """
@@ -349,12 +349,12 @@ def _means(group: Cycles, *, ends: bool) -> dict[str, Columns]:
 
 
 def _only_ends(group: Cycles) -> bool:
-    """Whether the mean is of all cycles, as none is an inner one."""
+    """Return whether the mean is of all cycles, as none is an inner one."""
     return not group.used().any()
 
 
 def _drawn(group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool) -> ClusterCurves:
-    """The message for the cycles of a group."""
+    """Return the message for the cycles of a group."""
     from kineme.cycles.table import BY_HAND
 
     place = group.channels.index(channel)
@@ -398,7 +398,7 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool)
 
 
 def _turned(group: Cycles) -> int:
-    """How many of its activities began at another phase than the others."""
+    """Return how many of its activities began at another phase than the others."""
     place = group.columns["recording"][0], group.columns["group"][0]
     return sum((each["recording"], each["group"]) == place for each in group.provenance["turned"])
 
@@ -408,7 +408,7 @@ def _rounded(values: Floats, digits: int) -> list[float | None]:
 
 
 def _digits(extent: float) -> int:
-    """How many digits after the point numbers of this extent are told with."""
+    """Return how many digits after the point numbers of this extent are told with."""
     return DIGITS - 1 - floor(log10(extent)) if extent > 0 else DIGITS
 
 

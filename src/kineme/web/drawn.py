@@ -30,7 +30,7 @@ class Drawn:
     of_frames: bool = True
 
     def with_gaps(self, recording: Motion | Signals) -> Floats:
-        """The values, nan in gaps."""
+        """Return the values, nan in gaps."""
         values = np.array(self.values(recording), np.float64)
         for start, stop in recording.gaps if self.of_frames else ():
             values[start:stop] = np.nan
@@ -38,7 +38,7 @@ class Drawn:
 
 
 def of_signals(signals: Signals) -> list[Drawn]:
-    """Each channel."""
+    """Return each channel."""
     return [Drawn(name, "channels", "", _channel(i)) for i, name in enumerate(signals.names)]
 
 
@@ -69,7 +69,7 @@ def _in_frames(number: int, n_frames: int, fps: float) -> Callable[[Motion | Sig
 
 
 def of_motion(motion: Motion) -> list[Drawn]:
-    """The body's angles; height, place and speed of each joint, and how far it is bent."""
+    """Return the body's angles; height, place and speed of each joint, and how far it is bent."""
     names, parents = motion.skeleton.names, motion.skeleton.parents
     lengths = np.linalg.norm(motion.skeleton.offsets, axis=1)
     drawn = [Drawn(name, "height", "m", _place(i, 1)) for i, name in enumerate(names)]

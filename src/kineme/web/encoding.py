@@ -13,7 +13,7 @@ Message = TypeVar("Message")
 
 
 def to_json(message: object) -> bytes:
-    """A message as JSON; numbers that are not finite are null.
+    """Return a message as JSON; numbers that are not finite are null.
 
     What is not Unicode in the name of a file becomes "?".
 
@@ -29,7 +29,7 @@ def to_json(message: object) -> bytes:
 
 
 def from_json(body: bytes, kind: type[Message]) -> Message:
-    """The message in a body, whose fields are of their types and within their limits.
+    """Return the message in a body, whose fields are of their types and within their limits.
 
     ParameterError where it is no such message: which field, and what is wrong with it.
 

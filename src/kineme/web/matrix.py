@@ -53,7 +53,7 @@ class Matrix:
         return MatrixHead(fps=self.fps, tile=TILE, sizes=sizes, band=band)
 
     def tile(self, level: int, row: int, column: int) -> bytes | None:
-        """The PNG of a tile; None where there is no such one."""
+        """Return the PNG of a tile; None where there is no such one."""
         if not 0 <= level < len(self.levels) or min(row, column) < 0:
             return None
         features = self.levels[level]
@@ -63,7 +63,7 @@ class Matrix:
         return _png(_similarity(down, across))
 
     def report_tiles(self, most_bytes: int = MOST_BYTES) -> tuple[dict[str, bytes], int | None]:
-        """The tiles of a report by "level/row/column", and the band of cells that they fill.
+        """Return the tiles of a report by "level/row/column", and the band of cells that they fill.
 
         Those on and below the diagonal: all of the coarse levels; of the fine ones those at the
         diagonal, then those next to it, as long as there is room. The band is None if none was left
@@ -138,7 +138,7 @@ def _similarity(down: NDArray[np.float32], across: NDArray[np.float32]) -> NDArr
 
 
 def _png(shares: NDArray[np.float32]) -> bytes:
-    """A grey picture of 4 bits per pixel, from shares of white."""
+    """Return a grey picture of 4 bits per pixel, from shares of white."""
     height, width = shares.shape
     shades = np.zeros((height, width + width % 2), np.uint8)
     shades[:, :width] = np.rint(15 * shares)

@@ -76,7 +76,7 @@ def recording_message(
     band: int | None = None,
     levels: bool = False,
 ) -> Recording:
-    """The message that goes with the binary parts of a report, and with tiles of this band.
+    """Return the message that goes with the binary parts of a report, and with tiles of this band.
 
     With ``levels`` the tables at all details go along, unless they are too long. ParameterError
     where the segments are of a recording of another length or frame rate.

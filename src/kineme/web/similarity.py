@@ -49,7 +49,7 @@ def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matri
 
 
 def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
-    """The matrix of any signal (frames, channels) or (frames,); nan for what was not seen.
+    """Return the matrix of any signal (frames, channels) or (frames,); nan for what was not seen.
 
     ParameterError for what is no such signal, or a frame rate that is not positive.
 

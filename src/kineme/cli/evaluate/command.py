@@ -199,7 +199,7 @@ def _give(records: Sequence[Mapping[str, Any]], output: Path | None, *, as_json:
 
 
 def _benchmark() -> Callable[..., list[dict[str, Any]]]:
-    """What runs the benchmark: it comes with a package of its own, which names it."""
+    """Return what runs the benchmark: it comes with a package of its own, which names it."""
     from importlib.metadata import entry_points
 
     for point in entry_points(group="kineme.benchmarks", name=BENCHMARK):
@@ -211,7 +211,7 @@ def _benchmark() -> Callable[..., list[dict[str, Any]]]:
 
 
 def _listed(*texts: str | None) -> tuple[str, ...]:
-    """The names in texts with commas between them."""
+    """Return the names in texts with commas between them."""
     names = (name.strip() for text in texts if text for name in text.split(","))
     return tuple(name for name in names if name)
 

@@ -25,7 +25,7 @@ def score_file(
     *,
     quiet: bool,
 ) -> list[dict[str, Any]]:
-    """The scores of a result as records; printed unless quiet."""
+    """Return the scores of a result as records; printed unless quiet."""
     found = read_result(path, fps=fps)
     n_frames, rate = comparison(found)
     if is_annotations(labels):
@@ -48,7 +48,7 @@ def score_file(
 
 
 def _motion_of(found: Segmentation) -> tuple[Motion | None, str]:
-    """The motion that a result names, or why there is none that its scores could use."""
+    """Return the motion that a result names, or why there is none that its scores could use."""
     source = recording_of(found)
     if source is None:
         return None, "the recording is not at hand (--recording FILE)"

@@ -117,7 +117,7 @@ def build(
 
 
 def _is_much(files: Sequence[Path], into: Path) -> bool:
-    """Whether there is work for several processes, as far as a glance tells."""
+    """Return whether there is work for several processes, as far as a glance tells."""
     from kineme.library.storage.layout import HEAD
 
     fresh = not (into / HEAD).exists()

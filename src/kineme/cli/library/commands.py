@@ -27,7 +27,7 @@ SHOWN = 1000
 
 
 def path_or_url(text: str) -> Path:
-    """A place that was typed."""
+    """Return a place that was typed."""
     from kineme.errors import KinemeError
     from kineme.library.storage.places import place
 

@@ -123,7 +123,7 @@ def search(
 
 
 def _example(text: str) -> Example:
-    """A recording and its span, as typed; one whose name looks like that is itself."""
+    """Return a recording and its span, as typed; one whose name looks like that is itself."""
     found = None if Path(text).exists() else _SPAN.fullmatch(text)
     if found is None:
         return _example_of(text, 0.0, None)

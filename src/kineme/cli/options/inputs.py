@@ -81,7 +81,7 @@ class Batch:
 
     @property
     def single(self) -> bool:
-        """Whether there is one recording, given by its own name."""
+        """Return whether there is one recording, given by its own name."""
         return len(self.paths) == 1 and self._is_named(self.paths[0])
 
     def targets(self, option: str, given: Path | None, suffix: str) -> list[Path | None]:
@@ -91,12 +91,12 @@ class Batch:
         return [*self.files(option, given, suffix)]
 
     def files(self, option: str, given: Path, suffix: str = "") -> list[Path]:
-        """The same where the option is never left out."""
+        """Return the same where the option is never left out."""
         with self._nothing_without():
             return files_for(option, given, self.paths, suffix)
 
     def folders(self, option: str, given: Path) -> list[Path]:
-        """The folder that each recording gets; the one given where it is a single one's."""
+        """Return the folder that each recording gets; the one given where it is a single one's."""
         with self._nothing_without():
             return folders_for(option, given, self.paths, single=self.single)
 
@@ -162,7 +162,7 @@ class Batch:
         self._missing |= {path} if named else set()
 
     def progress(self, path: Path) -> AbstractContextManager[Callable[[str], None]]:
-        """A function that shows the stage at work on the recording whose turn it is."""
+        """Return a function that shows the stage at work on the recording whose turn it is."""
         turn = f" ({self._at} of {len(self.paths)})" if len(self.paths) > 1 else ""
         return progress(f"{path.name}{turn}", quiet=self._quiet)
 
@@ -197,7 +197,7 @@ class Batch:
         return listing.recordings
 
     def _is_named(self, path: Path) -> bool:
-        """Whether a recording was asked for by its own name, not found in a folder."""
+        """Return whether a recording was asked for by its own name, not found in a folder."""
         place = absolute(path)
         return any(absolute(origin) == place for origin in self._given_as[place])
 

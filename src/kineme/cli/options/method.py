@@ -100,7 +100,7 @@ def parsed(constant: Constant, text: str) -> Any:
 
 
 def shown(value: Any) -> str:
-    """A value as it would be typed, numbers to four digits.
+    """Return a value as it would be typed, numbers to four digits.
 
     Examples
     --------
@@ -119,7 +119,7 @@ def shown(value: Any) -> str:
 
 
 def _words(hint: Any) -> str:
-    """What values of a type are, before the values that they may take."""
+    """Return what values of a type are, before the values that they may take."""
     members = get_args(hint)
     if NoneType in members:
         hint = _without_none(hint)

@@ -68,7 +68,7 @@ def asks(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable
 
 
 def of_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
-    """Whether all the people in a file are asked for, and how it is read otherwise."""
+    """Return whether all the people in a file are asked for, and how it is read otherwise."""
     if reading.get("person") != EVERYBODY:
         return False, reading
     return True, {name: value for name, value in reading.items() if name != "person"}
@@ -94,7 +94,7 @@ class Request:
         effectors: str | None = None,
         **reading: Any,
     ) -> Request:
-        """The options as they were typed; typer.BadParameter where one makes no sense."""
+        """Return the options as they were typed; typer.BadParameter where one makes no sense."""
         keywords = keywords_of(reading)
         is_default = not any((preset, detail, constants, effectors, keywords))
         chosen, detail = preset or DEFAULT, DEFAULT_DETAIL if detail is None else detail
@@ -121,13 +121,13 @@ class Request:
         return str(self.reading.get("person", ""))
 
     def read(self, path: Path) -> Motion | Signals:
-        """The recording in a file, of the kind that it is or was said to be."""
+        """Return the recording in a file, of the kind that it is or was said to be."""
         from kineme.formats import read
 
         return read(path, **self.reading)
 
     def of_each_person(self, path: Path) -> list[tuple[str, Request]]:
-        """The people in a file where all are asked for, and what is asked of each of them.
+        """Return the people in a file where all are asked for, and what is asked of each of them.
 
         A single one, or the one who was named, goes without a name.
         """
@@ -142,13 +142,13 @@ class Request:
         return [(who, replace(self, reading={**others, "person": who})) for who in people]
 
     def read_motion(self, path: Path) -> Motion:
-        """The motion in a file; ReadError for signals, which have no body to compare."""
+        """Return the motion in a file; ReadError for signals, which have no body to compare."""
         from kineme.formats import read_motion
 
         return read_motion(path, **self.reading)
 
     def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
-        """The segments at the detail asked for, and what was found on the way to them."""
+        """Return the segments at the detail asked for, and what was found on the way to them."""
         from kineme.segmentation.segmenter import segmented
 
         with telling_of_compiling(stage):
@@ -158,7 +158,7 @@ class Request:
     def segments(
         self, recording: Motion | Signals, table: Path | None, stage: Stage
     ) -> Segmentation:
-        """The segments in a table or label file; without one those that are found."""
+        """Return the segments in a table or label file; without one those that are found."""
         if table is None:
             return self.segment(recording, stage)[0]
         from kineme.labels.collections import labels_for
@@ -172,7 +172,7 @@ class Request:
         )
 
     def drawn(self, recording: Motion | Signals) -> Motion | Signals:
-        """The recording as a page compares its frames: muscles by their envelopes."""
+        """Return the recording as a page compares its frames: muscles by their envelopes."""
         from kineme.recordings import Signals
 
         if not (self.options.emg and isinstance(recording, Signals)):

@@ -113,7 +113,7 @@ def make_folder_of(path: Path) -> None:
 
 
 def absolute(path: Path) -> Path:
-    """The path from the root, under the names that it was given: links are not followed."""
+    """Return the path from the root, under the names that it was given: links are not followed."""
     return Path(os.path.abspath(path))  # noqa: PTH100
 
 
@@ -122,7 +122,7 @@ def _is_folder(given: Path) -> bool:
 
 
 def _one_each(option: str, pattern: Path, inputs: list[Path]) -> list[Path]:
-    """The pattern filled in for each recording, all of them different."""
+    """Return the pattern filled in for each recording, all of them different."""
     if len(inputs) > 1 and not _FIELD.search(str(pattern)):
         raise typer.BadParameter(
             f"one file for {len(inputs)} recordings; give a folder or a name with {NAME} in it",
@@ -162,7 +162,7 @@ def _names(inputs: list[Path]) -> list[str]:
 
 
 def _filled(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> Path:
-    """The pattern with a recording's name and folder, and more of its folders the deeper."""
+    """Return the pattern with a recording's name and folder, and more of its folders the deeper."""
     if PARENT in str(pattern):
         parent = "_".join(folders[-1 - depth :])
     else:
@@ -172,7 +172,7 @@ def _filled(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> P
 
 
 def _kept(path: Path, recordings: set[Path]) -> Path:
-    """The first file of a name, with one of the suffixes of tables, that is no recording."""
+    """Return the first file of a name, with one of the suffixes of tables, that is no recording."""
     from kineme.labels import written_suffixes
 
     candidates = [path.with_name(path.name + suffix) for suffix in (CORRECTED, *written_suffixes())]

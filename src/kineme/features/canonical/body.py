@@ -126,7 +126,7 @@ def _leg_length(joints: Joints) -> float:
 
 
 def _facing_ahead(points: Floats, to_left: Floats) -> Floats:
-    """The points of each frame turned about y so that what points to the left lies along +x.
+    """Return the points of each frame turned about y so that what points to the left lies along +x.
 
     Where that stands upright the heading of the nearest frame that has one is taken.
     """

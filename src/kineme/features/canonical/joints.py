@@ -39,7 +39,7 @@ _TWISTS = frozenset({"twist", "roll"})
 
 
 def canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[str, Points]:
-    """For each of `JOINTS` the points of the motion whose middle it is.
+    """Return for each of `JOINTS` the points of the motion whose middle it is.
 
     Knees, elbows and shoulders that were not found are not there.
 
@@ -79,7 +79,7 @@ def canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[
 
 
 def _named(parts: tuple[str, str, str], limbs: Sequence[Sequence[int]]) -> dict[str, Points]:
-    """The joints of a left and a right limb by name; a limb may lack what comes first."""
+    """Return the joints of a left and a right limb by name; a limb may lack what comes first."""
     return {
         f"{side}_{part}": (joint,)
         for side, limb in zip(("left", "right"), limbs, strict=True)
@@ -96,7 +96,7 @@ def _limbs(skeleton: Skeleton, left: int, right: int) -> list[tuple[int, int, in
 
 
 def _ancestry(skeleton: Skeleton, joint: int) -> list[int]:
-    """The joints from the root down to ``joint``."""
+    """Return the joints from the root down to ``joint``."""
     chain = [joint]
     while skeleton.parents[chain[-1]] >= 0:
         chain.append(skeleton.parents[chain[-1]])

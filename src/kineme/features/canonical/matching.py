@@ -105,7 +105,7 @@ def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
 def features_and_poses(
     motion: Motion, *, effectors: Names | None = None, mirrored: bool = False
 ) -> tuple[NDArray[np.float32], Floats]:
-    """What `matching_features` and `matching_poses` give, of one look at the body."""
+    """Return what `matching_features` and `matching_poses` give, of one look at the body."""
     at_rate = resample(motion, POSE_FPS)
     poses = poses_of(at_rate, effectors=effectors)
     stacked = stacked_poses(mirror_poses(poses) if mirrored else poses)
@@ -164,7 +164,7 @@ def _mirror() -> Floats:
 
 @cache
 def basis() -> tuple[Floats, Floats]:
-    """The mean (85,) and the axes (85, 40), each over its shrunk deviation."""
+    """Return the mean (85,) and the axes (85, 40), each over its shrunk deviation."""
     with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
 
@@ -175,7 +175,7 @@ def _unit_vectors(values: NDArray[np.floating]) -> NDArray[np.float32]:
 
 
 def _smoothed(positions: Floats) -> Floats:
-    """A weighted mean over five frames; at the ends the outermost frame is repeated."""
+    """Return a weighted mean over five frames; at the ends the outermost frame is repeated."""
     longer = np.concatenate([positions[:1]] * 2 + [positions] + [positions[-1:]] * 2)
     smoothed = np.zeros_like(positions)
     for k, weight in enumerate(_SMOOTHING):

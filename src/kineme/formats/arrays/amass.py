@@ -63,7 +63,7 @@ _N_TURNING = len(_JOINTS) - 1
 def poses_to_motion(
     content: FileContent, arrays: Mapping[str, Any], options: ReadOptions
 ) -> Motion:
-    """The motion of the body that ``poses`` and ``trans`` describe."""
+    """Return the motion of the body that ``poses`` and ``trans`` describe."""
     poses = _checked(content, arrays, "poses")
     if poses.shape[1] not in WIDTHS:
         raise content.error(
@@ -96,7 +96,7 @@ def poses_to_motion(
 
 
 def smpl_skeleton() -> Skeleton:
-    """The joints that SMPL, SMPL-H and SMPL-X share, at average lengths, and a crown."""
+    """Return the joints that SMPL, SMPL-H and SMPL-X share, at average lengths, and a crown."""
     names = tuple(name for name, _, _ in _JOINTS)
     parents = tuple(-1 if parent is None else names.index(parent) for _, parent, _ in _JOINTS)
     offsets = np.array([offset for _, _, offset in _JOINTS])
@@ -116,7 +116,7 @@ def _checked(content: FileContent, arrays: Mapping[str, Any], name: str) -> Floa
 
 
 def rate_in(content: FileContent, arrays: Mapping[str, Any], names: Sequence[str]) -> float:
-    """The frame rate under the first of the names that has one."""
+    """Return the frame rate under the first of the names that has one."""
     for name in names:
         if name in arrays and arrays[name].size == 1 and arrays[name].dtype.kind in "iuf":
             rate = float(arrays[name].item())

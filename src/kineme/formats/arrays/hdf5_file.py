@@ -28,7 +28,7 @@ _DAMAGE = (
 
 
 def parse_hdf5(content: FileContent) -> dict[str, Any]:
-    """The contents of an HDF5 file by name; ReadError where it is none or damaged."""
+    """Return the contents of an HDF5 file by name; ReadError where it is none or damaged."""
     with needed("h5py", "hdf5"):
         import h5py
     try:
@@ -51,7 +51,7 @@ class _Reader:
         self.content.claim(self.claimed, "to unpack to much more than it holds")
 
     def group(self, group: Any, depth: int) -> dict[str, Any]:
-        """What lies in a group, each time that it is linked to."""
+        """Return what lies in a group, each time that it is linked to."""
         import h5py
 
         if depth > _DEEPEST:
@@ -86,14 +86,14 @@ class _Reader:
         return _plain(item)
 
     def cells(self, item: Any, depth: int) -> list[Any]:
-        """What the references of a data set point to."""
+        """Return what the references of a data set point to."""
         if depth > _DEEPEST:
             raise ValueError("cells too deep in one another")
         return [self.value(self.file[ref], depth + 1) for ref in item[()].ravel() if ref]
 
 
 def _plain(item: Any) -> Any:
-    """A data set of numbers or texts; None if of anything else."""
+    """Return a data set of numbers or texts; None if of anything else."""
     import h5py
 
     if h5py.check_string_dtype(item.dtype) is not None:
@@ -110,7 +110,7 @@ def _plain(item: Any) -> Any:
 
 
 def texts(value: Any) -> list[str]:
-    """The texts in a value, whether a list of them, one, or fixed-length bytes."""
+    """Return the texts in a value, whether a list of them, one, or fixed-length bytes."""
     if isinstance(value, str):
         return [value]
     if isinstance(value, np.ndarray) and value.dtype.kind == "S":

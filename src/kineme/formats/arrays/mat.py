@@ -43,7 +43,7 @@ _RATES = (
 
 
 def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    """The motion in a MAT file, or the channels where it holds no joints."""
+    """Return the motion in a MAT file, or the channels where it holds no joints."""
     variables = mat_variables(content)
     labeled = _labeled(variables)
     if labeled is not None and not options.channels:
@@ -56,7 +56,7 @@ def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:
 
 
 def mat_variables(content: FileContent) -> dict[str, Any]:
-    """The variables of a MAT file of either kind, by name."""
+    """Return the variables of a MAT file of either kind, by name."""
     is_hdf5 = content.data.startswith(SIGNATURE) or content.data[512:520] == SIGNATURE
     variables = parse_hdf5(content) if is_hdf5 else parse_mat(content)
     if not variables:
@@ -83,7 +83,7 @@ def arrays_of(variables: Mapping[str, Any]) -> dict[str, Array]:
 def channels_of(
     content: FileContent, arrays: Arrays, columns: Sequence[str] | None
 ) -> ChannelTable:
-    """The channels in a MAT file's arrays: those named, or those of the most usual length.
+    """Return the channels in a MAT file's arrays: those named, or those of the most usual length.
 
     A matrix is a channel for each column, ``NAME_1`` and so on; its longer side is time.
     """
@@ -120,7 +120,7 @@ def channels_of(
 
 
 def _hold_channels(arrays: Arrays) -> bool:
-    """Whether none of the arrays is joints' positions, by their names and shapes."""
+    """Return whether none of the arrays is joints' positions, by their names and shapes."""
     if {"poses", "positions"} & arrays.keys():
         return False
     flat = [name for name, array in arrays.items() if array.ndim <= 1]

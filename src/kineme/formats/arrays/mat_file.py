@@ -46,7 +46,7 @@ class _DamagedError(ValueError):
 
 
 def parse_mat(content: FileContent) -> dict[str, Value]:
-    """The variables of a MAT file by name; ReadError where it is none or damaged."""
+    """Return the variables of a MAT file by name; ReadError where it is none or damaged."""
     data = memoryview(content.data)
     order = {b"IM": "<", b"MI": ">"}.get(bytes(data[126:128]))
     if len(data) < _HEADER or order is None:
@@ -150,7 +150,7 @@ def _shaped(flat: Array, shape: list[int]) -> Array:
 
 
 def _text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
-    """A text; of several rows, a list of them without the blanks at their ends."""
+    """Return a text; of several rows, a list of them without the blanks at their ends."""
     if kind in _TEXTS:
         coding = _TEXTS[kind] + ("" if kind == 16 else "-le" if order == "<" else "-be")
         letters = list(bytes(data).decode(coding, "replace"))
@@ -165,7 +165,7 @@ def _text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
 
 
 def _fields(parts: Iterator[tuple[int, Bytes]], shape: list[int], order: str, depth: int) -> Value:
-    """The fields of a structure by name; of several structures, those of the first."""
+    """Return the fields of a structure by name; of several structures, those of the first."""
     width = _counts(_next(parts), order)
     names = bytes(_next(parts)[1])
     if len(width) != 1 or width[0] < 1 or 0 in shape:

@@ -33,7 +33,7 @@ _RATES = ("fps", "framerate", "frame_rate", "FrameRate", "rate")
 def arrays_to_motion(
     content: FileContent, name: str, arrays: Arrays, options: ReadOptions
 ) -> Motion:
-    """The motion that named arrays describe; ``name`` is that of the format."""
+    """Return the motion that named arrays describe; ``name`` is that of the format."""
     if "poses" in arrays:
         return poses_to_motion(content, arrays, options)
     if "positions" in arrays:
@@ -48,7 +48,7 @@ def arrays_to_motion(
 def positions_to_motion(
     content: FileContent, name: str, arrays: Arrays, options: ReadOptions
 ) -> Motion:
-    """The motion in ``positions``, and in what lies beside them."""
+    """Return the motion in ``positions``, and in what lies beside them."""
     positions = _numbers(content, arrays, "positions")
     if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
         raise content.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
@@ -68,7 +68,7 @@ def positions_to_motion(
 
 
 def _tracks(arrays: Arrays) -> Arrays:
-    """The arrays (frames, 3), of the number of frames that most of them have."""
+    """Return the arrays (frames, 3), of the number of frames that most of them have."""
     tracks = {key: a for key, a in arrays.items() if a.ndim == 2 and a.shape[1] == 3}
     lengths = Counter(len(track) for track in tracks.values())
     usual = max(lengths, key=lambda n: (lengths[n], n), default=0)
@@ -78,7 +78,7 @@ def _tracks(arrays: Arrays) -> Arrays:
 def _as_written(
     content: FileContent, name: str, arrays: Arrays, positions: Array, fps: float
 ) -> Motion:
-    """What kineme wrote, as it was."""
+    """Return what kineme wrote, as it was."""
     n = positions.shape[1]
     offsets = _numbers(content, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
     parents = _integers(content, arrays, "parents")

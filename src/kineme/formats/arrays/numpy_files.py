@@ -40,12 +40,12 @@ _HEADER_DAMAGE = (
 
 
 def read_npz(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion in an npz archive."""
+    """Return the motion in an npz archive."""
     return arrays_to_motion(content, "npz", members(content), options)
 
 
 def read_npy(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion in an npy array."""
+    """Return the motion in an npy array."""
     array = _array(content, content.data, "the array")
     if array.dtype.names:
         columns = {name: array[name] for name in array.dtype.names}
@@ -100,7 +100,7 @@ def _is_pickled(data: bytes) -> bool:
 
 
 def _array(content: FileContent, data: bytes, name: str) -> Array:
-    """The array that npy bytes hold, a view of them."""
+    """Return the array that npy bytes hold, a view of them."""
     file = io.BytesIO(data)
     try:
         first = npy_format.read_magic(file) == (1, 0)

@@ -93,7 +93,7 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
 
 
 def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
-    """The channels of a text table: those named, in this order, or all that hold numbers."""
+    """Return the channels of a text table: those named, in this order, or all that hold numbers."""
     text = text.numbered()
     text.refuse_interleaved()
     names, numeric, times = list(text.names), text.numeric(), text.times
@@ -110,7 +110,7 @@ def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> Channel
 
 
 def rate_above(rate: float) -> str:
-    """The note on a rate that stands above the names of a table."""
+    """Return the note on a rate that stands above the names of a table."""
     return f"{rate:g} Hz, as a line above the columns says"
 
 
@@ -121,7 +121,7 @@ def asked_for(
     numeric: Sequence[str],
     times: Container[str] = (),
 ) -> list[str] | None:
-    """The columns that are asked for, in this order; None for all.
+    """Return the columns that are asked for, in this order; None for all.
 
     A name is that column. ``acc_*`` and ``gyr_?`` are all columns of numbers that they fit, in
     the order of the file, but for times; capitals and small letters are the same.
@@ -151,7 +151,7 @@ def asked_for(
 def columns_read(
     names: Sequence[str] | None, numeric: Iterable[str], times: Container[str] = ()
 ) -> list[str]:
-    """The columns to read: those asked for, or all that hold numbers, and those of times."""
+    """Return the columns to read: those asked for, or all that hold numbers, and those of times."""
     timing = [name for name in numeric if name in times]
     chosen = numeric if names is None else names
     return [*dict.fromkeys([*chosen, *timing])]
@@ -164,7 +164,7 @@ def channel_table(
     columns: Sequence[str] | None,
     times: Mapping[str, str],
 ) -> ChannelTable:
-    """The columns read, taken apart: channels, times, and a note of what is neither.
+    """Return the columns read, taken apart: channels, times, and a note of what is neither.
 
     ``times`` are the columns that tell times or a rate, and how `table_timing` knows them.
     """
@@ -237,7 +237,7 @@ def _is_no_channel(name: str) -> bool:
 
 
 def _is_clock(values: Floats) -> bool:
-    """Whether a column rises all the time, by a step from a straight line at most.
+    """Return whether a column rises all the time, by a step from a straight line at most.
 
     So do times and counts under names that nobody knows, and no sensor.
     """

@@ -67,7 +67,7 @@ def write_signals(
 
 
 def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
-    """The frames of signals as rows of their own file, or of a CSV where these are others.
+    """Return the frames of signals as rows of their own file, or of a CSV where these are others.
 
     ``shortest`` is how many rows are written at once at least; all by default.
     """
@@ -101,7 +101,7 @@ class _TextRows:
 
     @classmethod
     def of(cls, content: FileContent, n_rows: int) -> _TextRows:
-        """The first rows of a file, blank lines left out."""
+        """Return the first rows of a file, blank lines left out."""
         table = find_table(content).numbered()
         text = (
             content.text
@@ -133,7 +133,7 @@ class _TextRows:
             draft.write_bytes(text.encode("utf-8", errors="surrogateescape"))
 
     def cells(self) -> Iterator[Sequence[str]]:
-        """The cells of each row."""
+        """Yield the cells of each row."""
         reader = csv.reader(self.records, delimiter=self.separator)
         full = (cells for cells in reader if any(map(str.strip, cells)))
         as_read = ([*map(dotted, cells)] if self.comma else cells for cells in full)
@@ -150,7 +150,7 @@ class _ParquetRows:
 
     @classmethod
     def of(cls, content: FileContent, fps: float | None) -> _ParquetRows:
-        """All of a file, with a column of the rate where one is given."""
+        """Return all of a file, with a column of the rate where one is given."""
         table = parquet_file(content).read()
         if fps is not None:
             import pyarrow as pa
@@ -209,7 +209,7 @@ def _source_table(content: FileContent, signals: Signals) -> ChannelTable | None
 
 
 def _has_rate(table: ChannelTable, content: FileContent, fps: float) -> bool:
-    """Whether a table says by itself that it is of this rate."""
+    """Return whether a table says by itself that it is of this rate."""
     try:
         return isclose(table.timed(content, None).fps, fps)
     except ReadError:
@@ -217,7 +217,7 @@ def _has_rate(table: ChannelTable, content: FileContent, fps: float) -> bool:
 
 
 def _at_rate(rows: _TextRows, fps: float) -> _TextRows:
-    """The cells of rows as a CSV or TSV, below a rate in place of any of their own."""
+    """Return the cells of rows as a CSV or TSV, below a rate in place of any of their own."""
     numbered = (str(i) for i in range(1, len(next(rows.cells(), ())) + 1))
     names = list(rows.names or numbered)
     at = [i for i, name in enumerate(names) if not is_rate(name)]

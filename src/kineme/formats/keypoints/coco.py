@@ -49,7 +49,7 @@ _DIGITS = re.compile(r"\d+")
 
 
 def is_coco(data: Any) -> bool:
-    """Whether JSON of this content is a COCO data set or a list of results."""
+    """Return whether JSON of this content is a COCO data set or a list of results."""
     entries = data.get("annotations") if isinstance(data, Mapping) else data
     return isinstance(entries, list) and any(
         isinstance(entry, Mapping) and "keypoints" in entry and "image_id" in entry
@@ -58,7 +58,7 @@ def is_coco(data: Any) -> bool:
 
 
 def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
-    """The motion of one person in COCO keypoints."""
+    """Return the motion of one person in COCO keypoints."""
     is_set = isinstance(data, Mapping)
     entries = [
         entry
@@ -87,7 +87,7 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
 
 
 def _names(data: Mapping[str, Any]) -> list[str] | None:
-    """The names of the first category that has any."""
+    """Return the names of the first category that has any."""
     categories = data.get("categories")
     for category in categories if isinstance(categories, list) else []:
         names = category.get("keypoints") if isinstance(category, Mapping) else None
@@ -97,7 +97,7 @@ def _names(data: Mapping[str, Any]) -> list[str] | None:
 
 
 def _frames(content: FileContent, images: Any, entries: Sequence[Mapping[str, Any]]) -> list[int]:
-    """The frame of each entry."""
+    """Return the frame of each entry."""
     if isinstance(images, list) and images:
         usable = [image for image in images if isinstance(image, Mapping) and "id" in image]
         order = {str(image["id"]): i for i, image in enumerate(sorted(usable, key=_place))}
@@ -120,7 +120,7 @@ def _numbers(name: str) -> list[int]:
 
 
 def _number(content: FileContent, image: Any) -> int:
-    """The last number in what a result calls its image: 12, "12.jpg", "video_0012"."""
+    """Return the last number in what a result calls its image: 12, "12.jpg", "video_0012"."""
     numbers = _numbers(str(image)[:200])
     if not numbers:
         raise content.error(f"image_id {str(image)[:40]!r} has no frame number in it")

@@ -21,7 +21,7 @@ LIKELY = 0.6
 
 
 def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
-    """The motion of the keypoints of one individual."""
+    """Return the motion of the keypoints of one individual."""
     content, line = table.content, table.head + 2
     labels: dict[str, list[str]] = {}
     for row in table.lines[table.head : table.head + 4]:

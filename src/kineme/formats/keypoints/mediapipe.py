@@ -57,14 +57,14 @@ _PLAIN = re.compile(r"[\s_-]")
 
 
 def is_mediapipe(data: Any) -> bool:
-    """Whether JSON of this content has frames of 33 landmarks."""
+    """Return whether JSON of this content has frames of 33 landmarks."""
     return any(
         _poses(frame, world=False) or _poses(frame, world=True) for _, frame in _frames(data)
     )
 
 
 def read_mediapipe(content: FileContent, data: Any, options: ReadOptions) -> Motion:
-    """The motion of one person's landmarks."""
+    """Return the motion of one person's landmarks."""
     frames = _frames(data)
     world = any(_poses(frame, world=True) for _, frame in frames)
     people: list[Person] = []
@@ -96,7 +96,7 @@ def landmarks_to_motion(
     frames: Sequence[int] = (),
     notes: Sequence[str] = (),
 ) -> Motion:
-    """The motion of one person's landmarks: x, y and z of 33 in every frame.
+    """Return the motion of one person's landmarks: x, y and z of 33 in every frame.
 
     ``world`` tells whether they are world landmarks, None judges by the hips; ``size`` is width and
     height of the image, where the file tells; ``frames`` numbers all frames, with anybody or not.
@@ -145,7 +145,7 @@ def _are_in_space(people: Sequence[Person]) -> bool:
 
 
 def _frames(data: Any) -> list[tuple[int, Any]]:
-    """Each frame and its number."""
+    """Return each frame and its number."""
     if isinstance(data, list):
         return [(0, data)] if _is_pose(data) else list(enumerate(data))
     if not isinstance(data, Mapping):
@@ -160,7 +160,7 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
 
 
 def _poses(frame: Any, *, world: bool) -> list[Any]:
-    """The poses in a frame: lists of 33 landmarks."""
+    """Return the poses in a frame: lists of 33 landmarks."""
     found = frame
     if isinstance(frame, Mapping) and not _by_name(frame):
         found = _first_value(frame, _WORLD if world else _IMAGE)
@@ -188,7 +188,7 @@ def _is_landmark(value: Any) -> bool:
 
 
 def _by_name(frame: Mapping[str, Any]) -> list[Any]:
-    """The landmarks in order, from a mapping by their names; empty if it is none."""
+    """Return the landmarks in order, from a mapping by their names; empty if it is none."""
     by_name = {plain(str(key)): landmark for key, landmark in frame.items()}
     names = [plain(name) for name in NAMES]
     return [by_name[name] for name in names] if all(name in by_name for name in names) else []
@@ -214,7 +214,7 @@ def _landmarks(
 
 
 def _first_value(mapping: Mapping[str, Any], keys: Sequence[str]) -> Any:
-    """The value under the first of the keys, whatever its case and underscores."""
+    """Return the value under the first of the keys, whatever its case and underscores."""
     values = {plain(str(key)): value for key, value in mapping.items()}
     return next((values[key] for key in keys if key in values), None)
 
@@ -225,5 +225,5 @@ def _positive(value: Any) -> float | None:
 
 
 def plain(name: str) -> str:
-    """A name without blanks, underscores and hyphens, in small letters."""
+    """Return a name without blanks, underscores and hyphens, in small letters."""
     return _PLAIN.sub("", name).lower()

@@ -38,7 +38,7 @@ _PLACES = {plain(name): i for i, name in enumerate(NAMES)}
 
 
 def is_long(names: Sequence[str]) -> bool:
-    """Whether columns of these names are landmarks, a row for each of them."""
+    """Return whether columns of these names are landmarks, a row for each of them."""
     lower = [name.lower() for name in names]
     return {"x", "y"} <= set(lower) and None not in (
         _column_of(names, _FRAME),
@@ -47,7 +47,7 @@ def is_long(names: Sequence[str]) -> bool:
 
 
 def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
-    """The motion of MediaPipe's landmarks, a row for each frame."""
+    """Return the motion of MediaPipe's landmarks, a row for each frame."""
     at = _landmark_columns(table.names)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)]
     frame = _column_of(table.names, _FRAME)
@@ -81,7 +81,7 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
-    """The motion of MediaPipe's landmarks, a row for each landmark."""
+    """Return the motion of MediaPipe's landmarks, a row for each landmark."""
     lower = [name.lower() for name in table.names]
     at = {field: lower.index(name) for name, field in _FIELDS.items() if name in lower}
     landmark_column, frame = _column_of(table.names, _LANDMARK), _column_of(table.names, _FRAME)
@@ -108,7 +108,7 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 def _landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
-    """For each landmark and field the column; empty unless x and y of all 33 are there."""
+    """Return for each landmark and field the column; empty unless x and y of all 33 are there."""
     found: dict[tuple[str, int], int] = {}
     for column, name in enumerate(names):
         first, last = _FIELD_FIRST.fullmatch(name.strip()), _FIELD_LAST.fullmatch(name.strip())
@@ -127,7 +127,7 @@ def _landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
 
 
 def _landmark_numbers(content: FileContent, texts: Sequence[str]) -> NDArray[np.intp]:
-    """The landmarks that people call by number or name."""
+    """Return the landmarks that people call by number or name."""
     numbers = []
     for text in texts:
         name = plain(text.rpartition(".")[2])  # PoseLandmark.NOSE

@@ -27,12 +27,12 @@ from kineme.recordings import Motion
 
 
 def is_mmpose(data: Any) -> bool:
-    """Whether JSON of this content is MMPose's."""
+    """Return whether JSON of this content is MMPose's."""
     return any(isinstance(frame, Mapping) and "instances" in frame for frame in _frames(data))
 
 
 def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion:
-    """The motion of one person in MMPose's predictions."""
+    """Return the motion of one person in MMPose's predictions."""
     found: list[tuple[int, Mapping[str, Any]]] = []
     numbers = []
     for place, frame in enumerate(_frames(data)):

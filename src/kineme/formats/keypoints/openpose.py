@@ -59,12 +59,12 @@ _KEYS = {"pose_keypoints_3d": 4, "pose_keypoints_2d": 3, "pose_keypoints": 3}
 
 
 def is_openpose(data: Any) -> bool:
-    """Whether JSON of this content is one or more of OpenPose's frames."""
+    """Return whether JSON of this content is one or more of OpenPose's frames."""
     return any(isinstance(frame, Mapping) and "people" in frame for _, frame in _frames(data))
 
 
 def read_openpose(content: FileContent, data: Any, options: ReadOptions) -> Motion:
-    """The motion of one person in OpenPose's frames."""
+    """Return the motion of one person in OpenPose's frames."""
     frames = _frames(data)
     people = [person for number, frame in frames for person in _people(content, number, frame)]
     return _to_motion(content, people, options, [number for number, _ in frames])
@@ -122,7 +122,7 @@ def _begins_a_frame(file: Path) -> bool:
 
 
 def _frames(data: Any) -> list[tuple[int, Any]]:
-    """Each frame and its number."""
+    """Return each frame and its number."""
     if isinstance(data, Mapping) and "people" in data:
         return [(0, data)]
     if isinstance(data, list):
@@ -148,7 +148,7 @@ def _person(content: FileContent, number: int, person: Any) -> Person:
 
 
 def _id(value: Any) -> str | None:
-    """The number of a tracked person; OpenPose itself writes [-1]."""
+    """Return the number of a tracked person; OpenPose itself writes [-1]."""
     number = value[0] if isinstance(value, list) and value else value
     return str(number) if isinstance(number, int) and number >= 0 else None
 

@@ -48,7 +48,7 @@ class PersonFound(NamedTuple):
 
 
 def rows_of_person(content: FileContent, found: Detections, person: str | None) -> PersonFound:
-    """The rows of this person, or of the only one.
+    """Return the rows of this person, or of the only one.
 
     SeveralPeopleError where there are several and none was chosen, or nobody of this name.
     """
@@ -71,7 +71,7 @@ def rows_of_person(content: FileContent, found: Detections, person: str | None) 
 
 
 def _people(found: Detections) -> dict[str, Rows]:
-    """For each person the rows, in order of first sight."""
+    """Return for each person the rows, in order of first sight."""
     if all(name is not None for name in found.who):
         numbers = [str(name) for name in found.who]
     elif len(np.unique(found.frames)) == len(found.frames):

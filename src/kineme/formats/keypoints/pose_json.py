@@ -34,7 +34,7 @@ _OF_COCO = (b'"image_id"', b'"images"', b'"annotations"')
 
 
 def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of one person in a JSON file of keypoints."""
+    """Return the motion of one person in a JSON file of keypoints."""
     data = parsed_json(content)
     for is_of, read in _READERS:
         if is_of(data):
@@ -46,7 +46,7 @@ def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def begins_openpose(head: bytes) -> bool:
-    """Whether JSON begins as a list of OpenPose's frames, or frames by their numbers.
+    """Return whether JSON begins as a list of OpenPose's frames, or frames by their numbers.
 
     One frame alone is none: it belongs to the folder it lies in.
     """
@@ -54,7 +54,7 @@ def begins_openpose(head: bytes) -> bool:
 
 
 def begins_coco(head: bytes) -> bool:
-    """Whether JSON begins as COCO's results, or as a set of it whose keypoints come soon.
+    """Return whether JSON begins as COCO's results, or as a set of it whose keypoints come soon.
 
     Of a whole set that begins with its images, the first and the last bytes together tell.
     """
@@ -62,12 +62,12 @@ def begins_coco(head: bytes) -> bool:
 
 
 def begins_mmpose(head: bytes) -> bool:
-    """Whether JSON begins as MMPose's predictions."""
+    """Return whether JSON begins as MMPose's predictions."""
     return b'"instance_info"' in head or (b'"instances"' in head and b'"frame_id"' in head)
 
 
 def begins_mediapipe(head: bytes) -> bool:
-    """Whether JSON begins with somebody's landmarks."""
+    """Return whether JSON begins with somebody's landmarks."""
     return b'landmarks":' in head.lower().replace(b" ", b"")
 
 

@@ -30,7 +30,7 @@ LIMIT = 0.2
 
 
 def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of one animal in an analysis file of SLEAP's."""
+    """Return the motion of one animal in an analysis file of SLEAP's."""
     found = parse_hdf5(content)
     tracks, nodes = found.get("tracks"), texts(found.get("node_names"))
     if not isinstance(tracks, np.ndarray) or tracks.ndim != 4 or not nodes:
@@ -56,7 +56,7 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
-    """The motion of one animal in a table of SLEAP's."""
+    """Return the motion of one animal in a table of SLEAP's."""
     names, content = list(table.names), table.content
     nodes = [name[:-2] for name in names if name.endswith(".x") and f"{name[:-2]}.y" in names]
     if not nodes:

@@ -85,7 +85,7 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
 
 
 def parsed_json(content: FileContent) -> Any:
-    """What a JSON file holds; ReadError where it breaks off or is none."""
+    """Return what a JSON file holds; ReadError where it breaks off or is none."""
     try:
         return json.loads(content.text)
     except json.JSONDecodeError as error:
@@ -114,7 +114,7 @@ def in_groups(content: FileContent, values: Any, width: int) -> Floats:
 
 
 def frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
-    """The numbers of frames as such; ReadError where they are none."""
+    """Return the numbers of frames as such; ReadError where they are none."""
     if not np.isfinite(frames).all() or np.abs(frames).max(initial=0) > 2**53:
         raise content.error("the frames have no whole numbers")
     return np.rint(frames).astype(np.int64)

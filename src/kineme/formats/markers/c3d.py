@@ -58,7 +58,7 @@ _NO_UNIT = frozenset({"", "d.u.", "du", "bits", "bit", "counts", "n/a", "%"})
 
 
 def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    """The motion of the markers in a C3D file, or its analog channels.
+    """Return the motion of the markers in a C3D file, or its analog channels.
 
     Those are given where they are asked for, and where there are no points at all.
     """
@@ -119,7 +119,7 @@ def _up(file: C3D) -> str | None:
 
 
 def read_analog(content: FileContent, options: ReadOptions) -> Signals:
-    """The analog channels of a C3D: ``options.columns``, or muscles with ``emg``, or all.
+    """Return the analog channels of a C3D: ``options.columns``, or muscles with ``emg``, or all.
 
     ReadError where it has none, or not those that were asked for.
     """
@@ -141,7 +141,7 @@ def _channels(content: FileContent, file: C3D, options: ReadOptions) -> Signals:
 
 
 def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
-    """The names of the channels that are muscles', and a sentence on what was taken."""
+    """Return the names of the channels that are muscles', and a sentence on what was taken."""
     names = unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
     described = file.parameters.strings("ANALOG", "DESCRIPTIONS")
@@ -164,7 +164,7 @@ def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
 
 
 def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
-    """Whether an analog channel is a muscle's, as far as its own words tell.
+    """Return whether an analog channel is a muscle's, as far as its own words tell.
 
     Examples
     --------
@@ -181,7 +181,7 @@ def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
 
 
 def _words(text: str) -> list[str]:
-    """The words of a name: ``RTibialisAnt.EMG1`` has four."""
+    """Return the words of a name: ``RTibialisAnt.EMG1`` has four."""
     return re.findall(
         r"[A-Z]?[a-z]+|[A-Z]+\d*(?![a-z])", re.sub(r"([A-Z])(?=[A-Z][a-z])", r"\1 ", text)
     )

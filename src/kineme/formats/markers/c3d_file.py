@@ -175,7 +175,7 @@ class Header:
 
 
 def read_header(content: FileContent, parameters: Parameters) -> Header:
-    """The header, in the numbers of the processor that the parameters name."""
+    """Return the header, in the numbers of the processor that the parameters name."""
     kind = parameters.processor
     words = np.frombuffer(content.data, number_type(kind, real=False), 12)
     words = words.view(words.dtype.str.replace("i", "u"))
@@ -289,7 +289,7 @@ class Layout:
         return {frames for frames in counts if frames > 0} or {0}
 
     def _long(self, name: str) -> int:
-        """A count in two words, the low one first; 0 if there is none."""
+        """Return a count in two words, the low one first; 0 if there is none."""
         low, *high = self.parameters.numbers("TRIAL", name)[:2] or [0.0]
         return int(low) + (int(high[0]) << 16 if high else 0)
 
@@ -325,7 +325,7 @@ class Parameters:
         }
 
     def number(self, group: str, name: str, usual: float) -> float:
-        """The first of the values as a finite number, ``usual`` if there is none."""
+        """Return the first of the values as a finite number, ``usual`` if there is none."""
         values = self.numbers(group, name)
         return values[0] if values and np.isfinite(values[0]) else usual
 
@@ -345,11 +345,11 @@ class Parameters:
         return list(map(float, integers))
 
     def strings(self, group: str, name: str) -> list[str]:
-        """The values as text, none if they are numbers."""
+        """Return the values as text, none if they are numbers."""
         return [string(text) for text in self.texts(group, name)]
 
     def texts(self, group: str, name: str) -> list[bytes]:
-        """The same as they are stored."""
+        """Return the same as they are stored."""
         kind, shape, data = self.stored(group, name)
         width = shape[0] if shape else 1
         if kind != -1 or width == 0:

@@ -70,7 +70,7 @@ class C3DEvent:
 
 
 def with_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
-    """The bytes of a C3D file that has these events besides its own."""
+    """Return the bytes of a C3D file that has these events besides its own."""
     parameters = read_parameters(content)
     layout = Layout(content, parameters, read_header(content, parameters))
     layout.frames()  # ReadError where the data are not there
@@ -91,7 +91,7 @@ def with_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
 
 
 def _is_kept(before: Parameters, after: Parameters, table: dict[str, list[Any]]) -> bool:
-    """Whether a file has the parameters that it had, and these events."""
+    """Return whether a file has the parameters that it had, and these events."""
     others = (
         place
         for place in before.places
@@ -137,7 +137,7 @@ def _table(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, list[Any]]:
 
 
 def _records_with(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord]:
-    """All records, those of events made anew, at the end."""
+    """Return all records, those of events made anew, at the end."""
     parameters = layout.parameters
     records = _records(parameters)
     groups = {-number: name for number, name, _ in records if number < 0}
@@ -199,7 +199,7 @@ def _step(length: int, processor: int) -> bytes:
 
 
 def _with_section(layout: Layout, records: list[RawRecord]) -> bytes:
-    """The file with these records as its parameters."""
+    """Return the file with these records as its parameters."""
     content, parameters = layout.content, layout.parameters
     data, kind = content.data, parameters.processor
     start = parameters.start

@@ -54,17 +54,17 @@ class Capture:
 
 
 def is_nexus(_: Sequence[str], lines: Sequence[str]) -> bool:
-    """Whether a file is Nexus's; one of devices alone holds channels as others do."""
+    """Return whether a file is Nexus's; one of devices alone holds channels as others do."""
     return _first_line(lines) in CHAPTERS and any(map(_MARKERS.fullmatch, lines))
 
 
 def is_motive(_: Sequence[str], lines: Sequence[str]) -> bool:
-    """Whether a file is Motive's."""
+    """Return whether a file is Motive's."""
     return _first_line(lines).startswith("format version,")
 
 
 def is_qtm(_: Sequence[str], lines: Sequence[str]) -> bool:
-    """Whether a file is a table of markers of Qualisys'."""
+    """Return whether a file is a table of markers of Qualisys'."""
     return _first_line(lines).startswith("no_of_frames") and "MARKER_NAMES" in _facts(lines)
 
 
@@ -76,7 +76,7 @@ def read_capture(
     look: Callable[[FileContent, Sequence[str]], Capture],
     usual_up: str = "z",
 ) -> Motion:
-    """The motion of the markers in a table of a program, once it was looked at."""
+    """Return the motion of the markers in a table of a program, once it was looked at."""
     content, lines = table.content, table.lines
     capture = look(content, lines)
     columns = capture.columns
@@ -186,7 +186,7 @@ def _qtm(content: FileContent, lines: Sequence[str]) -> Capture:
 
 
 def _facts(lines: Sequence[str]) -> dict[str, list[str]]:
-    """What the lines at the top of a table of Qualisys' name, by what they begin with."""
+    """Return what the lines at the top of a table of Qualisys' name, by what they begin with."""
     facts: dict[str, list[str]] = {}
     for line in lines:
         name, *values = line.rstrip().split("\t")
@@ -206,7 +206,7 @@ def _line_of_axes(content: FileContent, lines: Sequence[str], start: int) -> int
 def _columns(
     content: FileContent, names: Sequence[str], axes: Sequence[str], line: int
 ) -> dict[str, int]:
-    """The column of x of each point with y and z beside it."""
+    """Return the column of x of each point with y and z beside it."""
     found: dict[str, int] = {}
     for i, name in enumerate(names):
         if name and [cell.lower() for cell in axes[i : i + 3]] == ["x", "y", "z"]:

@@ -30,7 +30,7 @@ _HEADER_LINES = 5
 
 
 def read_trc(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of the markers in a TRC file."""
+    """Return the motion of the markers in a TRC file."""
     lines = content.text.splitlines()
     if len(lines) <= _HEADER_LINES:
         raise content.error("the file ends within its five header lines: there is no motion")

@@ -83,7 +83,7 @@ def assemble(
     turn: Floats,
     provenance: Provenance,
 ) -> Motion:
-    """The motion of a character, whose joints are nodes, parents first.
+    """Return the motion of a character, whose joints are nodes, parents first.
 
     ``transform`` has the transform of a node by its number; ``unit`` is that of the scene's
     lengths, ``turn`` the rotation of its axes to those with y up. The content is let go once all
@@ -153,12 +153,12 @@ def _scaled(
 
 
 def _inherited(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
-    """A node's scale in the world, from that of its parent and its own factor."""
+    """Return a node's scale in the world, from that of its parent and its own factor."""
     return world / parent * factor if inheritance == "Rrs" else world * factor
 
 
 def _factor(scale: Floats) -> float | None:
-    """The one number that a scale is in all axes and frames, or None."""
+    """Return the one number that a scale is in all axes and frames, or None."""
     least, most = float(scale.min()), float(scale.max())
     if not (least > 0 and most - least <= STILL * most):
         return None
@@ -228,7 +228,7 @@ World = tuple[Floats, Floats, Floats]
 
 
 def _product(parent: World, found: Transform, before: Transform | None, span: slice) -> World:
-    """A node's world, from its parent's and the transforms of both."""
+    """Return a node's world, from its parent's and the transforms of both."""
     axes, matrix, position = parent
     turn = matrices(_frames(found.rotation, span))
     scale = _frames(found.scale, span)
@@ -246,7 +246,7 @@ def _product(parent: World, found: Transform, before: Transform | None, span: sl
 
 
 def _frames(values: Floats, span: slice) -> Floats:
-    """The values of these frames, (frames, ...)."""
+    """Return the values of these frames, (frames, ...)."""
     if values.ndim > 1:
         return values[span]
     return np.broadcast_to(values, (span.stop - span.start, len(values)))
@@ -263,7 +263,7 @@ def orthogonal(matrices: Floats) -> Floats:
 
 
 def _unit(vectors: Floats, spare: Floats) -> Floats:
-    """The vectors at length one; ``spare`` where they have none."""
+    """Return the vectors at length one; ``spare`` where they have none."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     flat = length < 1e-12
     instead = spare / np.linalg.norm(spare, axis=-1, keepdims=True)

@@ -70,7 +70,7 @@ class Character:
 
 
 def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str | None) -> Character:
-    """The only skeleton that moves, or the one of the person wanted."""
+    """Return the only skeleton that moves, or the one of the person wanted."""
     skeletons = _skeletons(nodes)
     if not skeletons:
         raise content.error(
@@ -93,7 +93,7 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
 
 
 def carriers(nodes: Sequence[SceneNode], node: int) -> list[int]:
-    """The nodes that carry one, from its parent up."""
+    """Return the nodes that carry one, from its parent up."""
     found = []
     while (node := nodes[node].parent) >= 0:
         found.append(node)
@@ -108,7 +108,7 @@ def lively_takes(moved: Sequence[set[int]], bones: set[int]) -> list[int]:
 def choose_take(
     content: FileContent, names: Sequence[str], lively: Sequence[int], name: str | None
 ) -> tuple[int, list[str]]:
-    """The number of the animation that is read, by name or number, and what to say of it.
+    """Return the number of the animation that is read, by name or number, and what to say of it.
 
     Where none is wanted, it is the first of the lively ones, which move a skeleton.
     """
@@ -146,7 +146,7 @@ def _numbered(names: Sequence[str], name: str) -> int | None:
 
 
 def bones_of(parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]) -> list[bool]:
-    """Which nodes are joints: bones, what is between two of them, and free ends below.
+    """Return which nodes are joints: bones, what is between two of them, and free ends below.
 
     A node is free if it carries no geometry.
     """
@@ -166,12 +166,12 @@ def bones_of(parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]
 
 
 def is_end(name: str) -> bool:
-    """Whether a leaf of this name ends a limb, as ``Head_end`` and ``HeadNub`` do."""
+    """Return whether a leaf of this name ends a limb, as ``Head_end`` and ``HeadNub`` do."""
     return _END.search(name) is not None
 
 
 def _skeletons(nodes: Sequence[SceneNode]) -> list[list[int]]:
-    """The joints of each, parents first."""
+    """Return the joints of each, parents first."""
     bones = [node.bone for node in nodes]
     if not any(bones):
         bones = [node.animated and not node.geometry for node in nodes]

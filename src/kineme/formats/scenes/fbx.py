@@ -52,7 +52,7 @@ _MOST_FRAMES = 1e12
 
 
 def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of a character in an FBX file."""
+    """Return the motion of a character in an FBX file."""
     version, root = parse_fbx(content)
     scene = FBXScene(content, root)
     moved = [scene.moved(take) for take in scene.takes]
@@ -131,13 +131,13 @@ def _frames(scene: FBXScene, take: Take, joints: list[int], fps: float) -> Float
 
 
 def _unit(scene: FBXScene) -> float:
-    """The metres in one unit of the file, which counts in centimetres."""
+    """Return the metres in one unit of the file, which counts in centimetres."""
     factor = scene.setting("UnitScaleFactor", 1.0)
     return CENTIMETRE * (factor if factor > 0 else 1.0)
 
 
 def _turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]]:
-    """The rotation to axes with y up, and what to say of it.
+    """Return the rotation to axes with y up, and what to say of it.
 
     The file tells which of its axes are those to the right, up and to the front.
     """

@@ -77,7 +77,7 @@ class CurveReader:
         self._ordered = True
 
     def read(self, node: FBXNode) -> Curve | None:
-        """The curve of an ``AnimationCurve``; None where it has no key."""
+        """Return the curve of an ``AnimationCurve``; None where it has no key."""
         times, values = self._read_times(node), node.array(self.content, "KeyValueFloat")
         if values is None or len(times) == 0:
             return None
@@ -176,7 +176,7 @@ class Sampler:
         return sampled
 
     def _are_frames(self, times: Floats) -> bool:
-        """Whether there is a key at each frame."""
+        """Return whether there is a key at each frame."""
         if times is self._frame_times:
             return True
         if len(times) != len(self.at) or np.abs(times - self.at).max() > SLACK:

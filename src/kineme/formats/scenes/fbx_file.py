@@ -126,7 +126,7 @@ def _values(content: FileContent, at: int, stop: int, count: int) -> list[Any]:
 
 
 def _value(data: bytes, at: int) -> tuple[Any, int]:
-    """A value, and where the next one is."""
+    """Return a value, and where the next one is."""
     kind = data[at]
     at += 1
     if scalar := _SCALARS.get(kind):

@@ -33,14 +33,14 @@ class FBXNode:
     children: list[FBXNode] = field(default_factory=list)
 
     def child(self, name: str) -> FBXNode | None:
-        """The first one of this name."""
+        """Return the first one of this name."""
         return next(self.all(name), None)
 
     def all(self, name: str) -> Iterator[FBXNode]:
         return (child for child in self.children if child.name == name)
 
     def number(self, at: int, usual: float = 0.0) -> float:
-        """A value as a number; the usual one where there is none."""
+        """Return a value as a number; the usual one where there is none."""
         value = self.values[at] if at < len(self.values) else None
         return value if isinstance(value, int | float) else usual
 
@@ -49,7 +49,7 @@ class FBXNode:
         return value if isinstance(value, str) else ""
 
     def stored(self, child: str) -> Stored | None:
-        """The array in a child, as yet in the file; None where there is none."""
+        """Return the array in a child, as yet in the file; None where there is none."""
         found = self.child(child)
         value = found.values[0] if found and found.values else None
         if value is None or isinstance(value, str | bytes | int | float):
@@ -58,7 +58,7 @@ class FBXNode:
         return stored
 
     def array(self, content: FileContent, child: str) -> NDArray[Any] | None:
-        """The array in a child; None where there is none."""
+        """Return the array in a child; None where there is none."""
         stored = self.stored(child)
         return None if stored is None else stored.read(content)
 

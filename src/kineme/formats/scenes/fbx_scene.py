@@ -121,7 +121,7 @@ class FBXScene:
         return bones
 
     def _models(self) -> list[Model]:
-        """All models, parents before their children; those in a circle are left out."""
+        """Return all models, parents before their children; those in a circle are left out."""
         found: list[Model] = []
         carried = {part for parent in self.objects for part in self._parts.get(parent, ())}
         tops = dict.fromkeys(self._parts.get(0, []))
@@ -163,7 +163,7 @@ class FBXScene:
         return node is not None and node.name == name
 
     def nodes(self, moved: set[int]) -> list[SceneNode]:
-        """The models as nodes of a scene, of which those are animated."""
+        """Return the models as nodes of a scene, of which those are animated."""
         return [
             SceneNode(
                 model.name,
@@ -177,7 +177,7 @@ class FBXScene:
         ]
 
     def moved(self, take: Take) -> set[int]:
-        """The numbers of the models that a take drives."""
+        """Return the numbers of the models that a take drives."""
         return {
             model
             for layer in take.layers
@@ -191,7 +191,7 @@ class FBXScene:
         return any(self._is(curve, "AnimationCurve") for curve, _ in self._driving.get(number, ()))
 
     def tracks(self, take: Take) -> dict[tuple[int, str], list[tuple[int, int]]]:
-        """For each model and property its layers and curve nodes, the base layer first."""
+        """Return for each model and property its layers and curve nodes, the base layer first."""
         found: dict[tuple[int, str], list[tuple[int, int]]] = {}
         for layer in take.layers:
             for part in self._parts.get(layer, ()):
@@ -201,7 +201,7 @@ class FBXScene:
         return found
 
     def curves(self, number: int) -> dict[str, Curve]:
-        """The curves of a curve node by their axes, ``d|X`` and so on."""
+        """Return the curves of a curve node by their axes, ``d|X`` and so on."""
         found = {}
         for part, axis in self._driving.get(number, ()):
             node = self.objects.get(part)
@@ -212,7 +212,7 @@ class FBXScene:
         return found
 
     def key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
-        """The times of the keys of each curve that moves one of these models, in ticks."""
+        """Yield the times of the keys of each curve that moves one of these models, in ticks."""
         numbers = set(models)
         for (model, what), parts in self.tracks(take).items():
             if model in numbers and what in (TRANSLATION, ROTATION, SCALING):
@@ -220,7 +220,7 @@ class FBXScene:
                     yield from (curve.times for curve in self.curves(part).values())
 
     def setting(self, name: str, usual: float) -> float:
-        """A number of the file's settings."""
+        """Return a number of the file's settings."""
         return _number(self.settings, name, usual)
 
     def properties(self, number: int) -> Properties:
@@ -302,7 +302,7 @@ class Pose:
                 )
 
     def _weight(self, layer: int) -> Floats | float:
-        """The share of a layer: one, or (frames, 1)."""
+        """Return the share of a layer: one, or (frames, 1)."""
         table = self.layers[layer]
         for _, part in self.tracks.get((layer, "Weight"), ()):
             for curve in self.scene.curves(part).values():
@@ -348,7 +348,7 @@ def _angles(turn: Floats, axes: str) -> Floats:
 
 
 def _pivoted(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
-    """The translation with what pivots and their offsets add to it."""
+    """Return the translation with what pivots and their offsets add to it."""
     shift = shift + _vector(properties, "RotationOffset")
     pivot, center = _vector(properties, "RotationPivot"), _vector(properties, "ScalingPivot")
     carried = _vector(properties, "ScalingOffset") - pivot
@@ -360,7 +360,7 @@ def _pivoted(properties: Properties, shift: Floats, turn: Floats, scale: Floats)
 
 
 def _templates(root: FBXNode) -> dict[str, Properties]:
-    """What the objects of a class have where they do not say."""
+    """Return what the objects of a class have where they do not say."""
     found: dict[str, Properties] = {}
     for group in root.all("Definitions"):
         for kind in group.all("ObjectType"):
@@ -382,7 +382,7 @@ def _spans(root: FBXNode) -> dict[str, tuple[float, float]]:
 
 
 def _properties(node: FBXNode | None) -> Properties:
-    """The values of an object's properties, by their names."""
+    """Return the values of an object's properties, by their names."""
     table = node.child("Properties70") if node else None
     if table is None:
         return {}

@@ -31,7 +31,7 @@ _LONGEST = 40  # digits of a whole number
 
 
 def parse_text(content: FileContent) -> FBXNode:
-    """The nodes of a text, below one without a name."""
+    """Return the nodes of a text, below one without a name."""
     return _Text(content).root
 
 
@@ -84,7 +84,7 @@ class _Text:
             self.node.values.append(_word(value))
 
     def _array(self, count: bytes) -> _Array:
-        """The array that begins here, which is skipped."""
+        """Return the array that begins here, which is skipped."""
         start, stop = _ARRAY.match(self.data, self.at), self.data.find(b"}", self.at)
         if start is None or stop < 0:
             raise self._error("an array without its numbers", self.at)

@@ -69,7 +69,7 @@ class Keys(NamedTuple):
 
 
 def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of a character in a glTF file."""
+    """Return the motion of a character in a glTF file."""
     file = GLTFFile(content)
     order, parents = _tree(file)
     objects = [file.tree.nodes[number] for number in order]
@@ -150,12 +150,12 @@ def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
 
 
 def _needed(nodes: list[SceneNode], joints: list[int], order: list[int]) -> set[int]:
-    """The numbers of the nodes that a character consists of, and of those that carry it."""
+    """Return the numbers of the nodes that a character consists of, and of those that carry it."""
     return {order[j] for j in (*joints, *carriers(nodes, joints[0]))}
 
 
 def _keys(file: GLTFFile, animation: Animation, nodes: set[int]) -> dict[tuple[int, str], Keys]:
-    """The keys of each node's properties."""
+    """Return the keys of each node's properties."""
     found: dict[tuple[int, str], Keys] = {}
     times: dict[int, Floats] = {}
     for channel in animation.channels:
@@ -199,14 +199,14 @@ def _rate(
 
 
 def _span(keys: dict[tuple[int, str], Keys], fps: float) -> tuple[float, int]:
-    """The second of the first key, and how many frames there are up to the last one."""
+    """Return the second of the first key, and how many frames there are up to the last one."""
     start = min((float(each.times[0]) for each in keys.values()), default=0.0)
     stop = max((float(each.times[-1]) for each in keys.values()), default=0.0)
     return start, int(min((stop - start) * fps + 1 + _ROUNDED, _MOST_FRAMES))
 
 
 def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> Transform:
-    """A node's transform at these seconds."""
+    """Return a node's transform at these seconds."""
     rest = _rest(node)
     found = {
         what: rest[what] if track is None else _sampled(track, at, turns=what == ROTATION)

@@ -182,7 +182,7 @@ class GLTFFile:
         return parts[number]
 
     def array(self, number: int) -> Floats:
-        """The numbers of an accessor, (elements, numbers of each)."""
+        """Return the numbers of an accessor, (elements, numbers of each)."""
         accessor = self.part(self.tree.accessors, number, "accessor")
         code, width = COMPONENTS.get(accessor.component_type), WIDTHS.get(accessor.type)
         if code is None or width is None:
@@ -218,7 +218,7 @@ class GLTFFile:
     def _stored_array(
         self, number: int, view_number: int, offset: int, shape: tuple[int, int], code: str
     ) -> NDArray[Any]:
-        """The elements that an accessor of this number has in a view, from ``offset`` on."""
+        """Return the elements that an accessor of this number has in a view, from ``offset`` on."""
         view = self.part(self.tree.buffer_views, view_number, "buffer view")
         if "EXT_meshopt_compression" in view.extensions:
             raise self.content.error("its keys are packed by meshopt: export them unpacked")
@@ -240,7 +240,7 @@ class GLTFFile:
         return self._buffers[number]
 
     def _stored(self, place: str) -> bytes:
-        """A buffer that is in the JSON, or in a file beside it."""
+        """Return a buffer that is in the JSON, or in a file beside it."""
         if place.startswith("data:"):
             try:
                 return base64.b64decode(place.partition(",")[2], validate=True)
@@ -255,7 +255,7 @@ class GLTFFile:
 
 
 def _chunks(content: FileContent) -> tuple[bytes, bytes]:
-    """The JSON and the bytes of a GLB."""
+    """Return the JSON and the bytes of a GLB."""
     data = content.data
     if len(data) < HEADER.size:
         raise content.error("the file ends in its header: it is truncated")

@@ -109,7 +109,7 @@ class _Writer:
         self._add_mesh()
 
     def _nodes(self, path: Path) -> list[dict[str, Any]]:
-        """A node for each joint, then what carries them, then the mesh."""
+        """Return a node for each joint, then what carries them, then the mesh."""
         skeleton = self.skeleton
         names = spelled(path, skeleton.names, str.strip)
         nodes: list[dict[str, Any]] = []

@@ -9,7 +9,7 @@ from kineme._arrays import Floats
 
 
 def between(times: Floats, at: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:
-    """The key before each frame, and the share of the interval to the next that has passed.
+    """Return the key before each frame, and the share of the interval to the next that has passed.
 
     Before the first key and after the last one the shares are 0 and 1; by the slack a key may
     miss the frame that it was made for.

@@ -192,13 +192,13 @@ class _Skeleton:
         return is_end(self.names[j])
 
     def fitting(self, animations: Sequence[Any]) -> list[Any]:
-        """The animations that move joints of it, the one bound to it first."""
+        """Return the animations that move joints of it, the one bound to it first."""
         joints = set(self.joints)
         found = [each for each in animations if joints & set(map(str, _joints(each)))]
         return sorted(found, key=lambda each: each.GetPrim() != self.bound)
 
     def pose(self, animation: Any, codes: Floats) -> list[Transform]:
-        """The transform of each joint at these time codes."""
+        """Return the transform of each joint at these time codes."""
         moved = list(map(str, _joints(animation)))
         places = {joint: number for number, joint in enumerate(moved)}
         shifts = _values(animation.GetTranslationsAttr(), codes, len(moved), 3)
@@ -219,7 +219,7 @@ class _Skeleton:
 def _nodes(
     skeletons: Sequence[_Skeleton],
 ) -> tuple[list[SceneNode], dict[int, tuple[_Skeleton, int]]]:
-    """All skeletons as nodes, each below what carries it; for each node whose it is.
+    """Return all skeletons as nodes, each below what carries it; for each node whose it is.
 
     That is its skeleton, and the node of its first joint.
     """
@@ -286,7 +286,7 @@ def _values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | 
 
 
 def _carrier(xformable: Any, codes: Floats) -> Transform:
-    """What carries a skeleton, in the world."""
+    """Return what carries a skeleton, in the world."""
     matrices = np.array([xformable.ComputeLocalToWorldTransform(code) for code in codes.tolist()])
     same = np.abs(matrices - matrices[0]).max() == 0
     found = _transform(matrices[:1] if same else matrices)

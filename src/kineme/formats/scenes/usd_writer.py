@@ -75,5 +75,5 @@ def write_usd(motion: Motion, path: Path) -> None:
 
 
 def _shift(gf: Any, offset: Floats) -> Any:
-    """The matrix of a translation."""
+    """Return the matrix of a translation."""
     return gf.Matrix4d().SetTranslate(gf.Vec3d(*offset.tolist()))

@@ -53,7 +53,7 @@ _FRAME = re.compile(rb"^[ \t]*\d+[ \t]*\r?$", re.MULTILINE)
 
 
 def read_amc(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of an AMC file on the skeleton of its ASF."""
+    """Return the motion of an AMC file on the skeleton of its ASF."""
     asf = options.skeleton or find_skeleton(content.path)
     figure = read_asf(load(asf), None if options.unit is None else metres(options.unit))
     head = _head(content)
@@ -83,7 +83,7 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def _head(content: FileContent) -> bytes:
-    """What stands before the first frame."""
+    """Return what stands before the first frame."""
     start = _FRAME.search(content.data)
     if start is None:
         raise content.error("no frame found: an AMC has a line with a number before each")
@@ -91,7 +91,7 @@ def _head(content: FileContent) -> bytes:
 
 
 def find_skeleton(path: Path) -> Path:
-    """The ASF that belongs to an AMC.
+    """Return the ASF that belongs to an AMC.
 
     The one whose name is the AMC's up to the end or up to an underscore, the
     longest first (``86_10.amc``: ``86_10.asf``, ``86.asf``), else the only one
@@ -122,7 +122,7 @@ def find_skeleton(path: Path) -> Path:
 
 
 def _comment_rate(head: bytes) -> float | None:
-    """The frame rate in the comment that `write_amc` leaves, if it is there."""
+    """Return the frame rate in the comment that `write_amc` leaves, if it is there."""
     comment = _FPS_COMMENT.search(head)
     try:
         return numbers([comment.group(1)])[0] if comment else None
@@ -179,7 +179,7 @@ def read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, F
 
 
 def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floats] | None:
-    """The values if every frame is laid out as the first, else None."""
+    """Return the values if every frame is laid out as the first, else None."""
     blocks: list[Floats] = []
     layout: Layout | None = None
     following = np.nan
@@ -199,7 +199,7 @@ def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floa
 
 
 def _chunks(data: bytes, start: int) -> Iterator[bytes]:
-    """The text from ``start`` on, in chunks of whole frames."""
+    """Yield the text from ``start`` on, in chunks of whole frames."""
     while start < len(data):
         after = _FRAME.search(data, start + CHUNK)
         stop = after.start() if after else len(data)
@@ -254,7 +254,7 @@ def _rows(text: bytes, layout: Layout) -> Floats | None:
 
 
 def _compiled_rows(text: bytes, layout: Layout) -> Floats | None:
-    """The same, unless there are numbers among them that only ``float`` reads."""
+    """Return the same, unless there are numbers among them that only ``float`` reads."""
     from kineme.formats.skeletons._amc_kernels import read_rows
 
     counts = np.array([*layout.values()], np.int64)
@@ -272,7 +272,7 @@ def _compiled_rows(text: bytes, layout: Layout) -> Floats | None:
 
 
 def _by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict[str, Floats]:
-    """The values of each bone, none where it is not named."""
+    """Return the values of each bone, none where it is not named."""
     ends = np.cumsum([1, *layout.values()])
     columns = dict(zip(layout, starmap(slice, pairwise(ends.tolist())), strict=True))
     return {

@@ -69,7 +69,7 @@ def write_amc(motion: Motion, path: Path) -> None:
 
 
 def _bones(skeleton: Skeleton, slides: NDArray[np.bool_], path: Path) -> list[Bone]:
-    """The root and all bones, parents first."""
+    """Return the root and all bones, parents first."""
     inner = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
     words = spelled(path, [ROOT, *(skeleton.names[j] for j in inner[1:])], _word)
     names = dict(zip(inner, words, strict=True))

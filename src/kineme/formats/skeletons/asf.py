@@ -51,7 +51,7 @@ class Figure:
 
 
 def read_asf(content: FileContent, scale: float | None = None) -> Figure:
-    """The figure in an ASF file; ``scale`` overrides its metres per unit."""
+    """Return the figure in an ASF file; ``scale`` overrides its metres per unit."""
     sections = _sections(content)
     for needed in ("root", "bonedata", "hierarchy"):
         if needed not in sections:
@@ -101,7 +101,7 @@ def _skeleton(
 
 
 def _sections(content: FileContent) -> dict[str, list[Line]]:
-    """The lines of each section as words, comments and blank lines left out."""
+    """Return the lines of each section as words, comments and blank lines left out."""
     sections: dict[str, list[Line]] = {}
     current: list[Line] = []
     for number, line in enumerate(content.text.splitlines(), 1):
@@ -117,7 +117,7 @@ def _sections(content: FileContent) -> dict[str, list[Line]]:
 
 
 def _blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line]]:
-    """The lines between each ``begin`` and ``end``."""
+    """Yield the lines between each ``begin`` and ``end``."""
     block: list[Line] | None = None
     for number, words in lines:
         key = words[0].lower()
@@ -209,7 +209,7 @@ def read_bone(content: FileContent, block: list[Line], turn: float) -> Bone:
 
 
 def read_root(content: FileContent, lines: list[Line], turn: float) -> Bone:
-    """The root from the lines of its section."""
+    """Return the root from the lines of its section."""
     entries = {words[0].lower(): (n, words[1:]) for n, words in lines}
     root = Bone(ROOT, dof=("tx", "ty", "tz", "rx", "ry", "rz"))
     if "order" in entries:

@@ -52,7 +52,7 @@ _JOINED = re.compile(rb"(?<=[0-9.])-")
 
 
 def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of a BVH file."""
+    """Return the motion of a BVH file."""
     head = _head(content, options)
     values = read_frames(content, head.start, head.width, head.declared)
     n_joints = len(head.joints)
@@ -119,7 +119,7 @@ def _placed(
     options: ReadOptions,
     provenance: Provenance,
 ) -> Motion:
-    """The motion of joints as `_local` gives them."""
+    """Return the motion of joints as `_local` gives them."""
     parents = tuple(joint.parent for joint in joints)
     above = {*parents}
     skeleton = Skeleton(
@@ -234,7 +234,7 @@ class _Hierarchy:
         return self.words[self.at - 1]
 
     def _name(self, line: int) -> str:
-        """All words up to the brace, which has to come before the next line's end."""
+        """Return all words up to the brace, which has to come before the next line's end."""
         words = []
         while (word := self._next())[0] != "{":
             if word[1] > line and word[0].upper() in ("OFFSET", "CHANNELS", "JOINT", "END"):
@@ -330,7 +330,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
 
 
 def read_some(data: bytes, start: int, width: int, every: int) -> Floats | None:
-    """The values of each ``every``-th frame only; None where lines are not one per frame."""
+    """Return the values of each ``every``-th frame only; None where lines are not one per frame."""
     lines = (line for line in _lines(data, start) if line.strip())
     try:
         rows = [numbers(line.split()) for line in islice(lines, 0, None, every)]
@@ -340,7 +340,7 @@ def read_some(data: bytes, start: int, width: int, every: int) -> Floats | None:
 
 
 def _lines(data: bytes, start: int) -> Iterator[bytes]:
-    """The lines from ``start`` on, without the blank ones at the end; a chunk at a time."""
+    """Yield the lines from ``start`` on, without the blank ones at the end; a chunk at a time."""
     stop = _end(data, start)
     while start < stop:
         cut = min(data.find(b"\n", start + CHUNK) + 1 or stop, stop)

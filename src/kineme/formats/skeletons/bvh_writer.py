@@ -57,7 +57,7 @@ def euler_angles(motion: Motion, path: Path, what: str) -> tuple[Floats, Floats,
 
 
 def _names(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
-    """The names of joints as a line holds them; end sites have none."""
+    """Return the names of joints as a line holds them; end sites have none."""
     named = [j for j in range(motion.skeleton.n_joints) if j not in ends]
     return dict(
         zip(named, spelled(path, [motion.skeleton.names[j] for j in named], _line), strict=True)

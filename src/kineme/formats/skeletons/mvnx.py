@@ -56,7 +56,7 @@ class Subject:
 
 
 def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of a suit in an MVNX file."""
+    """Return the motion of a suit in an MVNX file."""
     people = _subjects(content)
     if not people:
         raise content.error("there is no subject in it")
@@ -147,7 +147,7 @@ class _Subjects(NoEntities):
 
 
 def _subjects(content: FileContent) -> list[Subject]:
-    """The people in a file; ReadError where it breaks off."""
+    """Return the people in a file; ReadError where it breaks off."""
     found = _Subjects(content)
     parser = ET.XMLParser(target=found)  # noqa: S314 (see NoEntities)
     try:

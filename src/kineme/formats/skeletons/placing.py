@@ -39,7 +39,7 @@ def place(
     up: str | None,
     provenance: Provenance,
 ) -> Motion:
-    """The motion in metres with y up, from one in a file's own units and axes.
+    """Return the motion in metres with y up, from one in a file's own units and axes.
 
     Rotations (frames, joints, 4) become the motion's and are changed in place. ``slides`` are
     places (frames, 3) of joints in the frames of their parents, instead of their offsets. A unit

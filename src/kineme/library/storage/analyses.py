@@ -97,12 +97,12 @@ def is_analysis(name: str) -> bool:
 
 
 def has_analysis(folder: Path, key: str) -> bool:
-    """Whether there is a whole analysis of that name."""
+    """Return whether there is a whole analysis of that name."""
     return (folder / f"{key}.parquet").is_file()
 
 
 def read_analysis(folder: Path, key: str) -> Analysis:
-    """The analysis of that name."""
+    """Return the analysis of that name."""
     pa, parquet = arrow()
     path = folder / f"{key}.parquet"
     with reading(path):
@@ -115,13 +115,13 @@ def read_analysis(folder: Path, key: str) -> Analysis:
 
 
 def read_features(folder: Path, key: str) -> NDArray[np.float32]:
-    """The matching features in an analysis, float32 (samples, dims)."""
+    """Return the matching features in an analysis, float32 (samples, dims)."""
     features: NDArray[np.float32] = _read_array(folder / f"{key}{FEATURES}", np.float32)
     return features
 
 
 def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
-    """The windows of these features, as `kineme.library.windows.all_windows` gives them."""
+    """Return the windows of these features, as `kineme.library.windows.all_windows` gives them."""
     windows: NDArray[np.int8] = _read_array(folder / f"{key}{WINDOWS}", np.int8)
     return windows
 
@@ -137,7 +137,7 @@ def read_parts(
 def read_spans(
     folder: Path, key: str, spans: Sequence[tuple[int, int]]
 ) -> list[NDArray[np.float32]]:
-    """The features in an analysis from some samples to others."""
+    """Return the features in an analysis from some samples to others."""
     with _features(folder, key) as (file, start, dims):
         parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
         _fill(file, start, [first for first, _ in spans], parts)

@@ -74,7 +74,7 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
 def open_index(
     folder: Path, named: str, recordings: dict[str, list[Any]], length: int
 ) -> Windows | None:
-    """The windows of one length, or None where the library has no index."""
+    """Return the windows of one length, or None where the library has no index."""
     path = _place(folder / TABLES / named, length)
     try:
         embedded: Bytes = np.load(near(path), mmap_mode="r", allow_pickle=False)
@@ -90,7 +90,7 @@ def open_index(
 
 
 def _indexed(recordings: dict[str, list[Any]]) -> Ints:
-    """The samples of each recording, 0 of those that are no bodies."""
+    """Return the samples of each recording, 0 of those that are no bodies."""
     bodies = np.array(recordings["vocabulary"], object) == BODIES
     return np.where(bodies, np.array(recordings["samples"], np.int64), 0)
 

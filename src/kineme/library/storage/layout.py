@@ -48,7 +48,7 @@ EXTRA = "library"
 
 
 def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
-    """What ``library.json`` says."""
+    """Return what ``library.json`` says."""
     path = place(folder) / HEAD
     if not path.is_file():
         raise ReadError(folder, "is no library: kineme library build FOLDER --into LIB makes one")
@@ -65,7 +65,7 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
 
 
 def _is_complete(head: Mapping[str, Any]) -> bool:
-    """Whether everything in a head is of its type."""
+    """Return whether everything in a head is of its type."""
     if not all(isinstance(head.get(name), kind) for name, kind in _KINDS.items()):
         return False
     constants = head["vocabulary"]
@@ -128,7 +128,7 @@ def writer_lock(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
 
 
 def arrow() -> tuple[Any, Any]:
-    """The modules pyarrow and pyarrow.parquet.
+    """Return the modules pyarrow and pyarrow.parquet.
 
     Read with ``use_threads=False``: a thread of theirs that lets go of bytes of Python while Python
     ends makes it abort, with all work done (https://github.com/apache/arrow/issues/34314).
@@ -142,7 +142,7 @@ def arrow() -> tuple[Any, Any]:
 
 
 def as_array(column: Any) -> NDArray[Any]:
-    """A column of a pyarrow.Table as an array, of objects where it holds texts.
+    """Return a column of a pyarrow.Table as an array, of objects where it holds texts.
 
     By way of DLPack: pyarrow's own way imports pandas.
     """

@@ -30,7 +30,7 @@ _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
 
 
 def place(given: str | PathLike[str], caller: str = "place") -> Path:
-    """A path, or what behaves like one where a URL is given.
+    """Return a path, or what behaves like one where a URL is given.
 
     Examples
     --------
@@ -57,12 +57,12 @@ def place(given: str | PathLike[str], caller: str = "place") -> Path:
 
 
 def is_remote(path: str | PathLike[str]) -> bool:
-    """Whether a place is elsewhere."""
+    """Return whether a place is elsewhere."""
     return hasattr(path, "protocol")
 
 
 def lies_in(path: Path, folder: Path) -> bool:
-    """Whether a place is in a folder; what is elsewhere is in none of this machine."""
+    """Return whether a place is in a folder; what is elsewhere is in none of this machine."""
     return is_remote(path) == is_remote(folder) and path.is_relative_to(folder)
 
 

@@ -88,7 +88,7 @@ def is_table(name: str) -> bool:
 
 
 def table_of(name: str, columns: Mapping[str, Any]) -> Any:
-    """A table of computed columns, a pyarrow.Table; of any number of rows, with none, too.
+    """Return a table of computed columns, a pyarrow.Table; of any number of rows, with none, too.
 
     Embeddings are a pyarrow.Array already.
     """
@@ -139,7 +139,7 @@ def _put(home: Path, tables: Mapping[str, Any]) -> str:
 
 
 def read_table(folder: Path, named: str, name: str) -> Any:
-    """A table of those that the head of the library names, a pyarrow.Table."""
+    """Return a table of those that the head of the library names, a pyarrow.Table."""
     pa, parquet = arrow()
     path = folder / TABLES / named / f"{name}.parquet"
     with reading(path):
@@ -157,7 +157,7 @@ def read_table(folder: Path, named: str, name: str) -> Any:
 
 
 def _is_sound(column: Any, kind: type) -> bool:
-    """Whether a column is of its type, and has a value in every row."""
+    """Return whether a column is of its type, and has a value in every row."""
     pa, _ = arrow()
     types = {str: pa.string(), int: pa.int64(), float: pa.float64()}
     if column.null_count:

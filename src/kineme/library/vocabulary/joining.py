@@ -154,7 +154,7 @@ def results(
 
 
 def _compared(task: _Pairs) -> Floats:
-    """The distance of each word of the rows from each of the columns."""
+    """Return the distance of each word of the rows from each of the columns."""
     ones = [task.load(place) for place in task.ones]
     others = ones if task.columns == task.rows else [task.load(place) for place in task.others]
     forward = _all_distances(ones, Contexts(others))
@@ -263,7 +263,7 @@ class _Search:
 def clusters_in(
     crowd: Crowd, constants: VocabularyConstants, executor: Executor, progress: Progress
 ) -> Joined:
-    """The clusters of words, however many.
+    """Return the clusters of words, however many.
 
     Up to ``most`` are compared each with each. Of more, spread and confidence are those in the turn
     in which a word found its cluster.
@@ -308,7 +308,7 @@ def _searches(constants: VocabularyConstants) -> int:
 
 
 def _typical(crowd: Crowd, sample: Ints, found: Joined, most: int) -> _Typical:
-    """The most typical words of each cluster."""
+    """Return the most typical words of each cluster."""
     order = np.lexsort((found.spread, found.labels))
     first = np.searchsorted(found.labels[order], found.labels[order])
     chosen = order[np.arange(len(order)) - first < most]
@@ -332,7 +332,7 @@ def _nearest_clusters(
 
 
 def _clusters_of(task: _Search) -> Joined:
-    """The nearest cluster of each word of a task."""
+    """Return the nearest cluster of each word of a task."""
     constants, crowd, labels = task.constants, task.words, task.typical.labels
     near = [_near(embedding, task.typical, constants.nearest) for embedding in crowd.embeddings]
     needed = sorted({i for each in near for i in each.tolist()})
@@ -363,7 +363,7 @@ def _clusters_of(task: _Search) -> Joined:
 
 
 def _near(embedding: Float32s, typical: _Typical, most: int) -> Ints:
-    """The typical words of the clusters of which one word's embedding is nearest."""
+    """Return the typical words of the clusters of which one word's embedding is nearest."""
     apart = ((typical.words.embeddings - embedding) ** 2).sum(axis=1)
     order = np.argsort(apart, kind="stable")
     clusters = list(dict.fromkeys(typical.labels[order].tolist()))[:most]

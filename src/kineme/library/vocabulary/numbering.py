@@ -34,7 +34,7 @@ Removed = Mapping[str, Spans]
 def lasting_numbers(
     old: Mapping[str, Spans], new: Mapping[str, Spans], *, following: int
 ) -> dict[int, int]:
-    """The number of each new cluster.
+    """Return the number of each new cluster.
 
     Examples
     --------
@@ -63,7 +63,7 @@ def lasting_numbers(
 
 
 def read_removed(folder: Path) -> dict[str, Spans]:
-    """The activities of recordings that were taken out, by key."""
+    """Return the activities of recordings that were taken out, by key."""
     path = folder / REMOVED
     return {key: _spans(columns, path) for key, columns in read_json(path).items()}
 
@@ -76,7 +76,7 @@ def write_removed(folder: Path, removed: Removed) -> None:
 
 
 def removed_after(removed: Removed, before: Removed, present: Iterable[str]) -> dict[str, Spans]:
-    """The activities of recordings that are not present any more, by key."""
+    """Return the activities of recordings that are not present any more, by key."""
     names = set(present)
     return {key: spans for key, spans in {**removed, **before}.items() if key not in names}
 

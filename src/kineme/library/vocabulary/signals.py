@@ -80,7 +80,7 @@ def clusters_of_signals(
 
 
 def _distances(task: _Search) -> Floats:
-    """How far the mean sample of each word is from each centre."""
+    """Return how far the mean sample of each word is from each centre."""
     return np.concatenate(
         [_of_recording(task, *each) for each in zip(task.keys, task.words, strict=True)]
     )
@@ -95,7 +95,7 @@ def _of_recording(task: _Search, key: str, words: Sequence[Floats]) -> Floats:
 
 
 def _inside(seconds: Float32s, spans: Floats) -> NDArray[np.bool_]:
-    """The samples in spans; of a short one that before it."""
+    """Return the samples in spans; of a short one that before it."""
     inside = np.zeros(len(seconds), np.bool_)
     firsts = np.minimum(np.searchsorted(seconds, spans[:, 0]), len(seconds) - 1)
     stops = np.maximum(np.searchsorted(seconds, spans[:, 1]), firsts + 1)

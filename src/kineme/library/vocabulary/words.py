@@ -50,7 +50,7 @@ class Place:
 
 
 def places_in(analysis: Analysis, recording: int) -> list[Place]:
-    """The words of a recording: one for each cluster that it has.
+    """Return the words of a recording: one for each cluster that it has.
 
     The typical segment is the repetition of median length, or the activity where none was
     counted.
@@ -91,7 +91,7 @@ class _Spans(NamedTuple):
 def crowd_of(
     places: Sequence[Place], analyses: Sequence[Analysis], folder: Path, keys: Sequence[str]
 ) -> Crowd:
-    """The words at these places, drawn in an order that depends on each of them alone."""
+    """Return the words at these places, drawn in an order that depends on each of them alone."""
     names = [f"{keys[place.recording]} {place.cluster}" for place in places]
     drawn = b"".join(sha256(name.encode()).digest()[:8] for name in names)
     spans = [
@@ -109,7 +109,7 @@ def crowd_of(
 
 
 def _word_at(folder: Path, spans: _Spans) -> Word:
-    """The features of a word, as they are compared."""
+    """Return the features of a word, as they are compared."""
     return Word(*read_spans(folder, spans.key, (spans.example, spans.context)))
 
 
@@ -130,7 +130,7 @@ def _spans(place: Place, analysis: Analysis, key: str, constants: VocabularyCons
 
 
 def _around(table: SegmentTable, second: float) -> tuple[float, float]:
-    """The activity that lies around a second."""
+    """Return the activity that lies around a second."""
     around = (table.level == "activity") & (table.start_s <= second) & (second < table.stop_s)
     row = int(np.argmax(around))
     return (float(table.start_s[row]), float(table.stop_s[row])) if around[row] else (second,) * 2

@@ -232,7 +232,7 @@ class KinemeConstants(Preset):
             )
 
     def at_most(self, fps: float) -> Self:
-        """The preset for a recording of that rate: energies above it are not there."""
+        """Return the preset for a recording of that rate: energies above it are not there."""
         return replace(self, working_fps=fps) if RATE.minimum <= fps < self.working_fps else self
 
     def cluster_price(self, samples: int) -> float:
@@ -254,7 +254,7 @@ class KinemeConstants(Preset):
         return seconds * self.rate
 
     def in_scale(self, view: int) -> Self:
-        """The preset with one view only."""
+        """Return the preset with one view only."""
         scale = (self.shared[view],), (self.weights[view],), (self.restless_over[view],)
         return replace(self, shared=scale[0], weights=scale[1], restless_over=scale[2])
 

@@ -69,7 +69,7 @@ class Occurrences:
         return len(self.starts)
 
     def explained(self, borders: Ints) -> Floats:
-        """The share of each segment that recurs, weighted by similarity: 0 to 1."""
+        """Return the share of each segment that recurs, weighted by similarity: 0 to 1."""
         lengths = (self.stops - self.starts) * self.similarity
         inside = np.bincount(self._segments(borders), lengths, len(borders) - 1)
         return inside / np.diff(borders)
@@ -82,7 +82,7 @@ class Occurrences:
         return Occurrences(self.starts[kept], self.stops[kept], clusters, self.similarity[kept])
 
     def _segments(self, borders: Ints) -> Ints:
-        """The segment in which the middle of each lies."""
+        """Return the segment in which the middle of each lies."""
         middles = (self.starts + self.stops) // 2
         segments: Ints = np.searchsorted(borders, middles, side="right") - 1
         return segments
@@ -91,7 +91,7 @@ class Occurrences:
 def occurrences(
     poses: NDArray[np.floating], free: NDArray[np.bool_], preset: KinemeConstants
 ) -> Occurrences:
-    """What recurs among the frames that are free.
+    """Return what recurs among the frames that are free.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ class _Samples:
 
 
 def _samples(poses: Floats, free: NDArray[np.bool_], preset: KinemeConstants) -> _Samples:
-    """The free frames at equal steps of movement time."""
+    """Return the free frames at equal steps of movement time."""
     n = len(poses)
     frames = np.arange(n)
     before, after = np.maximum(frames - 1, 0), np.minimum(frames + 1, n - 1)

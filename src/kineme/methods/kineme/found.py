@@ -94,7 +94,7 @@ class KinemeFound:
         return confidence(self.evidence, self.preset)
 
     def levels(self, columns: Columns) -> Mapping[float, Columns]:
-        """The table at coarser and finer details: the tree, pruned at scaled costs.
+        """Return the table at coarser and finer details: the tree, pruned at scaled costs.
 
         Details that are equal to their coarser neighbour are left out.
         """
@@ -130,7 +130,7 @@ class KinemeFound:
         return neighbor_graph(self.features, radius=0.5 * self.unit, k=PICTURED)
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """A sentence for each cluster, count or border of low confidence, at most five.
+        """Return a sentence for each cluster, count or border of low confidence, at most five.
 
         One more lists the activities that are not periodic.
         """

@@ -127,7 +127,7 @@ def _analyze(
 
 
 def _part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
-    """A part as if it were alone. Its view is chosen before it is known what repeats."""
+    """Return a part as if it were alone. Its view is chosen before it is known what repeats."""
 
     def clusters(view: Rows) -> Frames:
         return level_of(view, preset).per_sample()

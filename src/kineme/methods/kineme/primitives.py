@@ -68,7 +68,7 @@ class Segments:
 
     @cached_property
     def parents(self) -> Frames:
-        """The activity or transition that each primitive lies in."""
+        """Return the activity or transition that each primitive lies in."""
         return _segment_at(self.borders, self.primitives[:-1])
 
     @cached_property
@@ -78,7 +78,7 @@ class Segments:
 
     @cached_property
     def repeats(self) -> Bools:
-        """Whether each primitive is a repetition."""
+        """Return whether each primitive is a repetition."""
         actions = self.labels[self.parents]
         found: Bools = (self.clusters >= 0) & (actions >= 0)
         return found & ~np.isin(actions, self.not_periodic)
@@ -150,7 +150,7 @@ def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Se
 
 
 def linked(labels: Frames, movements: dict[int, Floats], least: float) -> Frames:
-    """The labels of segments; clusters whose movements are similar become one.
+    """Return the labels of segments; clusters whose movements are similar become one.
 
     The similarity of two movements is, at the phase at which they fit best,
 
@@ -247,7 +247,7 @@ def _repeated(
 
 
 def action_means(shares: Floats, weights: NDArray[np.integer], labels: Frames) -> Floats:
-    """For each segment the weighted mean share of its cluster; 0 of transitions."""
+    """Return for each segment the weighted mean share of its cluster; 0 of transitions."""
     in_cluster = labels >= 0
     clusters = labels[in_cluster]
     total = np.bincount(clusters, weights[in_cluster])
@@ -258,7 +258,7 @@ def action_means(shares: Floats, weights: NDArray[np.integer], labels: Frames) -
 
 
 def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Segments:
-    """The segments with occurrences for primitives where no activity is periodic.
+    """Return the segments with occurrences for primitives where no activity is periodic.
 
     Parameters
     ----------
@@ -295,7 +295,7 @@ def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Seg
 
 
 def without_still(segments: Segments, rows: Rows, near: float) -> Segments:
-    """The segments without primitives in clusters that neither repeat nor move.
+    """Return the segments without primitives in clusters that neither repeat nor move.
 
     Parameters
     ----------
@@ -312,12 +312,12 @@ def without_still(segments: Segments, rows: Rows, near: float) -> Segments:
 
 
 def _reach(rows: Rows) -> float:
-    """The largest distance of a row from their mean."""
+    """Return the largest distance of a row from their mean."""
     return float(np.linalg.norm(rows - rows.mean(axis=0), axis=1).max())
 
 
 def without_repetitions(segments: Segments, actions: Frames) -> Segments:
-    """The segments without the repetitions of some clusters."""
+    """Return the segments without the repetitions of some clusters."""
     if not len(actions):
         return segments
     lost = segments.repeats & np.isin(segments.labels[segments.parents], actions)
@@ -342,7 +342,7 @@ def _tiled(
 
 
 def _segment_at(borders: Frames, frames: Frames) -> Frames:
-    """The segment in which each frame lies; -1 before the first."""
+    """Return the segment in which each frame lies; -1 before the first."""
     segments: Frames = np.searchsorted(borders, frames, side="right") - 1
     return segments
 
@@ -355,7 +355,7 @@ def _without_empty(borders: Frames, labels: Frames) -> tuple[Frames, Frames]:
 
 
 def _out_of(found: Occurrences, borders: Frames) -> Frames:
-    """The borders, those within an occurrence moved to its nearer end."""
+    """Return the borders, those within an occurrence moved to its nearer end."""
     if not len(found):
         return borders
     before = np.maximum(_segment_at(found.starts, borders), 0)

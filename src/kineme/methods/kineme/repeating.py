@@ -95,7 +95,7 @@ class Repeating:
         return Division(max(round(first), start), min(round(last), stop), share)
 
     def _share(self, movement: Movement, visits: Frames) -> float:
-        """The share that a division saves, 0 to 1."""
+        """Return the share that a division saves, 0 to 1."""
         preset, count = self.preset, len(visits)  # both ends together are about one more
         durations = np.diff(visits) / preset.working_fps
         if count < 3 or durations.max() > preset.max_repetition:

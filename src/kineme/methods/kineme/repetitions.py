@@ -118,7 +118,7 @@ class Candidate:
         return _rounded(self.number)
 
     def is_chance(self, most: float) -> bool:
-        """Whether the mean of many repetitions would leave more than ``most`` unexplained.
+        """Return whether the mean of many repetitions would leave more than ``most`` unexplained.
 
         The mean of few others has noise of its own, and explains less. That is allowed for: with
         the correlation 1 - ``most`` between any two, the mean of these others explains so much.
@@ -128,7 +128,7 @@ class Candidate:
         return self.unexplained >= 1 - explained
 
     def cuts(self, count: int) -> Frames | None:
-        """The visits at which one of so many repetitions ends and the next begins.
+        """Return the visits at which one of so many repetitions ends and the next begins.
 
         None if there are too few visits, or more than one too many at either end.
         """
@@ -174,7 +174,7 @@ def repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) 
 
 
 def movement_of(rows: Rows, preset: KinemeConstants) -> Movement:
-    """A span of a recording as a path of poses."""
+    """Return a span of a recording as a path of poses."""
     poses, speeds = kernels.smoothed(rows, preset.frames(SMOOTHED))
     path = np.append(0, np.cumsum(speeds))
     shares = speeds / max(path[-1], 1e-12)
@@ -219,7 +219,7 @@ def _candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list
 
 
 def _is_chance(division: Candidate, movement: Movement, preset: KinemeConstants) -> bool:
-    """Whether its repetitions are similar by chance in how they move, wherever they are.
+    """Return whether its repetitions are similar by chance in how they move, wherever they are.
 
     Standing and leaning now to one side, now to the other, is no repetition.
     """
@@ -231,7 +231,7 @@ def _is_chance(division: Candidate, movement: Movement, preset: KinemeConstants)
 def candidate(
     movement: Movement, visits: Frames, preset: KinemeConstants, centering: float
 ) -> Candidate:
-    """The division of an activity at these visits, with its ends."""
+    """Return the division of an activity at these visits, with its ends."""
     near, scattered = preset.end_distance * movement.variance, preset.end_scatter
     before, after, ends, unexplained = kernels.division(
         movement.poses, movement.path, visits, PLACES, near, FOLLOWED, centering, scattered
@@ -240,12 +240,12 @@ def candidate(
 
 
 def _rounded(number: float) -> int:
-    """A number of repetitions in whole ones, parts of them included."""
+    """Return a number of repetitions in whole ones, parts of them included."""
     return int(number + 1 - ROUNDED_UP)
 
 
 def at_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
-    """The cuts, all moved by the same phase to where movement is slowest.
+    """Return the cuts, all moved by the same phase to where movement is slowest.
 
     They stay where there is no rest, and where the first or the last repetition would be less
     than half of one.

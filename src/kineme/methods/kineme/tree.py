@@ -77,11 +77,11 @@ class Level:
     preference: Floats
 
     def per_sample(self) -> Samples:
-        """The cluster of each sample."""
+        """Return the cluster of each sample."""
         return np.repeat(self.labels, np.diff(self.borders))
 
     def in_frames(self, span: slice, preset: KinemeConstants) -> Level:
-        """The level of samples as one of the frames of this part of a recording."""
+        """Return the level of samples as one of the frames of this part of a recording."""
 
         def frames(samples: Samples) -> Samples:
             found = span.start + np.rint(samples * (preset.working_fps / preset.rate))
@@ -91,7 +91,7 @@ class Level:
 
 
 def level_of(features: Rows, preset: KinemeConstants, repeating: Repeating | None = None) -> Level:
-    """The segments of the features at the level of the shortest description.
+    """Return the segments of the features at the level of the shortest description.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ class Grouped(NamedTuple):
 
 
 def median_distance(features: Rows, width: int) -> float:
-    """The median distance of two samples that are so near in time; 1 where all are equal.
+    """Return the median distance of two samples that are so near in time; 1 where all are equal.
 
     An hour varies more than each of its minutes: the median distance of all samples would grow
     with the length of a recording.
@@ -238,7 +238,7 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
 def best_level(
     borders: Samples, sums: Floats, preset: KinemeConstants, saved: Callable[[int, int], float]
 ) -> Grouped:
-    """The level and clusters of the shortest description.
+    """Return the level and clusters of the shortest description.
 
     Parameters
     ----------
@@ -305,7 +305,7 @@ def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
 
 
 def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: float) -> Samples:
-    """The clusters of segments, where segments of short clusters have that of a neighbour.
+    """Return the clusters of segments, where segments of short clusters have that of a neighbour.
 
     A cluster is short if no run of its segments is `shortest` samples long. Of short segments
     between two others, the first get the cluster before and the rest the cluster after, such that
@@ -344,7 +344,7 @@ def summed(sums: Floats, first: Samples) -> Floats:
 
 
 def preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
-    """How much nearer each segment is to its own cluster than to the next, 0 to 1.
+    """Return how much nearer each segment is to its own cluster than to the next, 0 to 1.
 
     Parameters
     ----------
@@ -387,7 +387,7 @@ def part_ends(n: int, longest: int) -> list[int]:
 def linked(
     features: Rows, at: Samples, parts: Sequence[Level], *, unit: float, price: float
 ) -> Level:
-    """The parts one after the other, with clusters that mean the same in all of them.
+    """Return the parts one after the other, with clusters that mean the same in all of them.
 
     Parameters
     ----------

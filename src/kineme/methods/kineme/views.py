@@ -70,7 +70,7 @@ def views_of(
     *,
     joints: bool = False,
 ) -> Views:
-    """The statistics of the channels in each of the scales that the preset names.
+    """Return the statistics of the channels in each of the scales that the preset names.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def with_velocities(
 
 
 def slow_and_fast(scaled: Floats) -> list[Ints]:
-    """The half of the channels that changes less from frame to frame, and the other half.
+    """Return the half of the channels that changes less from frame to frame, and the other half.
 
     Examples
     --------
@@ -208,7 +208,7 @@ def by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np
 
 
 def by_restlessness(statistics: Floats, steps: int, weight: float) -> NDArray[np.float32]:
-    """Each statistic divided by its mean change over so many samples to the power `weight`.
+    """Return each statistic divided by its mean change over so many samples to the power `weight`.
 
     Examples
     --------
@@ -227,7 +227,7 @@ def by_restlessness(statistics: Floats, steps: int, weight: float) -> NDArray[np
 
 
 def _deviations(centred: Floats) -> Floats:
-    """The standard deviation of each column; 1 where nothing changes."""
+    """Return the standard deviation of each column; 1 where nothing changes."""
     deviations: Floats = np.sqrt((centred**2).mean(axis=0))
     return np.where(deviations > TINY, deviations, 1.0)
 

@@ -34,7 +34,7 @@ class ActivityCuts:
 
     @property
     def all(self) -> Cuts:
-        """Every cut once, ascending."""
+        """Return every cut once, ascending."""
         return np.union1d(self.forward, self.backward)
 
 

@@ -126,7 +126,7 @@ def _neighbors(
 
 
 def _growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> NeighborGraph:
-    """The pairs that growing regions count: near enough, and off the main diagonal."""
+    """Return the pairs that growing regions count: near enough, and off the main diagonal."""
     if preset.growth_neighbors is not None:
         graph = graph.nearest(preset.growth_neighbors)
     if preset.diagonal == "component":

@@ -46,7 +46,7 @@ class RegionGrowingPreset(RegionGrowingConstants):
         return analyze_regions(features, self, mirror=mirror, progress=progress)
 
     def for_signals(self) -> Self:
-        """The preset with its lengths in standard deviations of channels.
+        """Return the preset with its lengths in standard deviations of channels.
 
         A radius of 19 cm over 15 channels, 4.9 cm for each, becomes 0.38
         standard deviations. One that is in standard deviations is given back.

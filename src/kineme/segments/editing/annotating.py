@@ -23,7 +23,7 @@ Mark = Literal["by_hand", "checked"]
 def check(
     segmentation: Segmentation, level: Level, frames: Iterable[int], checked: bool
 ) -> Segmentation:
-    """The segments that start at ``frames`` are checked, or not any more.
+    """Return the segments that start at ``frames`` are checked, or not any more.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def check(
 
 
 def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> Segmentation:
-    """The segment that starts at ``frame`` has this comment in place of any it had.
+    """Return the segment that starts at ``frame`` has this comment in place of any it had.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
 
 
 def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -> Segmentation:
-    """The primitives that start at ``frames`` count in no mean, or do so again.
+    """Return the primitives that start at ``frames`` count in no mean, or do so again.
 
     Parameters
     ----------
@@ -152,20 +152,20 @@ def span_of(row: Segment) -> Span:
 
 
 def marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
-    """The segments that people vouch for in this sense."""
+    """Return the segments that people vouch for in this sense."""
     spans: set[Span] = {*getattr(segmentation.annotation, mark)}
     table = segmentation.table
     return spans.intersection(_columns(table.level, table.start_frame, table.stop_frame))
 
 
 def with_marked(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
-    """The same segments, of which people vouch for these and no others in this sense."""
+    """Return the same segments, of which people vouch for these and no others in this sense."""
     entry: dict[str, Any] = {mark: tuple(sorted(set(spans)))}
     return replace(segmentation, annotation=replace(segmentation.annotation, **entry))
 
 
 def noted(before: Segmentation, after: Segmentation) -> Segmentation:
-    """The segmentation after an edit, with what the edit made marked as made by hand."""
+    """Return the segmentation after an edit, with what the edit made marked as made by hand."""
     earlier, now = (
         {*_columns(rows.level, rows.start_frame, rows.stop_frame, rows.kind, rows.cluster)}
         for rows in (before.table, after.table)
@@ -175,7 +175,7 @@ def noted(before: Segmentation, after: Segmentation) -> Segmentation:
 
 
 def in_rows(segmentation: Segmentation) -> list[str]:
-    """The comments on each row, in their order; empty where there is none."""
+    """Return the comments on each row, in their order; empty where there is none."""
     entries = comments(segmentation)
     return ["; ".join(each[2] for each in entries if _is_of(each, row)) for row in segmentation]
 
@@ -189,18 +189,18 @@ def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
 
 
 def with_comments(segmentation: Segmentation, entries: list[Comment]) -> Segmentation:
-    """The same segments with these comments and no others."""
+    """Return the same segments with these comments and no others."""
     annotation = replace(segmentation.annotation, comments=tuple(entries))
     return replace(segmentation, annotation=annotation)
 
 
 def _columns(*columns: NDArray[Any]) -> Iterator[tuple[Any, ...]]:
-    """The cells of each row in these columns; tables have many rows."""
+    """Yield the cells of each row in these columns; tables have many rows."""
     return zip(*(column.tolist() for column in columns), strict=True)
 
 
 def _of(row: Segment, text: str) -> Comment:
-    """A comment on a segment, at its middle frame."""
+    """Return a comment on a segment, at its middle frame."""
     return row.level, _middle(row), text
 
 
@@ -209,6 +209,6 @@ def _middle(row: Segment) -> int:
 
 
 def _is_of(entry: Comment, row: Segment) -> bool:
-    """Whether a comment is on a segment."""
+    """Return whether a comment is on a segment."""
     level, frame, _ = entry
     return level == row.level and row.start_frame <= frame < row.stop_frame

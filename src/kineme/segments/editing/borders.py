@@ -75,7 +75,7 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
 
 
 def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
-    """A new border at ``frame``; both parts are called what the whole was.
+    """Return a new border at ``frame``; both parts are called what the whole was.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
 
 
 def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Segmentation:
-    """The segments of ``[start, stop)`` as one of the kind, cluster and label of the first.
+    """Return the segments of ``[start, stop)`` as one of the kind, cluster and label of the first.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Se
 
 
 def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
-    """The two segments that meet at ``frame`` as one: the longer takes the other.
+    """Return the two segments that meet at ``frame`` as one: the longer takes the other.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segme
 
 
 def _number(rows: Rows, frame: int) -> int:
-    """The number of the row that starts there."""
+    """Return the number of the row that starts there."""
     return next(i for i, row in enumerate(rows) if row.start_frame == frame)
 
 

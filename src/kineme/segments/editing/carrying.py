@@ -67,7 +67,7 @@ class Carried:
 
 
 def carried(before: Segmentation, found: Segmentation) -> Carried:
-    """A new segmentation with the corrections and names of the one before.
+    """Return a new segmentation with the corrections and names of the one before.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
 
 
 def names_of(segmentation: Segmentation) -> int:
-    """How many names there are: of clusters, and of segments that have their own."""
+    """Return how many names there are: of clusters, and of segments that have their own."""
     return len(cluster_names(segmentation)) + len(_singly_named(segmentation))
 
 
@@ -117,7 +117,7 @@ def _singly_named(segmentation: Segmentation) -> Rows:
 
 
 def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
-    """The new segments, with the old numbers of the clusters that match."""
+    """Return the new segments, with the old numbers of the clusters that match."""
     match = _matching_clusters(before, found)
     used = set(before.table.cluster.tolist())
     free = (number for number in count() if number not in used)
@@ -128,7 +128,7 @@ def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
 
 
 def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]:
-    """The old number of each new cluster that has one."""
+    """Return the old number of each new cluster that has one."""
     shared: dict[int, Counter[int]] = {}
     for level in get_args(Level):
         pairs = np.stack([_by_frame(before, level), _by_frame(found, level)])
@@ -147,7 +147,7 @@ def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, i
 
 
 def _by_frame(segmentation: Segmentation, level: Level) -> NDArray[np.int64]:
-    """The cluster of each frame; -1 everywhere where there is no such level."""
+    """Return the cluster of each frame; -1 everywhere where there is no such level."""
     rows = segmentation.level(level)
     if not len(rows):
         return np.full(segmentation.n_frames, -1)
@@ -160,7 +160,7 @@ def _counts(pairs: NDArray[np.int64]) -> tuple[list[list[int]], list[int]]:
 
 
 def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
-    """The new table with the names of the old one, and the names that found no place."""
+    """Return the new table with the names of the old one, and the names that found no place."""
     lost, new_names = [], dict[int, str]()
     present = set(now.table.cluster.tolist())
     names, singles = cluster_names(before), _singly_named(before)
@@ -187,7 +187,7 @@ def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
 
 
 def _twin(segmentation: Segmentation, row: Segment) -> Segment | None:
-    """The segment of that level that shares more than half of both with a row."""
+    """Return the segment of that level that shares more than half of both with a row."""
     rows = segmentation.level(row.level)
     if not len(rows):
         return None
@@ -196,7 +196,7 @@ def _twin(segmentation: Segmentation, row: Segment) -> Segment | None:
 
 
 def _imposed(found: Segmentation, fixed: Rows) -> Segmentation:
-    """The segmentation with these segments in it as they are."""
+    """Return the segmentation with these segments in it as they are."""
     by_level = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
     activities = _sparing(list(found.activities), by_level["primitive"])
     activities = _with_fixed(activities, by_level["activity"])
@@ -210,7 +210,7 @@ def _imposed(found: Segmentation, fixed: Rows) -> Segmentation:
 
 
 def _cut_at(activities: Rows, primitives: Rows) -> Rows:
-    """The primitives, none of which crosses a border of activities."""
+    """Return the primitives, none of which crosses a border of activities."""
     for border in cuts(activities):
         primitives = cut(primitives, border)
     return primitives
@@ -249,7 +249,7 @@ def _with_fixed(rows: Rows, fixed: Rows) -> Rows:
 def _shortened(
     rows: Rows, at: int, beside: int, span: tuple[int, int], edges: set[tuple[int, int]]
 ) -> Rows:
-    """A row with the frames that it keeps; they go to the row beside it if they are few."""
+    """Return a row with the frames that it keeps; they go to the row beside it if they are few."""
     row, rows = rows[at], list(rows)
     rows[at] = _spanning(row, *span)
     few = 2 * length(rows[at]) < length(row) and len(rows) > 1
@@ -272,7 +272,7 @@ def _inside(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
 
 
 def _in_the_middle(rows: SegmentTable, row: Segment) -> Segment:
-    """The one of the rows of a level that holds the middle frame of another."""
+    """Return the one of the rows of a level that holds the middle frame of another."""
     middle = (row.start_frame + row.stop_frame - 1) // 2
     return rows[int(np.searchsorted(rows.start_frame, middle, side="right")) - 1]
 
@@ -288,6 +288,6 @@ def _edges(row: Segment) -> tuple[int, int]:
 
 
 def _spanning(row: Segment, start: int, stop: int) -> Segment:
-    """The row with other frames; where it starts anew its border has no confidence."""
+    """Return the row with other frames; where it starts anew its border has no confidence."""
     confidence = row.border_confidence if start == row.start_frame else math.nan
     return replace(row, start_frame=start, stop_frame=stop, border_confidence=confidence)

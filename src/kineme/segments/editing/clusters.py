@@ -159,7 +159,7 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
 
 
 def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmentation:
-    """The same clusters numbered anew, in this order from 0; names go along.
+    """Return the same clusters numbered anew, in this order from 0; names go along.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
 
 
 def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -> Segmentation:
-    """The segment that starts at ``frame`` is a transition and in no cluster, or none.
+    """Return the segment that starts at ``frame`` is a transition and in no cluster, or none.
 
     An activity's primitives become what it becomes; a transition is one primitive.
 
@@ -249,7 +249,7 @@ def _moved_to(
     members: Sequence[tuple[Level, Segment]],
     cluster: int,
 ) -> Segmentation:
-    """The members in another cluster, called by its name unless they have their own."""
+    """Return the members in another cluster, called by its name unless they have their own."""
     names = names_by_cluster(segmentation)
     moved = segmentation
     for inherits in (True, False):

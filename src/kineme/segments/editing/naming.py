@@ -20,7 +20,7 @@ from kineme.segments.table import Level, Segment
 
 
 def name_segment(segmentation: Segmentation, level: Level, frame: int, label: str) -> Segmentation:
-    """The segment that starts at ``frame`` has a name of its own, which stays.
+    """Return the segment that starts at ``frame`` has a name of its own, which stays.
 
     An empty one takes it away: then it is called by the name of its cluster, if that has one.
 
@@ -94,7 +94,7 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
 
 
 def cluster_names(segmentation: Segmentation) -> dict[int, str]:
-    """The names of the clusters that have one.
+    """Return the names of the clusters that have one.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> 
 
 
 def names_by_cluster(segmentation: Segmentation) -> dict[int, str]:
-    """The names of clusters by number; empty for those that are said to have none."""
+    """Return the names of clusters by number; empty for those that are said to have none."""
     clusters, labels = segmentation.table.cluster.tolist(), segmentation.table.label.tolist()
     sizes = Counter(clusters)
     called = Counter(zip(clusters, labels, strict=True)).items()
@@ -138,7 +138,7 @@ def names_by_cluster(segmentation: Segmentation) -> dict[int, str]:
 
 
 def members_of(segmentation: Segmentation, cluster: int) -> list[Segment]:
-    """The segments of a cluster, of both levels."""
+    """Return the segments of a cluster, of both levels."""
     table = segmentation.table
     return [*table.select(table.cluster == cluster)] if cluster >= 0 else []
 
@@ -146,7 +146,7 @@ def members_of(segmentation: Segmentation, cluster: int) -> list[Segment]:
 def changed(
     segmentation: Segmentation, members: Sequence[tuple[Level, Segment]], **columns: object
 ) -> Segmentation:
-    """The members with other values in these columns."""
+    """Return the members with other values in these columns."""
     chosen = {(level, row.start_frame) for level, row in members}
     table = segmentation.table
     places = zip(table.level.tolist(), table.start_frame.tolist(), strict=True)

@@ -52,7 +52,7 @@ class Part:
         return self.activities if level == "activity" else self.primitives
 
     def replaced(self, activities: Rows, primitives: Rows) -> Segmentation:
-        """The whole, with these rows in the place of its own."""
+        """Return the whole, with these rows in the place of its own."""
         (before, first), (last, after) = [(span.start, span.stop) for span in self.spans]
         columns = {}
         for name, column in self.segmentation.table.columns().items():
@@ -66,7 +66,7 @@ class Part:
 
 
 def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
-    """The segment of a level that starts at ``frame``; ParameterError where none does."""
+    """Return the segment of a level that starts at ``frame``; ParameterError where none does."""
     rows = segmentation.level(level)
     at = int(np.searchsorted(rows.start_frame, frame))
     if at == len(rows) or rows.start_frame[at] != frame:
@@ -87,7 +87,7 @@ def moved(rows: Rows, frame: int, to: int) -> Rows:
 
 
 def cut(rows: Rows, frame: int) -> Rows:
-    """The row that ``frame`` lies in, if any, as two."""
+    """Return the row that ``frame`` lies in, if any, as two."""
     parts: Rows = []
     for row in rows:
         if row.start_frame < frame < row.stop_frame:
@@ -114,7 +114,7 @@ def joined(rows: Rows, first: int, last: int, like: int) -> Rows:
 
 
 def adopted(row: Segment, before: Segment, after: Segment) -> Segment:
-    """A primitive that lay in one activity and lies in another."""
+    """Return a primitive that lay in one activity and lies in another."""
     same = (row.kind == "transition") == (before.kind == "transition")
     kind = kind_of(row.level, transition=after.kind == "transition")
     new = replace(
@@ -128,17 +128,17 @@ def adopted(row: Segment, before: Segment, after: Segment) -> Segment:
 
 
 def as_transition(row: Segment) -> Segment:
-    """The row as a transition, which is in no cluster."""
+    """Return the row as a transition, which is in no cluster."""
     return replace(row, kind="transition", cluster=-1, confidence=math.nan)
 
 
 def as_movement(row: Segment) -> Segment:
-    """The row as what its level says: an activity, or a primitive."""
+    """Return the row as what its level says: an activity, or a primitive."""
     return replace(row, kind=row.level, confidence=math.nan)
 
 
 def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, int, int]) -> Rows:
-    """The primitives once the border of activities (number, from, to) has moved."""
+    """Return the primitives once the border of activities (number, from, to) has moved."""
     number, frame, to = move
     low, high = min(frame, to), max(frame, to)
     borders = cuts(primitives)
@@ -162,7 +162,7 @@ def cuts(rows: Rows) -> list[int]:
 
 
 def after_border(segmentation: Segmentation, level: Level, frame: int) -> int:
-    """The number of the segment after the border; ParameterError where there is none."""
+    """Return the number of the segment after the border; ParameterError where there is none."""
     borders: list[int] = segmentation.cuts(level).tolist()
     if frame not in borders:
         nearest = min(borders, key=lambda border: abs(border - frame), default=None)
@@ -179,7 +179,7 @@ def length(row: Segment) -> int:
 def with_rows(
     segmentation: Segmentation, activities: Iterable[Segment], primitives: Iterable[Segment]
 ) -> Segmentation:
-    """The same recording with these rows; seconds and parents follow from their frames."""
+    """Return the same recording with these rows; seconds and parents follow from their frames."""
     rows = [*activities, *primitives]
     return with_columns(
         segmentation, {name: [getattr(row, name) for row in rows] for name in COLUMNS}
@@ -187,7 +187,7 @@ def with_rows(
 
 
 def with_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]) -> Segmentation:
-    """The same recording with these columns; seconds and parents follow from frames."""
+    """Return the same recording with these columns; seconds and parents follow from frames."""
     return Segmentation.from_columns(
         {name: values for name, values in columns.items() if name != "activity"},
         n_frames=segmentation.n_frames,

@@ -52,14 +52,14 @@ class MessageResponse(JSONResponse):
 
 
 def file_response(name: str, content: bytes) -> Response:
-    """A file to keep; what is not Unicode in its name becomes "?"."""
+    """Return a file to keep; what is not Unicode in its name becomes "?"."""
     quoted = quote(name.encode(errors="replace"), safe="")
     headers = {"content-disposition": f"attachment; filename*=UTF-8''{quoted}"}
     return Response(content, headers=headers, media_type="application/octet-stream")
 
 
 def number_in(text: str) -> int:
-    """The number in an address; -1, which nothing has, for anything else."""
+    """Return the number in an address; -1, which nothing has, for anything else."""
     return int(text) if text.isascii() and text.isdigit() and len(text) < 9 else -1
 
 
@@ -86,7 +86,7 @@ class TooLargeError(Exception):
 
 
 async def chunks(request: Request) -> AsyncIterator[bytes]:
-    """What is sent, piece by piece; TooSlowError where the next one does not come."""
+    """Yield what is sent, piece by piece; TooSlowError where the next one does not come."""
     sent = request.stream()
     while True:
         try:
@@ -100,7 +100,7 @@ async def chunks(request: Request) -> AsyncIterator[bytes]:
 
 
 async def body(request: Request) -> bytes:
-    """What was sent, which is read no farther than a request may be long."""
+    """Return what was sent, which is read no farther than a request may be long."""
     sent = bytearray()
     async for chunk in chunks(request):
         sent += chunk
@@ -157,7 +157,7 @@ class Upload:
             raise TooLargeError(f"{self.name} cannot be written: {error.strerror}") from error
 
     def finish(self) -> Path:
-        """The path under which the file is there now, or was before."""
+        """Return the path under which the file is there now, or was before."""
         self._file.close()
         for path in _free_names(self._root / self.name):
             if path.is_file() and self._is_in(path):
@@ -172,7 +172,7 @@ class Upload:
 
 
 def safe_name(name: str) -> str:
-    """A file's name without folders, and without what some system does not allow in it."""
+    """Return a file's name without folders, and without what some system does not allow in it."""
     last = re.split(r"[/\\]", unicodedata.normalize("NFC", name))[-1]
     plain = "".join(c if c.isprintable() and c not in '<>:"|?*' else "_" for c in last).strip(" .")
     stem, suffix = Path(plain).stem, Path(plain).suffix
@@ -192,7 +192,7 @@ def forget_drafts(root: Path) -> None:
 
 
 def recording_suffixes() -> list[str]:
-    """The suffixes of files that can be recordings, in alphabetical order."""
+    """Return the suffixes of files that can be recordings, in alphabetical order."""
     return sorted({suffix for each in supported_formats() if each.read for suffix in each.suffixes})
 
 
@@ -207,7 +207,7 @@ def _free_names(path: Path) -> list[Path]:
 
 
 def _take_name(draft: Path, path: Path) -> bool:
-    """Whether the draft now has this name; not if another file has."""
+    """Return whether the draft now has this name; not if another file has."""
     try:
         os.link(draft, path)
     except FileExistsError:

@@ -38,7 +38,7 @@ class Hub:
         self._spread(None)
 
     async def stream(self) -> AsyncIterator[str]:
-        """The news as ``text/event-stream``."""
+        """Yield the news as ``text/event-stream``."""
         self._loop = asyncio.get_running_loop()
         queue: asyncio.Queue[Changed | None] = asyncio.Queue(LONGEST)
         self._pages.add(queue)

@@ -50,7 +50,7 @@ WITHIN = 20.0
 
 
 def new_token() -> str:
-    """A token that cannot be guessed."""
+    """Return a token that cannot be guessed."""
     return secrets.token_urlsafe(24)
 
 
@@ -114,7 +114,7 @@ class Guard:
 
 
 def is_trusted(request: Request) -> bool:
-    """Whether a request that has passed the guard carries the token."""
+    """Return whether a request that has passed the guard carries the token."""
     return bool(request.scope[TRUSTED])
 
 
@@ -141,7 +141,7 @@ class HeadersInTime(AutoHTTPProtocol):  # type: ignore[misc, valid-type]  # one 
         super().connection_lost(exc)
 
     def _is_idle(self) -> bool:
-        """Whether no request is being answered."""
+        """Return whether no request is being answered."""
         return self.cycle is None or self.cycle.response_complete
 
     def _wait(self) -> None:

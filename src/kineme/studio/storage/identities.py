@@ -37,7 +37,7 @@ class Identities:
     others: dict[str, str] = field(default_factory=dict)
 
     def of(self, table: Segmentation) -> list[str]:
-        """The identity of each row of the table.
+        """Return the identity of each row of the table.
 
         Examples
         --------

@@ -118,12 +118,12 @@ class Journal:
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a table before the present one."""
+        """Return whether there is a table before the present one."""
         return bool(self._record.history.past)
 
     @property
     def can_redo(self) -> bool:
-        """Whether one was taken back."""
+        """Return whether one was taken back."""
         return bool(self._record.history.future)
 
     @property
@@ -132,18 +132,18 @@ class Journal:
         return self._record.steps[self._record.history.present].ids
 
     def knows(self, name: str) -> bool:
-        """Whether the edit of that name has been made."""
+        """Return whether the edit of that name has been made."""
         return bool(name) and name in self._record.names
 
     def versions(self) -> dict[int, Step]:
-        """The tables that were replaced, the latest first."""
+        """Return the tables that were replaced, the latest first."""
         steps = self._record.steps
         n_frames = steps[self._record.history.present].n_frames
         numbers = reversed(self._record.kept)
         return {number: steps[number] for number in numbers if steps[number].n_frames == n_frames}
 
     def table(self, number: int) -> Segmentation:
-        """A table of the history; ReadError where it is not there any more."""
+        """Return a table of the history; ReadError where it is not there any more."""
         if number in self._unsaved:
             return self._unsaved[number].table
         return self._kept(number)[1]
@@ -156,7 +156,7 @@ class Journal:
         replaced: bool = False,
         ids: Identities = OF_A_FIRST_TABLE,
     ) -> Change:
-        """The history with a new table, made by an edit or by nobody.
+        """Return the history with a new table, made by an edit or by nobody.
 
         The present one is kept where it is ``replaced``; so is, in any case, the last of those that
         could have been redone.
@@ -177,11 +177,11 @@ class Journal:
         return change
 
     def undone(self) -> Change:
-        """The history one step back; ParameterError where there is nothing to undo."""
+        """Return the history one step back; ParameterError where there is nothing to undo."""
         return self._moved_to(self._record.history.undone())
 
     def redone(self) -> Change:
-        """The history one step forward again; ParameterError where nothing was undone."""
+        """Return the history one step forward again; ParameterError where nothing was undone."""
         return self._moved_to(self._record.history.redone())
 
     def write(
@@ -269,13 +269,13 @@ def write_record(folder: Path, record: Record) -> None:
 
 
 def pruned(record: Record) -> Record:
-    """The record without the steps that nothing needs any more."""
+    """Return the record without the steps that nothing needs any more."""
     needed = needed_by(record)
     return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})
 
 
 def needed_by(record: Record) -> set[int]:
-    """The numbers of the tables that a record names."""
+    """Return the numbers of the tables that a record names."""
     history = record.history
     return {*history.past, history.present, *history.future, *record.kept}
 

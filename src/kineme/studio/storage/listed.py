@@ -14,7 +14,7 @@ from kineme._files import of_person
 
 
 def file_id(path: Path) -> str:
-    """The id of a file: the same for as long as it lies there."""
+    """Return the id of a file: the same for as long as it lies there."""
     return _digest(str(path.absolute()))
 
 
@@ -46,7 +46,7 @@ class ListedRecording:
 
     @property
     def name(self) -> str:
-        """What it is called where people read it."""
+        """Return what it is called where people read it."""
         person = f"person {self.person}" if self.person.isdecimal() else self.person
         return f"{self.path.name} · {person}" if person else self.path.name
 
@@ -57,7 +57,7 @@ class ListedRecording:
 
     @property
     def with_table(self) -> Path:
-        """The file that its table is called after."""
+        """Return the file that its table is called after."""
         return self.path if self.is_first else self.called
 
 

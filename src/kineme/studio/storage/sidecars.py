@@ -61,18 +61,18 @@ class Reading:
     people: Sequence[str] = ()
 
     def differs_from(self, other: Reading) -> set[str]:
-        """The options that are others; another person of several is another recording."""
+        """Return the options that are others; another person of several is another recording."""
         names = {name for name in OPTIONS if name != "person" or not self.people}
         return {name for name in names if self.options.get(name) != other.options.get(name)}
 
 
 def reading_of(recording: Path) -> Reading:
-    """What people said of how a recording is read."""
+    """Return what people said of how a recording is read."""
     return _reading(recording)[0]
 
 
 def options_of(recording: Path) -> dict[str, Any]:
-    """The options alone."""
+    """Return the options alone."""
     return reading_of(recording).options
 
 
@@ -112,7 +112,7 @@ def given(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def video_message(recording: Path) -> Video | None:
-    """What a page is told of the video."""
+    """Return what a page is told of the video."""
     found = video_beside(recording)
     return Video(name=found.name, offset_s=offset_of(recording)) if found else None
 
@@ -128,7 +128,7 @@ def set_offset(recording: Path, seconds: float) -> None:
 
 
 def shared_labels(root: Path) -> list[str]:
-    """The labels of a folder; none where nobody chose any."""
+    """Return the labels of a folder; none where nobody chose any."""
     return _labels(root)[0]
 
 
@@ -140,13 +140,13 @@ def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
 
 
 def notes_on_sidecars(recording: Path) -> list[str]:
-    """Which of the files of a recording and its folder cannot be read, and why."""
+    """Return which of the files of a recording and its folder cannot be read, and why."""
     found = (_reading(recording), _video(recording), _labels(recording.parent))
     return [note for _, notes in found for note in notes]
 
 
 def read_sidecar(path: Path, shape: type[Content], otherwise: Content) -> tuple[Content, list[str]]:
-    """What a side file holds, and what people should know of it.
+    """Return what a side file holds, and what people should know of it.
 
     ``otherwise`` counts where there is none, or a damaged one, which is left alone.
     """

@@ -34,17 +34,17 @@ class TableFile:
 
     @property
     def exists(self) -> bool:
-        """Whether the table has been saved."""
+        """Return whether the table has been saved."""
         return self._digest is not None
 
     def changed(self) -> bool:
-        """Whether the file is another than the one last read or written here."""
+        """Return whether the file is another than the one last read or written here."""
         if _stamp(self.path) == self._stamp:
             return False
         return _digest(self.path) != self._digest
 
     def read(self) -> Segmentation:
-        """The table in the file, which counts as seen from now on."""
+        """Return the table in the file, which counts as seen from now on."""
         self._stamp, self._digest = _stamp(self.path), _digest(self.path)
         return read_segments(self.path, format="json")
 
@@ -64,7 +64,7 @@ class TableFile:
 
 
 def content_of(table: Segmentation) -> bytes:
-    """What a file holds of a table."""
+    """Return what a file holds of a table."""
     return json_table.dumps(table).encode()
 
 
@@ -102,7 +102,7 @@ def saved_table(
 
 
 def usual_tables(listed: ListedRecording) -> list[Path]:
-    """The two names that nearly every recording's table has."""
+    """Return the two names that nearly every recording's table has."""
     after = listed.with_table
     return [after.with_name(name + CORRECTED) for name in (after.stem, after.name)]
 
@@ -120,7 +120,7 @@ def _candidates(listed: ListedRecording) -> Iterator[Path]:
 
 
 def _stamp(path: Path) -> tuple[int, int, int] | None:
-    """What changes when a file is written; None where there is none."""
+    """Return what changes when a file is written; None where there is none."""
     try:
         found = path.stat()
     except OSError:

@@ -49,7 +49,7 @@ PLAIN: dict[Any, str] = {
 
 
 def typescript(named: dict[str, Any]) -> str:
-    """The types as TypeScript: unions and literals as ``type``, structs as ``interface``.
+    """Return the types as TypeScript: unions and literals as ``type``, structs as ``interface``.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def _is_nan(value: Any) -> bool:
 
 
 def _bare() -> str:
-    """A row and an annotation of which nothing is known, for tests to fill."""
+    """Return a row and an annotation of which nothing is known, for tests to fill."""
     cells = "".join(
         f"  {name}: {json.dumps(None if _is_nan(value) else value)},\n"
         for name, value in BARE.items()
@@ -162,7 +162,7 @@ def _alternatives(info: Any, aliases: dict[str, inspect.Type]) -> str:
 
 
 def _comment(text: str) -> str:
-    """A docstring as a JSDoc comment, its markup as Markdown."""
+    """Return a docstring as a JSDoc comment, its markup as Markdown."""
     text = re.split(r"\n\s*Examples\n", text)[0]  # they are of Python
     text = re.sub(r":\w+:`~?([\w.]+)`", r"`\1`", text.replace("``", "`"))
     lines = [line.strip() for line in text.strip().splitlines()]
@@ -172,14 +172,14 @@ def _comment(text: str) -> str:
 
 
 def messages_typescript() -> str:
-    """What ``messages.ts`` holds."""
+    """Return what ``messages.ts`` holds."""
     of_table = {"Level": Level, "Kind": Kind, "Segment": Segment, "Annotation": Annotation}
     types = types_of(messages, requests, annotator_messages, library_messages)
     return f"{typescript(of_table | types)}\n{_bare()}"
 
 
 def paths_typescript() -> str:
-    """What ``studio/server/paths.ts`` holds."""
+    """Return what ``studio/server/paths.ts`` holds."""
     nobody: Any = None  # routes are listed without anyone to answer
     routes = [*Api(nobody, nobody).routes(), *LibraryApi(nobody, nobody).routes()]
     return (
@@ -197,7 +197,7 @@ def _paths(routes: list[Route], method: str) -> str:
 
 
 def made() -> dict[Path, str]:
-    """The files that are made, and what they hold."""
+    """Return the files that are made, and what they hold."""
     return {
         SOURCES / "messages.ts": messages_typescript(),
         SOURCES / "studio" / "server" / "paths.ts": paths_typescript(),
