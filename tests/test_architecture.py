@@ -215,7 +215,8 @@ def test_arrows_point_up_the_plan() -> None:
 
 @pytest.mark.parametrize("name", HELPERS)
 def test_helpers_stand_alone(name: str) -> None:
-    assert {room(target) for target in IMPORTS[f"kineme.{name}"]} <= HELPERS[name]
+    # Aliases of types are everybody's.
+    assert {room(target) for target in IMPORTS[f"kineme.{name}"]} - {"_arrays"} <= HELPERS[name]
 
 
 def test_nobody_imports_the_command_line() -> None:

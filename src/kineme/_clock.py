@@ -16,12 +16,11 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats
 from kineme._checks import is_number
 from kineme.errors import ParameterError
-
-Floats = NDArray[np.float64]
 
 CLOSE_S = 0.05
 """Seconds by which times may miss those of a span: closer than people can say when it was."""

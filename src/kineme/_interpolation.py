@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Floats = NDArray[np.float64]
+from kineme._arrays import Floats
 
 
 def at_frames(values: ArrayLike, at: ArrayLike) -> Floats:

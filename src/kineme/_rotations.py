@@ -10,9 +10,9 @@ fastest.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Floats = NDArray[np.float64]
+from kineme._arrays import Floats
 
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 

@@ -19,9 +19,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from kineme._arrays import Floats
 
 LINEAR, LANDMARKS, WARP = "linear", "landmarks", "warp"
 ALIGNMENTS = (LINEAR, LANDMARKS, WARP)

@@ -12,8 +12,8 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import as_floats
 from kineme.cycles.channels import channels_of
 from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
@@ -21,8 +21,6 @@ from kineme.cycles.runs import Repetition, movement
 from kineme.errors import ParameterError
 from kineme.labels.c3d_events import SAME_S
 from kineme.recordings import Motion, Signals
-
-Floats = NDArray[np.float64]
 
 _EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
 _CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")

@@ -10,11 +10,9 @@ a joint is turned from the pose of rest, as the skeleton has it.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-
-Floats = NDArray[np.float64]
+from kineme._arrays import Floats
 
 MOVES = 0.1
 """Radians by which a hinge deviates from its mean, at least, for its axis to be seen."""

@@ -28,9 +28,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from kineme._arrays import Floats
 
 WINDOWS = (0.5, 0.35, 0.25, 0.25)
 """Of a cycle, for each step: what is compared before and after a border. The wide ones cannot be

@@ -19,14 +19,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.cycles.angles import normalize, remove_along
 from kineme.cycles.landmarks import SIDES
 from kineme.features.naming import part_and_side
 from kineme.recordings import Motion, Skeleton
-
-Floats = NDArray[np.float64]
 
 LEAST = 3
 """Markers of a rigid body."""

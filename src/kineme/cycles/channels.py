@@ -26,9 +26,9 @@ from fnmatch import fnmatchcase
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme._checks import as_texts
 from kineme.cycles.angles import (
     about,
@@ -49,7 +49,6 @@ from kineme.features.feet import speed_of
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.kinematics import world_rotations
 
-Floats = NDArray[np.float64]
 Compute = Callable[[], Floats]
 Add = Callable[[str, str, str, Sequence[str | int], Compute], None]
 """Name, unit, group, joints or words that tell the source, and what computes the channel."""

@@ -21,12 +21,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import as_floats
 from kineme.errors import ParameterError
 from kineme.features.feet import low_and_slow
 from kineme.recordings.arrays import spans_of
-
-Floats = NDArray[np.float64]
 
 STEADY = 0.12
 """Of the usual turning of a foot that moves: slower than this, it stands."""

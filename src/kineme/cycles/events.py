@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import check_type
 from kineme._counts import counted, listed
 from kineme.cycles.contacts import (
@@ -26,8 +27,6 @@ from kineme.cycles.table import Columns
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
-
-Floats = NDArray[np.float64]
 
 STRIKE, OFF = "foot strike", "foot off"
 LONGEST = 1.8

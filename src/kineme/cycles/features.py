@@ -7,13 +7,11 @@ from functools import cached_property
 from math import ceil
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import distance_features, pose_features
 from kineme.recordings import Motion, Signals
-
-Floats = NDArray[np.float64]
 
 RATE = 250.0
 """Samples per second, at most: what is faster is averaged."""

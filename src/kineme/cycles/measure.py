@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import as_indices, check_flag, check_one_of, check_type
 from kineme._files import as_display_name, ending_of
 from kineme._version import __version__
@@ -29,7 +29,6 @@ from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 
-Floats = NDArray[np.float64]
 Recordings = Motion | Signals | Sequence[Motion | Signals]
 
 POINTS = 101

@@ -10,9 +10,8 @@ References
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from kineme._arrays import Floats
 
 PHASES = ("min_at", "max_at")
 """Of the statistics of a channel, those that are places in a cycle."""

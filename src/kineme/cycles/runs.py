@@ -7,15 +7,12 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme.cycles.borders import Run, in_phase, run_of
 from kineme.cycles.features import FineFeatures, fine_features
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
-
-Floats = NDArray[np.float64]
 
 PAUSE_S = 0.5
 """Seconds of standing still between two repetitions that are a pause, at least."""

@@ -9,14 +9,12 @@ curve by itself.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import check_type
 from kineme.cycles.phases import is_phase, phase_differences
 from kineme.cycles.table import CONFIDENCE, Columns, Cycles
 from kineme.errors import ParameterError
-
-Floats = NDArray[np.float64]
 
 
 def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import as_indices, check_flag, is_number
 from kineme._counts import counted
 from kineme.cycles.phases import CYCLE, is_phase, mean_phase, phase_differences
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-Floats = NDArray[np.float64]
 Columns = dict[str, NDArray[Any]]
 
 STATISTICS = ("range", "min", "max", "min_at", "max_at", "mean", "start", "stop")

@@ -10,12 +10,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
+from kineme._arrays import Floats
 from kineme.datasets.figure import ANGLES, LIMBS, SIDES
-
-Floats = NDArray[np.float64]
 
 STANDING = dict.fromkeys(ANGLES, 0.0) | {
     f"{side} {limb}": angle

@@ -27,12 +27,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.recordings import Skeleton
-
-Floats = NDArray[np.float64]
 
 MIDDLE = ("tilt", "list", "yaw", "bend", "lean", "twist", "nod", "look")
 LIMBS = ("hip", "spread", "knee", "foot", "toe", "swing", "raise", "roll", "elbow")

@@ -9,14 +9,12 @@ contacts, so that changing feet makes no jerk.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import world_rotations
-
-Floats = NDArray[np.float64]
 
 _HEEL = np.array([1.0, 1.0, -0.4])  # where it is, in units of the way from ankle to ball
 _FLOOR_SHARED = 0.006  # metres of height within which contacts bear together

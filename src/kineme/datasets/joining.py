@@ -15,12 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
 from kineme.recordings.operations import move, turn
-
-Floats = NDArray[np.float64]
 
 
 def joined(

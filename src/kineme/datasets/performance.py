@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.datasets.actions import ACTIONS
 from kineme.datasets.cycles import mirrored
 from kineme.datasets.figure import ANGLES, joint_rotations
 from kineme.datasets.timeline import Part, phase_of, weight_of
 from kineme.recordings import Skeleton
-
-Floats = NDArray[np.float64]
 
 _GRAVITY = 9.81
 _SIZE_VARIES = 0.06  # standard deviation, relative

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
+from kineme._arrays import Floats
 from kineme.datasets.actions import ACTIONS
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 
-Floats = NDArray[np.float64]
 Row = tuple[str, str, int, int, int, str]
 """Level, kind, first frame, one past the last frame, cluster and label."""
 

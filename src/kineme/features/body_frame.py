@@ -17,14 +17,12 @@ without any is left unturned.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.errors import MotionError
 from kineme.features.effectors import EndEffectors, end_effectors
 from kineme.recordings import Motion, Skeleton
-
-Floats = NDArray[np.float64]
 
 _UPRIGHT = 1e-6  # horizontal part of the unit axis below which it has no direction
 

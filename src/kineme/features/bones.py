@@ -8,9 +8,7 @@ sensors measure does neither.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
-Floats = NDArray[np.float64]
+from numpy.typing import ArrayLike
 
 POINTS = 5
 """A body has as many at least: head, hands and feet."""

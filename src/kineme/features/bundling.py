@@ -28,12 +28,11 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import convolve1d
 from scipy.spatial import cKDTree
 
+from kineme._arrays import Floats
 from kineme._checks import as_features, is_number
 from kineme._threads import even_slices, map_threads, n_threads
 from kineme.errors import ParameterError
 from kineme.features import _kernels
-
-Floats = NDArray[np.float64]
 
 FEWEST_COMPONENTS = 3
 DERIVATIVE = np.array([1, -8, 0, 8, -1]) / 12

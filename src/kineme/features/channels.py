@@ -13,13 +13,11 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats, Ints
 from kineme._checks import check_rates
 from kineme._interpolation import at_frames
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 NYQUIST = 0.45
 """Share of the rate up to which a band of frequency can be told."""

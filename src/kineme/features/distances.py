@@ -18,9 +18,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._arrays import Floats
 from kineme.errors import MotionError
 
-Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 AXES = 15

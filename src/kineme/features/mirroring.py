@@ -15,15 +15,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats
 from kineme._checks import as_floats
 from kineme.errors import MotionError, ParameterError
 from kineme.features.effectors import PARTS
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.motion import check_motion
-
-Floats = NDArray[np.float64]
 
 FLIP = np.array([-1.0, 1.0, 1.0])
 FLIP_QUATERNION = np.array([1.0, 1.0, -1.0, -1.0])  # conjugation by that flip

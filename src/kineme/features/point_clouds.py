@@ -16,7 +16,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from kineme._arrays import Floats
+
 Complex = NDArray[np.complex128]
 
 PAIRS_AT_ONCE = 2048

@@ -11,16 +11,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats
 from kineme._checks import as_floats, as_indices
 from kineme.errors import ParameterError
 from kineme.features.body_frame import body_frame
 from kineme.features.effectors import EndEffectors, Names, end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
-
-Floats = NDArray[np.float64]
 
 
 def pose_features(motion: Motion, *, effectors: EndEffectors | Names | None = None) -> Floats:

@@ -8,12 +8,10 @@ axes, constant per joint: each log map is turned as a whole, and no distance cha
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.errors import MotionError
 from kineme.recordings import Motion
-
-Floats = NDArray[np.float64]
 
 JOINTS = (
     *("lowerback", "upperback", "thorax", "lowerneck", "upperneck", "head"),

@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from kineme._arrays import Floats
 
 _SAME_LENGTH = 0.15  # relative difference at which two branches still make a pair
 _MOST_BRANCHES = 32  # of one joint, the longest; a hand has five, and pairs grow with the square

@@ -8,10 +8,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._threads import even_slices, map_threads
 from kineme.graph import _kernels
-
-Floats = NDArray[np.float64]
 
 # Entries of one block of the matrix product: 8 MB of float32.
 BLOCK_ENTRIES = 1 << 21

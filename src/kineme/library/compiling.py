@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Ints
 from kineme.library.executors import Executor, Progress
 from kineme.library.planning import Entry
 from kineme.library.settings import VOCABULARY
@@ -23,7 +24,6 @@ from kineme.library.vocabulary.words import Place, crowd_of, places_in
 from kineme.segments.table import COLUMNS
 
 Columns = dict[str, Any]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,6 +17,7 @@ from hashlib import sha256
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Float32s, Floats
 from kineme._counts import counted
 from kineme.errors import MotionError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
@@ -29,9 +30,6 @@ from kineme.library.storage.layout import BODIES, EMBEDDED
 from kineme.matching.embeddings import course, embedding
 from kineme.methods.kineme.preset import SENSORS
 from kineme.recordings import Motion, Signals
-
-Float32s = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 UNIT = 0.5
 """Of the root mean square over channels; a distance of 0.85 then is where right matches end."""

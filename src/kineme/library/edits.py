@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Ints
 from kineme.errors import ParameterError, ReadError
 from kineme.library.storage.layout import (
     EDITS,
@@ -25,7 +26,6 @@ from kineme.library.storage.layout import (
 )
 
 SCHEMA = "kineme.library.edits/1"
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True)

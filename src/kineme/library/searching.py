@@ -8,15 +8,12 @@ from os import PathLike
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Float32s, Ints
 from kineme._checks import is_number
 from kineme.errors import ParameterError
 from kineme.matching import Matches, search
 from kineme.recordings import Motion, Signals
-
-Float32s = NDArray[np.float32]
-Ints = NDArray[np.int64]
 
 REFUSED = 0.5
 """Share of a match that one of a counter-example covers where it takes its place."""

@@ -13,11 +13,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Float32s, Ints
 from kineme._interpolation import at_frames
 
-Float32s = NDArray[np.float32]
 Bytes = NDArray[np.int8]
-Ints = NDArray[np.int64]
 
 LENGTHS = (15, 30, 60)
 """Samples of a window: 1, 2 and 4 s of a body. Each begins half a window after the last one."""

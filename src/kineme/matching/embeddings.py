@@ -17,11 +17,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import as_features
 from kineme._interpolation import at_frames
 from kineme.errors import ParameterError
-
-Floats = NDArray[np.float64]
 
 DIMS = 32
 """Numbers in an embedding."""

@@ -23,13 +23,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._arrays import Float32s, Floats, Ints
 from kineme._checks import as_floats, is_number
 from kineme.errors import ParameterError
 from kineme.matching._kernels import apart, warp_columns
-
-Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
-Float32s = NDArray[np.float32]
 
 THRESHOLD = 0.85
 """Distance up to which two movements are one, whoever makes them."""

@@ -22,11 +22,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats, Ints
 from kineme.methods.base import Columns
 from kineme.methods.segments import by_first_appearance
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 COARSER = (0.125, 0.25, 0.5, 0.75)
 FINER = (2.0, 4.0, 8.0)

@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats, Ints
 from kineme.methods.base import Columns
-
-Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 
 def columns_of(

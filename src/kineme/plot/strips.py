@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import check_type, is_number
 from kineme._colors import cluster_color
 from kineme.errors import ParameterError
@@ -22,7 +22,6 @@ from kineme.segments.timeline import new_axes
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-Floats = NDArray[np.float64]
 
 POSES = 7
 """Poses in a strip."""

@@ -12,13 +12,12 @@ Quaternions measure faster here than 3 x 3 matrices.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme.errors import MotionError
 from kineme.recordings.skeleton import Skeleton
-
-Floats = NDArray[np.float64]
 
 
 def forward_kinematics(

@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats
 from kineme._checks import check_type
 from kineme._counts import counted
 from kineme.errors import MotionError
@@ -22,8 +23,6 @@ from kineme.recordings.notebook import poses_svg
 from kineme.recordings.provenance import Provenance
 from kineme.recordings.recording import Recording, Spans, as_gaps
 from kineme.recordings.skeleton import Skeleton
-
-Floats = NDArray[np.float64]
 
 FARTHEST = 1e9
 """Metres from the origin; ten times those of the largest coordinates that maps have."""

@@ -6,12 +6,10 @@ from collections.abc import Sequence
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.recordings.provenance import Provenance
 from kineme.recordings.skeleton import Skeleton
-
-Floats = NDArray[np.float64]
 
 _WIDTH, _HEIGHT, _MARGIN = 480, 120, 6
 _POSES = 8

@@ -11,9 +11,10 @@ from math import ceil, cos, floor, sin
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from kineme import _rotations as rot
+from kineme._arrays import Floats
 from kineme._checks import check_rates, is_number
 from kineme._interpolation import at_frames
 from kineme.errors import MotionError, ParameterError
@@ -21,7 +22,6 @@ from kineme.recordings.kinematics import forward_kinematics, local_translations
 from kineme.recordings.motion import Motion, check_motion
 from kineme.recordings.signals import Signals
 
-Floats = NDArray[np.float64]
 AnyRecording = TypeVar("AnyRecording", Motion, Signals)
 
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._checks import as_floats, as_texts
 from kineme._counts import counted
 from kineme.errors import ParameterError
@@ -15,8 +15,6 @@ from kineme.recordings.arrays import as_rate, assign, frozen
 from kineme.recordings.notebook import channels_svg
 from kineme.recordings.provenance import Provenance
 from kineme.recordings.recording import Recording, Spans, as_gaps
-
-Floats = NDArray[np.float64]
 
 LARGEST = 1e30
 """In any unit; squares and sums of such values are still finite."""

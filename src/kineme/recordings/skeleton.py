@@ -17,15 +17,11 @@ from difflib import get_close_matches
 from functools import cached_property
 from operator import index
 
-import numpy as np
-from numpy.typing import NDArray
-
+from kineme._arrays import Floats
 from kineme._checks import as_texts
 from kineme._counts import counted
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.arrays import assign, frozen
-
-Floats = NDArray[np.float64]
 
 LIMB = 2
 """Bones below the first joint of a leg, at least: knee to ankle, ankle to toes."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import (
     EndEffectors,
@@ -24,8 +24,6 @@ from kineme.recordings import Motion
 from kineme.recordings.operations import resample, split_at_gaps
 from kineme.segmentation.spans import RecordedSpan
 from kineme.segmentation.views import View
-
-Floats = NDArray[np.float64]
 
 
 def view_of_motion(motion: Motion, preset: Preset, effectors: Names | None) -> View:

@@ -14,8 +14,8 @@ are part.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.features import offsets_in_frames, stack
 from kineme.features.channels import at_rate, standardized
 from kineme.features.emg import emg_envelope
@@ -24,8 +24,6 @@ from kineme.recordings import Signals
 from kineme.segmentation.joints import by_distances, joints_among
 from kineme.segmentation.spans import RecordedSpan
 from kineme.segmentation.views import View
-
-Floats = NDArray[np.float64]
 
 # Names of channels in a note.
 NAMED = 8

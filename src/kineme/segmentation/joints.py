@@ -12,12 +12,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.features import distance_features
 from kineme.features.bones import have_bones
 from kineme.recordings import Signals
 from kineme.recordings.coordinates import axes_by_point, is_body
 
-Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 AXES = "xyz"

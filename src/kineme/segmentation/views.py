@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from kineme._arrays import Floats
 from kineme.methods.base import Mirror
 from kineme.segmentation.spans import RecordedSpan
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

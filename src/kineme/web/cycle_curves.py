@@ -17,6 +17,7 @@ import numpy as np
 from msgspec import structs
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.recordings import Motion, Signals
 from kineme.segments.annotation import NO_ANNOTATION
 from kineme.segments.segmentation import Segmentation
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from kineme.cycles.channels import Channel
     from kineme.cycles.table import Columns, Cycles
 
-Floats = NDArray[np.float64]
 
 MOST = 150
 """Curves that are drawn of a group; the mean is of all."""

@@ -19,13 +19,12 @@ from math import floor
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.errors import MotionError
 from kineme.features import PARTS, Names, end_effectors, heading
 from kineme.formats.marker_sets import PARENTS
 from kineme.recordings import Motion
 from kineme.web.messages import MotionHead
-
-Floats = NDArray[np.float64]
 
 RATE = 30.0  # poses per second: what a page plays without visible steps
 MOST_BYTES = 11_000_000  # so that the report of an hour, with all else in it, is under 30 MB

@@ -9,14 +9,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.cycles.angles import bend
 from kineme.cycles.channels import ANGLE, channels_of
 from kineme.features.feet import speed_of
 from kineme.recordings import Motion, Signals
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

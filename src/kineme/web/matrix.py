@@ -24,9 +24,8 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.web.messages import MatrixHead
-
-Floats = NDArray[np.float64]
 
 TILE = 256
 RATE = 10.0  # cells per second: what can still be told apart on a screen

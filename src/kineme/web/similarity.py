@@ -9,16 +9,15 @@ channels, each divided by its deviation.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._arrays import Floats
 from kineme.errors import MotionError, ParameterError
 from kineme.features import Names, body_size, distance_features, end_effectors, pose_features
 from kineme.features.distances import SIZE
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample
 from kineme.web.matrix import RATE, Matrix, pyramid
-
-Floats = NDArray[np.float64]
 
 BODY_SCALE = 0.2  # body sizes; where the activities of subject 86 stand out
 SIGNAL_SCALE = 0.5  # of the distance of two samples drawn at random

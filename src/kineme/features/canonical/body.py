@@ -14,11 +14,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.features.mirroring import EXCHANGED, FLIP
 
-Floats = NDArray[np.float64]
 Joints = Mapping[str, Floats]
 
 HIP, SHOULDER = 0.11, 0.22

@@ -17,14 +17,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.features.canonical.body import canonical_poses, mirror_poses
 from kineme.features.canonical.joints import canonical_joints
 from kineme.features.effectors import Names
 from kineme.features.pose import offsets_in_frames, stack
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample
-
-Floats = NDArray[np.float64]
 
 MATCHING_FPS = 15.0
 """Features per second."""

@@ -36,14 +36,11 @@ from scipy.cluster.hierarchy import fcluster, linkage
 from scipy.spatial.distance import squareform
 from threadpoolctl import threadpool_limits
 
+from kineme._arrays import Float32s, Floats, Ints
 from kineme._threads import map_threads
 from kineme.errors import KinemeError
 from kineme.library.executors import Executor, Outcome, Progress, Task, Watch
 from kineme.library.settings import VocabularyConstants
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Float32s = NDArray[np.float32]
 
 FARTHEST = 1.0
 """Of two movements that have nothing in common: see `kineme.matching.subsequences`."""

@@ -15,14 +15,11 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._arrays import Floats, Ints
 from kineme._checks import is_number
 from kineme.errors import ReadError
 from kineme.library.storage.layout import MOST_CLUSTERS, read_json, write_json
-
-Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 Spans = tuple[Floats, Floats, Ints]
 """Starts and stops in seconds, and clusters, of the activities of a recording; apart."""

@@ -18,14 +18,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Float32s, Floats
 from kineme.library.executors import Executor
 from kineme.library.storage.analyses import Analysis, read_channel_samples
 from kineme.library.vocabulary.joining import Joined, beside_others, results
 from kineme.library.vocabulary.words import Place
 from kineme.transfer.channel_samples import Units
-
-Floats = NDArray[np.float64]
-Float32s = NDArray[np.float32]
 
 MOST = 20_000
 """Samples that are clustered; of more, as many at equal steps, one of each recording at least."""

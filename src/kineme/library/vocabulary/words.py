@@ -17,8 +17,6 @@ from kineme.library.storage.analyses import Analysis, read_spans
 from kineme.library.vocabulary.joining import Crowd, Word
 from kineme.segments.table import SegmentTable
 
-Ints = NDArray[np.int64]
-
 
 @dataclass(frozen=True, eq=False)
 class Place:

@@ -20,11 +20,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
+
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
 
-Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 Spans = tuple[Frames, Frames]
 

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._threads import map_threads
 from kineme.methods.kineme._repetition_kernels import repetitions_between
 from kineme.methods.kineme.primitives import Segments
@@ -30,7 +31,6 @@ from kineme.methods.kineme.repetitions import PLACES, movement_of
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
-Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 
 LEAST = 0.02

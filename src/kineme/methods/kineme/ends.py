@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._threads import map_threads
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.repetitions import PLACES
@@ -26,7 +27,6 @@ from kineme.methods.kineme.repetitions import PLACES
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
-Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 Features = NDArray[np.float32]
 

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats, Ints
 from kineme._threads import go_on
 from kineme.methods.kineme import _event_kernels as kernels
 from kineme.methods.segments import by_first_appearance
@@ -26,8 +27,6 @@ from kineme.methods.segments import by_first_appearance
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 Paths = tuple[Ints, Ints, Floats, Floats, Ints, Ints]
 
 STEP = 0.1

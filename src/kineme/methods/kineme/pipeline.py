@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from threadpoolctl import threadpool_limits
 
+from kineme._arrays import Floats
 from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.features.channels import sampled_at
@@ -38,7 +39,6 @@ from kineme.methods.stages import Progress, stopwatch
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
-Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
 

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._threads import map_threads
 from kineme.methods.kineme import _repeating_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import repetitions_between
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
 Bools = NDArray[np.bool_]
-Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
 

@@ -28,12 +28,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme.methods.kineme import _repetition_kernels as kernels
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
-Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
 

@@ -32,6 +32,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats
 from kineme._threads import even_slices, map_threads
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.segments import by_first_appearance
@@ -40,7 +41,6 @@ if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
     from kineme.methods.kineme.repeating import Repeating
 
-Floats = NDArray[np.float64]
 Rows = NDArray[np.float32]
 Samples = NDArray[np.int64]
 

@@ -20,13 +20,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._arrays import Floats, Ints
 from kineme.features.channels import Mixture, Reduction, in_mixtures
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 Labels = NDArray[np.int64]
 
 DIGITS = 9
