@@ -16,19 +16,18 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
-from sparse_events import found_units, matches
 
 import kineme
 from _joined import Piece, clusters_of, joined, person_of, pieces
 from _options import DATA
 from _recordings import Case, by_recording, hdm05, subject_86, synthetic
-from _sparse_recordings import SparseCase, sparse_events
+from _sparse_recordings import SparseCase, found_units, matches, sparse_events
 from kineme.evaluation import evaluate_segmentation
 from kineme.evaluation.comparison import UNLABELLED, Comparison, compare
 from kineme.evaluation.recordings import recordings_below
 from kineme.evaluation.score import Ratio, over_all, scores
 from kineme.labels.collections import LabelSource, labels_of
-from kineme.recordings import Motion, Signals
+from kineme.recordings import Motion, Signals, Skeleton
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
 from sets import READING
@@ -144,7 +143,7 @@ def one_after_the_other(
     made: list[tuple[Path, list[dict[str, str]]]],
 ) -> tuple[Motion, list[Exercise]]:
     """A session of these takes, each from the same place on the floor."""
-    motions = [kineme.read(path) for path, _ in made]
+    motions = keep_shared_joints([kineme.read(path) for path, _ in made])
     fps, places, parts, n = motions[0].fps, [], [], 0
     for motion, (_, rows) in zip(motions, made, strict=True):
         own = motion.positions - motion.positions[0].mean(axis=0) * [1, 0, 1]
@@ -157,6 +156,22 @@ def one_after_the_other(
         parts.append(Exercise(n, n + len(own), rows[0]["label"], starts))
         n += len(own)
     return Motion(motions[0].skeleton, np.concatenate(places), fps), parts
+
+
+def keep_shared_joints(motions: list[Motion]) -> list[Motion]:
+    """Leave out joints that some takes lack, such as markers that were not seen."""
+    first = motions[0].skeleton
+    kept = [n for n in first.names if all(n in motion.skeleton.names for motion in motions)]
+    parents = [first.parents[first.joint(name)] for name in kept]
+    skeleton = Skeleton(
+        kept,
+        [kept.index(first.names[parent]) if parent >= 0 else -1 for parent in parents],
+        first.offsets[[first.joint(name) for name in kept]],
+    )
+    return [
+        Motion(skeleton, one.positions[:, [one.joint(name) for name in kept]], one.fps)
+        for one in motions
+    ]
 
 
 def judged_session(found: Segmentation, parts: list[Exercise]) -> Judged:

@@ -14,12 +14,15 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+from scipy.optimize import linear_sum_assignment
 
 from _options import few
 from _recordings import ACTORS, exercises, subject_86
 from kineme.datasets.sequences import joined
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import SegmentTable
 
 LOCOMOTION = ("jogLeftCircle4StepsRstart", "sneak2StepsLStart")
 TARGETS = 3
@@ -29,8 +32,8 @@ WALKING, STANDING = 0.5, 0.2
 """Shares of what lies between events; the rest is movement that comes once."""
 SWAY = 0.02
 """Radians by which somebody who stands sways."""
-BLOCK_S = 0.5
-"""Of movement that is shuffled."""
+OVERLAP = 0.5
+"""Intersection over union at which a primitive and an event count as the same."""
 
 
 @dataclass(frozen=True)
@@ -57,19 +60,6 @@ def sparse_events(seeds: int) -> Iterator[SparseCase]:
         actor = ACTORS[seed % len(ACTORS)]
         motion, events = _recording(actor, np.random.default_rng(seed))
         yield SparseCase(f"{actor} {seed}", motion, events)
-
-
-def shuffled(motion: Motion, seed: int) -> Motion:
-    """The movement of a recording in blocks of half a second, in random order.
-
-    Every other block runs backwards in time.
-    """
-    rng = np.random.default_rng(seed)
-    length = round(BLOCK_S * motion.fps)
-    blocks = [cut(motion, at, at + length) for at in range(0, motion.n_frames - length, length)]
-    order = rng.permutation(len(blocks)).tolist()
-    turned = [_backwards(blocks[b]) if i % 2 else blocks[b] for i, b in enumerate(order)]
-    return joined(turned, BLOCK_S / 3)[0]
 
 
 def _recording(actor: str, rng: np.random.Generator) -> tuple[Motion, tuple[Event, ...]]:
@@ -128,12 +118,6 @@ def _standing(motion: Motion, seconds: float, rng: np.random.Generator) -> Motio
     return Motion.from_rotations(motion.skeleton, rotations, motion.fps, root)
 
 
-def _backwards(motion: Motion) -> Motion:
-    rotations = np.array(motion.rotations)[::-1]
-    root = motion.positions[::-1, 0]
-    return Motion.from_rotations(motion.skeleton, rotations, motion.fps, root)
-
-
 def _draw(takes: list[Motion], count: int, rng: np.random.Generator) -> list[Motion]:
     """So many of the takes, none twice before each came once."""
     order = rng.permutation(len(takes))
@@ -180,3 +164,32 @@ def _retold(actor: str) -> list[tuple[str, Motion]]:
 def skeleton_height(motion: Motion) -> float:
     """How high the root is most of the time."""
     return float(np.median(motion.positions[:, 0, 1]))
+
+
+def found_units(found: Segmentation) -> SegmentTable:
+    """Return the primitives that belong to a cluster."""
+    rows = found.primitives
+    return rows[(rows.kind == "primitive") & (rows.cluster >= 0)]
+
+
+def matches(case: SparseCase, rows: SegmentTable) -> tuple[int, int]:
+    """Count the events that are found, and the primitives that lie mostly in events.
+
+    Each exercise has the cluster that holds most of its events.
+    """
+    starts = np.array([event.start for event in case.events])
+    stops = np.array([event.stop for event in case.events])
+    shared = np.minimum(rows.stop_frame[:, None], stops) - np.maximum(
+        rows.start_frame[:, None], starts
+    )
+    shared = np.maximum(shared, 0)
+    lengths = rows.stop_frame - rows.start_frame
+    fits = shared >= OVERLAP * (lengths[:, None] + (stops - starts) - shared)
+    names = sorted({event.name for event in case.events})
+    clusters = np.unique(rows.cluster)
+    of_name = np.array([[event.name == name for event in case.events] for name in names])
+    of_cluster = rows.cluster == clusters[:, None]
+    table = of_cluster.astype(int) @ fits.astype(int) @ of_name.T.astype(int)
+    best = linear_sum_assignment(table, maximize=True)
+    inside = shared.sum(axis=1) >= 0.5 * lengths
+    return int(table[best].sum()), int(inside.sum())

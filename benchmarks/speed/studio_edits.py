@@ -28,6 +28,7 @@ from _figures import add_option, record
 from _measure import verdict
 from _options import command_line, few
 from kineme.datasets import bundled_recording
+from kineme.segments import editing
 from studio import Studio, middle, start, timed
 
 MINUTES, SEGMENTS, ROUNDS = few((60, (5000, 20000), 7), (1, (100,), 1))
@@ -80,7 +81,7 @@ def table_of(n: int, n_frames: int) -> kineme.Segmentation:
         "border_confidence": random.uniform(0.3, 1, len(levels)),
     }
     table = kineme.Segmentation.from_columns(columns, n_frames=n_frames, fps=60.0)
-    return kineme.segments.editing.check(table, "primitive", edges[1:-1:2].tolist(), checked=True)
+    return editing.check(table, "primitive", edges[1:-1:2].tolist(), checked=True)
 
 
 def asked(studio: Studio, n: int, n_frames: int) -> None:
