@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+
 import kineme
 from screen import Screen, two_tabs
 from studio_server import saved_table
@@ -19,14 +21,16 @@ def test_a_killed_server_loses_nothing(new_tab, mortal):
     screen.opened()
     name_segment(page, "before")
     screen.saved()
-    mortal.kill()
+    mortal.process.send_signal(signal.SIGSTOP)  # it answers nothing any more
     page.keyboard.press("Shift+ArrowRight")
-    name_segment(page, "while it was gone")
+    name_segment(page, "on its way")
     page.keyboard.press("Shift+ArrowRight")
     border = screen.state["selected"]["start_frame"]
     page.keyboard.press("Alt+Shift+ArrowRight")
+    screen.wait("k.unsent.length === 2")
+    mortal.kill()
     notice = page.locator("[data-notice=trouble]")
-    notice.filter(has_text="while it was gone").filter(has_text="border from").wait_for()
+    notice.filter(has_text="“on its way”").wait_for()
     assert saved_table(mortal.folder / "take.bvh").primitives.label.tolist()[:2] == ["before", ""]
 
     mortal.start()  # has a new token, which the tab learns from the one that is opened now
@@ -35,19 +39,20 @@ def test_a_killed_server_loses_nothing(new_tab, mortal):
     screen.wait("k.unsent.length === 0")
     notice.wait_for(state="detached")
     table = saved_table(mortal.folder / "take.bvh")
-    assert table.primitives.label.tolist()[:2] == ["before", "while it was gone"]
+    assert table.primitives.label.tolist()[:2] == ["before", "on its way"]
     assert table.primitives.start_frame[2] == border + 10
     page.reload()
     screen.opened()
-    assert screen.labels()[:2] == ["before", "while it was gone"]
+    assert screen.labels()[:2] == ["before", "on its way"]
 
 
 def test_edits_outlive_the_tab_that_could_not_send_them(new_tab, mortal):
     page = new_tab(mortal.address)
     screen = Screen(page)
     screen.opened()
-    mortal.kill()
+    mortal.process.send_signal(signal.SIGSTOP)
     name_segment(page, "kept")
+    mortal.kill()
     page.locator("[data-notice=trouble]").wait_for()
     page.close()
     mortal.start()

@@ -62,9 +62,8 @@ class Process(Studio):
         self.said, self.address = self.server.said, self.server.root
         self.port, self.token = self.server.port, self.server.token
         headers = {"x-kineme-token": self.token}
-        super().__init__(
-            httpx.Client(base_url=self.address, headers=headers, timeout=600), folder
-        )  # kernels may be compiled
+        # Where code is compiled for the first time, a busy machine takes minutes to answer.
+        super().__init__(httpx.Client(base_url=self.address, headers=headers, timeout=600), folder)
 
     def end(self, how: int = signal.SIGINT) -> tuple[int, str, str]:
         """End it; exit code and what else it said."""

@@ -9,6 +9,7 @@ import threading
 import time
 import weakref
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +25,6 @@ from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.reading import RecordingCache
 from kineme.studio.running import SHARES, Run
-from kineme.studio.storage.identities import Identities
 from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
 from kineme.web.table_changes import table_change
@@ -134,8 +134,8 @@ def large_take(tmp_path, monkeypatch):
     """A recording that is read once ``wanted`` is set: its folder, id and news."""
     shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
     wanted, read = threading.Event(), RecordingCache.read
-    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
+    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
     monkeypatch.setattr(
         RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
     )
@@ -206,8 +206,8 @@ def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypa
     text = kineme.bundled_recording().read_text().splitlines()
     text[-7] = text[-7].replace(text[-7].split()[3], "x", 1)
     (tmp_path / "take.bvh").write_text("\n".join(text))
-    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
+    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
     told: queue.Queue[tuple[str, int]] = queue.Queue()
     recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
     (name,) = recordings.folder.recordings()
@@ -230,23 +230,57 @@ def test_what_is_drawn_of_recordings_left_long_ago_is_not_kept(tmp_path, monkeyp
     assert to_json(recordings.message(names[0])) == to_json(first)
 
 
-def test_a_brief_answer_tells_what_is_other_or_the_table_that_replaced_ours(studio):
+def test_a_brief_answer_has_the_rows_that_differ_or_the_table_that_replaced_ours(studio):
     before = studio.recording()
     address = f"/api/recordings/{studio.id}/edits"
     edit = {"kind": "name_segment", "level": "activity", "frame": 0, "label": "hop"}
     sent = {"revision": before["revision"], "edit": edit, "name": "a name", "brief": True}
     made = studio.client.post(address, json=sent).json()
-    assert (made["segmentation"], made["change"]["of"]) == (None, before["revision"])
-    assert made["change"]["cells"] == [{"column": "label", "value": "hop", "rows": [0]}]
-    now = studio.recording()["segmentation"]["segments"]
+    now = studio.recording()
+    rows = now["segmentation"]["segments"]
+    change = {"of": before["revision"], "removed": [0], "at": [0], "added": rows[:1]}
+    assert made["change"] == change
+    assert made["segmentation"] == {**now["segmentation"], "segments": []}
+    assert made["ids"] == now["ids"]
     again = studio.client.post(address, json=sent).json()  # nobody knows what the asker has by now
-    assert again["segmentation"]["segments"] == now
+    assert again["segmentation"]["segments"] == rows
     anew = {"kind": "segment", "preset": "voegele2014", "parameters": {}}
     other = {"revision": made["revision"], "edit": anew, "brief": True}
-    assert studio.client.post(address, json=other).json()["segmentation"]["segments"] != now
+    change = studio.client.post(address, json=other).json()["change"]
+    assert rows_after(change, rows) == studio.recording()["segmentation"]["segments"]
 
 
-def test_a_brief_answer_is_brief_whatever_the_length(tmp_path):
+def rows_after(change: dict[str, Any], rows: list[Any]) -> list[Any]:
+    """The rows that a change makes of others, as the page does."""
+    left = [row for number, row in enumerate(rows) if number not in change["removed"]]
+    for at, row in zip(change["at"], change["added"], strict=True):
+        left.insert(at, row)
+    return left
+
+
+def test_each_edit_changes_the_rows_that_an_answer_has_of_it(studio):
+    state = studio.recording()
+    address = f"/api/recordings/{studio.id}/edits"
+    level = {"level": "activity"}
+    for edit in (
+        {"kind": "split", **level, "frame": 50},
+        {"kind": "split", **level, "frame": 90},
+        {"kind": "move_border", **level, "frame": 50, "to": 60},
+        {"kind": "check", **level, "frames": [60], "checked": True},
+        {"kind": "set_kind", **level, "frame": 60, "to": "transition"},
+        {"kind": "undo"},
+        {"kind": "delete_border", **level, "frame": 90},
+        {"kind": "undo"},
+        {"kind": "redo"},
+    ):
+        sent = {"revision": state["revision"], "edit": edit, "brief": True}
+        answer = studio.client.post(address, json=sent).json()
+        rows = rows_after(answer["change"], state["segmentation"]["segments"])
+        state = studio.recording()
+        assert answer["segmentation"] | {"segments": rows} == state["segmentation"]
+
+
+def test_a_brief_answer_has_few_rows_whatever_the_length(tmp_path):
     n = 4000
     frames = np.arange(n + 1) * 10
     columns = {
@@ -257,15 +291,14 @@ def test_a_brief_answer_is_brief_whatever_the_length(tmp_path):
         "cluster": np.arange(n) % 8,
     }
     table = kineme.Segmentation.from_columns(columns, n_frames=10 * n, fps=60.0)
-    ids = Identities().of(table)
-    marked = editing.check(table, "activity", frames[:-1:2].tolist(), checked=True)
-    for edit, most in [
-        (lambda: editing.move_border(marked, "activity", 500, 503), 1500),
-        (lambda: editing.name_segment(marked, "activity", 500, "hop"), 1500),
-        (lambda: editing.name_cluster(marked, 3, "hop"), 8 * n / 8 + 500),
-        (lambda: editing.check(marked, "activity", [510], checked=True), 500),
+    for now, count in [
+        (editing.move_border(table, "activity", 500, 503), 2),
+        (editing.name_segment(table, "activity", 500, "hop"), 1),
+        (editing.name_cluster(table, 3, "hop"), n // 8),
+        (editing.check(table, "activity", [510], checked=True), 0),
     ]:
-        assert len(to_json(table_change(marked, edit(), (ids, ids), revision=1))) < most
+        change = table_change(table, now, revision=1)
+        assert (len(change.removed), len(change.added)) == (count, count)
 
 
 def held_at(monkeypatch: pytest.MonkeyPatch, name: str) -> tuple[threading.Event, threading.Event]:

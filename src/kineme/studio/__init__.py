@@ -3,7 +3,9 @@
     server   a socket of this machine, Ctrl+C, the browser
       app      routes ─▶ open recordings, behind http.security: host, origin, token, headers
         http              bodies of requests and answers, uploads, events
-        open_recordings   by id; what a large file shows of itself while it is read
+        open_recordings   by id; each is opened once
+          sketches            what a large file shows of itself while it is read
+          reader              how files are read, and which of several people a recording is of
           open_recording      table, revision, undo, saving of each; segments found in a thread
           loading             the recording itself and all that is computed from it; reading
           edits               what each edit does to a table

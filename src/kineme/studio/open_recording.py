@@ -31,7 +31,6 @@ from kineme.studio.edits import Surroundings, edited
 from kineme.studio.loading import LoadedRecording, digest_in
 from kineme.studio.reading import RecordingCache
 from kineme.studio.running import Run
-from kineme.studio.storage.identities import Identities
 from kineme.studio.storage.journal import Change, Journal
 from kineme.studio.storage.listed import ListedRecording, file_id
 from kineme.studio.storage.sidecars import (
@@ -173,7 +172,7 @@ class OpenRecording:
     ) -> Edited:
         """The table after an edit of that revision, which is on the disk.
 
-        Where it is ``brief``, only what is other than at that revision, unless that is most of it.
+        Where it is ``brief``, only the rows that differ from those at that revision.
         An edit whose name has been made is not made again. ConflictError where the table is of
         another revision, or the file not the one last read or written here; KinemeError where the
         edit cannot be made or saved.
@@ -189,7 +188,7 @@ class OpenRecording:
             change, notes = self._after(edit, files, name or uuid.uuid4().hex)
             if self._file.changed():
                 raise self._changed_elsewhere()
-            before = (self._table, self._journal.ids) if brief else None
+            before = self._table if brief else None
             self._write(change, name)
             return self._edited(notes, before)
 
@@ -308,22 +307,18 @@ class OpenRecording:
         loaded = self.loaded
         return saved_table(self.listed, loaded.fits, self._others, of_another=loaded.is_of_another)
 
-    def _edited(
-        self, notes: list[str], before: tuple[Segmentation, Identities] | None = None
-    ) -> Edited:
-        """The present table; or what is other in it than ``before``, one revision ago."""
+    def _edited(self, notes: list[str], before: Segmentation | None = None) -> Edited:
+        """The present table; of one ``before``, one revision ago, only rows that differ."""
         from kineme.web.page_data import segments_message
         from kineme.web.table_changes import table_change
 
-        ids, change = self._journal.ids.of(self._table), None
+        change = None
         if before is not None:
-            table, others = before
-            both = others.of(table), ids
-            change = table_change(table, self._table, both, revision=self.revision - 1)
+            change = table_change(before, self._table, revision=self.revision - 1)
         return Edited(
             revision=self.revision,
-            segmentation=None if change else segments_message(self._table),
-            ids=[] if change else ids,
+            segmentation=segments_message(self._table, rows=change is None),
+            ids=self._journal.ids.of(self._table),
             change=change,
             can_undo=self._journal.can_undo,
             can_redo=self._journal.can_redo,

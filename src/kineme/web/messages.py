@@ -12,7 +12,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from kineme.segments.annotation import Annotation, Comment, Span
+from kineme.segments.annotation import Annotation
 from kineme.segments.table import Kind, Level, Segment
 from kineme.web.requests import Edit
 
@@ -235,51 +235,28 @@ class Recording(Struct, frozen=True, kw_only=True):
     warnings: list[str]
 
 
-class Cells(Struct, frozen=True, kw_only=True):
-    """Rows, by their numbers, that have this value in a column."""
-
-    column: str
-    value: str | float | None
-    rows: list[int]
-
-
-class SpansChange(Struct, frozen=True, kw_only=True):
-    """Spans that are among others now, and those that are not any more."""
-
-    added: list[Span]
-    removed: list[Span]
-
-
 class TableChange(Struct, frozen=True, kw_only=True):
-    """What is other in a table than at the revision ``of``; see `kineme.web.table_changes`.
+    """The rows in which a table differs from that of the revision ``of``.
 
-    ``removed`` are numbers of rows of that table, all others are those of this one: ``at`` of the
-    rows in ``added``, in ``cells`` of rows that have another value, and in ``ids`` with who they
-    are. The rest is of the annotation; null: as it was.
+    ``removed`` are the numbers of rows of that table which are not in this one, ``at`` the numbers
+    of the rows of this one that are ``added``.
     """
 
     of: int
     removed: list[int]
     at: list[int]
     added: list[Segment]
-    cells: list[Cells]
-    ids: list[tuple[int, str]]
-    checked: SpansChange
-    by_hand: SpansChange
-    comments: list[Comment] | None
-    cluster_names: dict[int, str] | None
-    corrections: int
-    excluded: list[int] | None
 
 
 class Edited(Struct, frozen=True, kw_only=True):
     """The table after an edit, already on the disk as ``saved``; ``ids`` as of a `Recording`.
 
-    Where there is a ``change``, it is told in place of both.
+    Where there is a ``change``, its rows are those of the table before with this change, and
+    ``segmentation`` has none.
     """
 
     revision: int
-    segmentation: Segments | None
+    segmentation: Segments
     ids: list[str]
     change: TableChange | None = None
     can_undo: bool

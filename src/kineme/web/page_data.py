@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +12,6 @@ from kineme.features import Names
 from kineme.labels.json_table import SCHEMA
 from kineme.recordings import Motion, Signals
 from kineme.segments.editing import cluster_names, comments
-from kineme.segments.editing.annotating import Mark, marked, span_of
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import Matrix
@@ -108,10 +106,12 @@ def recording_message(
     )
 
 
-def segments_message(segmentation: Segmentation) -> Segments:
-    """A segment table as pages have it."""
-    rows = list(segmentation)
-    spans = {mark: marked(segmentation, mark) for mark in get_args(Mark)}
+def segments_message(segmentation: Segmentation, *, rows: bool = True) -> Segments:
+    """Return a segment table as pages have it, or all of it but its ``rows``."""
+    table = segmentation.table
+    columns = (column.tolist() for column in (table.level, table.start_frame, table.stop_frame))
+    spans = list(zip(*columns, strict=True))
+    checked, by_hand = {*segmentation.annotation.checked}, {*segmentation.annotation.by_hand}
     return Segments(
         schema=SCHEMA,
         n_frames=segmentation.n_frames,
@@ -119,10 +119,10 @@ def segments_message(segmentation: Segmentation) -> Segments:
         provenance=dict(segmentation.provenance),
         timings=dict(segmentation.timings),
         annotation=segmentation.annotation,
-        segments=rows,
+        segments=list(segmentation) if rows else [],
         cluster_names={str(cluster): name for cluster, name in cluster_names(segmentation).items()},
-        checked=[i for i, row in enumerate(rows) if span_of(row) in spans["checked"]],
-        by_hand=[i for i, row in enumerate(rows) if span_of(row) in spans["by_hand"]],
+        checked=[i for i, span in enumerate(spans) if span in checked],
+        by_hand=[i for i, span in enumerate(spans) if span in by_hand],
         comments=[
             CommentAt(level=level, frame=frame, text=text)
             for level, frame, text in comments(segmentation)

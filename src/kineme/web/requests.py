@@ -209,7 +209,7 @@ class EditRequest(Request, frozen=True, kw_only=True):
     """An edit of the table as it was at ``revision``.
 
     ``name`` is the edit's own: one that is sent again, for want of an answer, is made once. With
-    ``brief`` the answer need not have the whole table, but what is other than at ``revision``.
+    ``brief`` the answer has only the rows that differ from those at ``revision``.
     """
 
     revision: Integer

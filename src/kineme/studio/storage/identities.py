@@ -1,9 +1,8 @@
 """Who a segment is, whatever becomes of its borders.
 
-A page makes edits while others are still on their way, or while nobody answers. What they were
-made on is then said by the identity of a segment, not by a frame that has moved meanwhile; a
-border is the start of the segment after it. ``editing/identities.ts`` of the pages is the same
-in TypeScript, for edits that the server has not answered yet.
+A page takes edits while others are still on their way. What they were made on is then said by the
+identity of a segment, not by a frame that has moved meanwhile; a border is the start of the segment
+after it.
 
 An identity is a letter for the level, what the table or the segment came from, and where it
 started then: ``p:120`` of the first table, ``p3f2a9c01:150`` made by the edit of that name.

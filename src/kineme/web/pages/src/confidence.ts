@@ -86,7 +86,7 @@ class OfOne implements Confidence {
 
   get short(): string {
     if (this.value === null) return "";
-    return this.around.probable ? `${Math.round(100 * this.value)} %` : this.value.toFixed(2);
+    return `${Math.round(100 * this.value)} %`;
   }
 
   get text(): string {

@@ -262,49 +262,28 @@ export interface Recording {
   warnings: string[];
 }
 
-/** Rows, by their numbers, that have this value in a column. */
-export interface Cells {
-  column: string;
-  value: string | number | null;
-  rows: number[];
-}
-
-/** Spans that are among others now, and those that are not any more. */
-export interface SpansChange {
-  added: [Level, number, number][];
-  removed: [Level, number, number][];
-}
-
 /**
- * What is other in a table than at the revision `of`; see `kineme.web.table_changes`.
+ * The rows in which a table differs from that of the revision `of`.
  *
- * `removed` are numbers of rows of that table, all others are those of this one: `at` of the
- * rows in `added`, in `cells` of rows that have another value, and in `ids` with who they
- * are. The rest is of the annotation; null: as it was.
+ * `removed` are the numbers of rows of that table which are not in this one, `at` the numbers
+ * of the rows of this one that are `added`.
  */
 export interface TableChange {
   of: number;
   removed: number[];
   at: number[];
   added: Segment[];
-  cells: Cells[];
-  ids: [number, string][];
-  checked: SpansChange;
-  by_hand: SpansChange;
-  comments: [Level, number, string][] | null;
-  cluster_names: Record<number, string> | null;
-  corrections: number;
-  excluded: number[] | null;
 }
 
 /**
  * The table after an edit, already on the disk as `saved`; `ids` as of a `Recording`.
  *
- * Where there is a `change`, it is told in place of both.
+ * Where there is a `change`, its rows are those of the table before with this change, and
+ * `segmentation` has none.
  */
 export interface Edited {
   revision: number;
-  segmentation: Segments | null;
+  segmentation: Segments;
   ids: string[];
   change?: TableChange | null;
   can_undo: boolean;
@@ -316,7 +295,7 @@ export interface Edited {
 /** Why an edit was refused that was made on another table than the present one, and that. */
 export interface Conflict {
   revision: number;
-  segmentation: Segments | null;
+  segmentation: Segments;
   ids: string[];
   change?: TableChange | null;
   can_undo: boolean;
@@ -710,7 +689,7 @@ export interface Together {
  * An edit of the table as it was at `revision`.
  *
  * `name` is the edit's own: one that is sent again, for want of an answer, is made once. With
- * `brief` the answer need not have the whole table, but what is other than at `revision`.
+ * `brief` the answer has only the rows that differ from those at `revision`.
  */
 export interface EditRequest {
   revision: number;

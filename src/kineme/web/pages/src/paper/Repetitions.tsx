@@ -1,15 +1,17 @@
 /** The table of repetitions; on paper it follows the pictures. */
+import { type ReadonlySignal, useSignal, useSignalEffect } from "@preact/signals";
 import { counted } from "../counted";
 import type { JSX } from "preact";
+import type { Recording } from "../messages";
 import { useStore } from "../context";
 import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
 import { clock } from "../view";
 import { repetitionsOf } from "./repetitions";
 
-export function Repetitions(): JSX.Element | null {
+export function Repetitions({ of }: { of: ReadonlySignal<Recording | undefined> }): JSX.Element {
   const store = useStore();
-  const table = store.table.value;
+  const table = of.value?.segmentation;
   const rows = table ? repetitionsOf(table) : [];
   if (!rows.length) return <p class="empty quiet">Nothing repeats itself here.</p>;
   const out = rows.reduce((sum, { leftOut }) => sum + leftOut.filter(Boolean).length, 0);
@@ -59,6 +61,8 @@ export function Repetitions(): JSX.Element | null {
   );
 }
 
+const PAUSE = 500; // milliseconds
+
 /** How often, and where some are left out how many of them are in the mean. */
 function timesOf(leftOut: readonly boolean[]): string {
   const counted = leftOut.filter((each) => !each).length;
@@ -68,18 +72,34 @@ function timesOf(leftOut: readonly boolean[]): string {
 /** What is printed below the pictures: what was found in what, and the repetitions. */
 export function Paper(): JSX.Element | null {
   const store = useStore();
-  const recording = store.recording.value;
+  const rested = useRested(store.recording);
+  const recording = rested.value;
   if (!recording) return null;
   const { provenance } = recording.segmentation;
   return (
     <section class="paper" aria-hidden="true">
       <p>
-        {clock(store.duration.value, 1)}, {recording.n_frames} frames at{" "}
+        {clock(recording.n_frames / recording.fps, 1)}, {recording.n_frames} frames at{" "}
         {Number(recording.fps.toPrecision(5))} Hz
         {typeof provenance.preset === "string" && `, segmented by ${provenance.preset}`}
       </p>
       <h2>Repetitions</h2>
-      <Repetitions />
+      <Repetitions of={rested} />
     </section>
   );
+}
+
+/** The recording once edits of it have rested: its table is long, and seen on paper alone. */
+function useRested(
+  present: ReadonlySignal<Recording | undefined>,
+): ReadonlySignal<Recording | undefined> {
+  const rested = useSignal(present.peek());
+  useSignalEffect(() => {
+    const { value } = present;
+    const take = (): void => void (rested.value = value);
+    if (!rested.peek()) take();
+    const timer = setTimeout(take, PAUSE);
+    return () => clearTimeout(timer);
+  });
+  return rested;
 }

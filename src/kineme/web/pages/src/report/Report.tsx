@@ -30,7 +30,7 @@ export function Report(): JSX.Element {
         </>
       ),
     },
-    { id: "repetitions", title: "Repetitions", panel: () => <Repetitions /> },
+    { id: "repetitions", title: "Repetitions", panel: () => <Repetitions of={store.recording} /> },
     { id: "keys", title: "Keys", panel: () => <Keys keys={PAGE_KEYS} /> },
     { id: "about", title: aboutTitle(store), panel: () => <About /> },
   ];

@@ -20,7 +20,7 @@ export function Header(): JSX.Element {
         {recording?.name ?? session.state.value?.folder}
       </span>
       <div class="spacer news-place" role="status">
-        {news && <span class="news">{news.text}</span>}
+        {news && <span class={news.refused ? "news refused" : "news"}>{news.text}</span>}
       </div>
       <span class="group">
         <button

@@ -3,7 +3,6 @@ import type { JSX } from "preact";
 import { Offered } from "./folder/Offered";
 import { useStudio } from "./context";
 import type { EditedRecording } from "./editing/editedRecording";
-import { inWords } from "./editing/words";
 
 export function Notices(): JSX.Element {
   const { session } = useStudio();
@@ -20,9 +19,6 @@ export function Notices(): JSX.Element {
         )}
         {!trouble.value &&
           session.blocked.value.map((edited) => <Blocked key={edited.id} edited={edited} />)}
-        {session.refused.value.map((edited) => (
-          <NotMade key={edited.id} edited={edited} />
-        ))}
         {bulletin.problems.value.map(({ text }) => (
           <div class="notice danger" data-notice="problem" key={text}>
             <p>{text}</p>
@@ -43,7 +39,7 @@ export function Notices(): JSX.Element {
   );
 }
 
-/** Edits that could not be made, and the choice to make or drop them. */
+/** Edits of another table than the present one, and the choice to make or drop them. */
 function Blocked({ edited }: { edited: EditedRecording }): JSX.Element {
   return (
     <div class="notice" data-notice="held">
@@ -56,28 +52,6 @@ function Blocked({ edited }: { edited: EditedRecording }): JSX.Element {
       </button>
       <button type="button" onClick={() => edited.drop()}>
         Drop them
-      </button>
-    </div>
-  );
-}
-
-/** Edits that the server refused, each with the reason, until they are tried again or given up. */
-function NotMade({ edited }: { edited: EditedRecording }): JSX.Element {
-  const { name, fps } = edited.confirmed.value;
-  const all = edited.refused.value;
-  const last = all.slice(-3).map((each) => `${inWords(each.edit, fps)} (${each.refused})`);
-  const more = all.length - last.length;
-  return (
-    <div class="notice" data-notice="refused">
-      <p>
-        {name}: could not be made: {more > 0 && `${more} earlier; `}
-        {last.join("; ")}. Everything else was.
-      </p>
-      <button type="button" class="primary" onClick={() => edited.retryRefused()}>
-        Try again
-      </button>
-      <button type="button" onClick={() => edited.dropRefused()}>
-        Leave {all.length === 1 ? "it" : "them"} out
       </button>
     </div>
   );

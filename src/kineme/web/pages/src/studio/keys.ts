@@ -54,7 +54,7 @@ export function commandOf(
     n: () => editor.startNaming(event.shiftKey ? "cluster" : "segment"),
     "[": () => editor.borderHere("start"),
     "]": () => editor.borderHere("stop"),
-    j: () => review.next(),
+    j: () => void review.next(),
     k: () => (event.shiftKey ? review.toggle() : review.checkAndGoOn()),
     x: () => editor.toggleExcluded(),
     PageDown: () => void session.openNext(1),

@@ -8,6 +8,8 @@ export interface News {
   text: string;
   /** The table that was in front: once it is another, this is no news any more. */
   of: string;
+  /** Whether it says why something was not done. */
+  refused: boolean;
 }
 
 export interface Problem {
@@ -29,10 +31,15 @@ export class Bulletin {
   }
 
   /** Takes the place of earlier news, and goes by itself. */
-  tell(text: string): void {
-    this.news.value = { text, of: untracked(this.inFront) };
+  tell(text: string, refused = false): void {
+    this.news.value = { text, of: untracked(this.inFront), refused };
     window.clearTimeout(this.timer);
     this.timer = window.setTimeout(() => (this.news.value = null), READING_TIME);
+  }
+
+  /** Says why something was not done. */
+  refuse(text: string): void {
+    this.tell(text, true);
   }
 
   /** `about` is what did not work: the problem goes once that has worked. */

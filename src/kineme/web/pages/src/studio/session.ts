@@ -22,7 +22,7 @@ import { People } from "./people/people";
 import { RecordingList } from "./recordingList";
 
 const NO_ANSWER =
-  "The studio’s server does not answer. What is shown is saved; edits wait here until it is back.";
+  "The studio’s server does not answer. What is shown is saved; nothing can be edited until it is back.";
 const STARTED_ANEW =
   "The studio was started anew. Open the address it printed: then this tab goes on, too.";
 
@@ -61,10 +61,6 @@ export class Session {
   });
   /** Recordings whose edits wait for a decision. */
   readonly blocked = computed(() => this.recordings.value.filter((edited) => edited.blocked.value));
-  /** Recordings of which some edits could not be made. */
-  readonly refused = computed(() =>
-    this.recordings.value.filter((each) => each.refused.value.length),
-  );
   /** Edits of all recordings that the server has not confirmed. */
   readonly unsent = computed(() => this.recordings.value.flatMap((edited) => edited.unsent()));
 
@@ -269,8 +265,10 @@ export class Session {
       (await EditedRecording.open(id, {
         api: this.api,
         folder: this.state.value?.folder ?? "",
+        isAway: () => this.trouble.peek() !== null,
         lost: () => this.lost(),
-        tell: (text) => this.tellOf(id, text),
+        tell: (text, refused) => this.bulletin.tell(this.withName(id, text), refused),
+        warn: (text) => this.bulletin.problem(this.withName(id, text), "edit"),
       }));
     if (!this.recordings.value.includes(edited)) {
       this.recordings.value = [...this.recordings.value, edited];
@@ -278,14 +276,14 @@ export class Session {
       if (revision > edited.confirmed.peek().revision) void edited.changed(revision);
       this.missed.delete(id);
     }
-    return { data, recording: edited.shown, motion: signal<Motion | null>(null) };
+    return { data, recording: edited.confirmed, motion: signal<Motion | null>(null) };
   }
 
   /** News of a recording; those of one that is not in front are told with its name. */
-  private tellOf(id: string, text: string): void {
+  private withName(id: string, text: string): string {
     const edited = this.recordings.peek().find((each) => each.id === id);
-    if (!edited || this.edited.peek() === edited) this.bulletin.tell(text);
-    else this.bulletin.tell(`${edited.confirmed.peek().name}: ${text}`);
+    const isInFront = !edited || this.edited.peek() === edited;
+    return isInFront ? text : `${edited.confirmed.peek().name}: ${text}`;
   }
 
   /** Recordings that are neither shown nor have edits on their way need no memory. */

@@ -13,7 +13,6 @@ export function exposeStudio(session: Session): void {
         checked: store.table.value?.checked ?? [],
         selected: store.selected.value ?? null,
         unsent: session.unsent.value,
-        refused: session.refused.value.flatMap((edited) => edited.refused.value),
       }),
   });
 }

@@ -2,7 +2,6 @@
  * What pointers do on the lanes: scrub, select, pan, drag a border; two fingers zoom. A press that
  * hardly moves selects, also beside a border; one that moves takes the border along, by as much.
  */
-import { batch } from "@preact/signals";
 import { CLICK, Fingers, placeOf, wheelFactor, type Pinch } from "../canvas/pointers";
 import { indexAt } from "../segments";
 import type { Drag } from "../state";
@@ -98,10 +97,8 @@ export class Gestures {
     if (doing?.what !== "border") return;
     const { frame, to } = doing.drag;
     const { level } = doing.lane;
-    batch(() => {
-      if (level && to !== frame) this.store.edits.value?.moveBorder(level, frame, to);
-      this.onDrag(null);
-    });
+    if (level && to !== frame) this.store.edits.value?.moveBorder(level, frame, to);
+    else this.onDrag(null);
   }
 
   /** Escape: a border goes back to where it was; whether there was anything to give up. */

@@ -31,7 +31,7 @@ test("what has the lowest confidence is the first to be looked at", async () => 
   ]);
   fireEvent.click(page.getByText("Next"));
   expect(page.store.selected.value?.label).toBe("squat");
-  await waitFor(() => expect(page.getByRole("status").textContent).toContain("0.40"));
+  await waitFor(() => expect(page.getByRole("status").textContent).toContain("40 %"));
 });
 
 test("what was checked leaves the queue, and the next one comes", async () => {
@@ -68,14 +68,11 @@ test("edits that nobody answers are named until they are sent", async () => {
   expect(page.server.got).toHaveLength(1);
 });
 
-test("an edit that is refused waits for a decision", async () => {
+test("an edit that is refused is named until that was read", async () => {
   const page = await open(<Notices />);
   page.server.refuses = () => true;
   page.parts.editor.name(page.store.primitives.value[0]!, "jump");
-  const again = await page.findByText("Try again");
-  expect(page.getByRole("alert").textContent).toContain("take.bvh: could not be made");
-  page.server.refuses = () => false;
-  fireEvent.click(again);
-  await waitFor(() => expect(page.server.got).toHaveLength(1));
-  await waitFor(() => expect(page.queryByText("Try again")).toBeNull());
+  await waitFor(() => expect(page.getByRole("alert").textContent).toMatch(/Not made: .*jump/));
+  fireEvent.click(page.getByLabelText("Dismiss"));
+  await waitFor(() => expect(page.getByRole("alert").textContent).toBe(""));
 });

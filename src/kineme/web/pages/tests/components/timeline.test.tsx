@@ -64,9 +64,10 @@ test("a click chooses a segment, and says which to those who do not see it", asy
 test("a border that is dragged is moved on the server, and drawn where it is", async () => {
   drag(30, 40);
   fireEvent.pointerUp(canvas, at(40));
+  expect(page.store.drag.value).toMatchObject({ frame: 30, to: 40 }); // until the table shows it
+  await waitFor(() => expect(page.store.drag.value).toBeNull());
   expect(page.store.primitives.value.map((each) => each.start_frame)).toEqual([0, 40, 60]);
-  const move = { kind: "move_border", level: "primitive", frame: 30, to: 40 };
-  await waitFor(() => expect(page.server.got).toEqual([move]));
+  expect(page.server.got).toEqual([{ kind: "move_border", level: "primitive", frame: 30, to: 40 }]);
 });
 
 test("Escape gives a dragged border up", () => {

@@ -13,8 +13,8 @@ it("splits at the playhead, not at a border", () => {
 
 it("merges with the next segment, where there is one", () => {
   const merge = { kind: "merge", level: "primitive", start_frame: 30, stop_frame: 100 };
-  expect(commands.mergeWithNext(at(0), lane[1]!)).toEqual(merge);
-  expect(commands.mergeWithNext(at(0), lane[2]!)).toBeNull();
+  expect(commands.mergeWithNext(at(35))).toEqual(merge);
+  expect(commands.mergeWithNext(at(70))).toBeNull();
 });
 
 it.each([

@@ -2,7 +2,7 @@ import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { Edit, Edited, Recording } from "../../src/messages";
 import type { Api } from "../../src/studio/server/api";
 import { Server } from "./server";
-import { row, starts } from "./tables";
+import { recording, row, starts } from "./tables";
 
 const stored = new Map<string, string>();
 const storage = new Proxy(
@@ -27,32 +27,33 @@ const MOVE: Edit = { kind: "move_border", level: "primitive", frame: 30, to: 40 
 
 let server: Server;
 let told: string[];
-let lost: number;
+let warned: string[];
+let away: boolean;
 
 function open(): Promise<InstanceType<typeof EditedRecording>> {
   return EditedRecording.open("take", {
     api: server as unknown as Api,
     folder: "/folder",
-    lost: () => void (lost += 1),
+    isAway: () => away,
+    lost: () => void (away = true),
     tell: (text) => void told.push(text),
+    warn: (text) => void warned.push(text),
   });
 }
 
 /** The answer to an edit that named the second primitive, as of a table of that revision. */
-function renamedAt(of: number, value: string): Edited {
-  const none = { added: [], removed: [] };
-  const cells = [{ column: "label", value, rows: [2] }];
-  const rows = { removed: [], at: [], added: [], cells, ids: [] };
-  const annotation = {
-    checked: none,
-    by_hand: none,
-    comments: null,
-    cluster_names: null,
-    excluded: null,
-  };
-  const change = { of, ...rows, ...annotation, corrections: 1 };
+function renamedAt(of: number, label: string): Edited {
+  const { segmentation, ids } = recording();
+  const added = [{ ...segmentation.segments[2]!, label }];
+  const change = { of, removed: [2], at: [2], added };
   const rest = { can_undo: true, can_redo: false, saved: "take.segments.json", notes: [] };
-  return { revision: of + 1, segmentation: null, ids: [], change, ...rest };
+  return {
+    revision: of + 1,
+    segmentation: { ...segmentation, segments: [] },
+    ids: ids!,
+    change,
+    ...rest,
+  };
 }
 
 const settled = () => new Promise((resolve) => setTimeout(resolve, 5));
@@ -60,20 +61,26 @@ const settled = () => new Promise((resolve) => setTimeout(resolve, 5));
 beforeEach(() => {
   stored.clear();
   server = new Server();
-  told = [];
-  lost = 0;
+  [told, warned] = [[], []];
+  away = false;
 });
 
+function back(edited: InstanceType<typeof EditedRecording>): Promise<void> {
+  server.up = true;
+  away = false;
+  return edited.resume();
+}
+
 describe("while the server answers", () => {
-  it("an edit is shown at once, and saved once it is confirmed", async () => {
+  it("an edit is shown and saved once it is answered", async () => {
     const edited = await open();
-    const done = edited.edit(SPLIT);
-    expect(starts(edited.shown.value.segmentation)).toContain(45);
+    let seen: number[] = [];
+    const done = edited.edit(SPLIT, () => (seen = starts(edited.confirmed.value.segmentation)));
     expect(starts(edited.confirmed.value.segmentation)).not.toContain(45);
     expect(edited.unsent()).toHaveLength(1);
     await done;
-    expect(starts(edited.confirmed.value.segmentation)).toContain(45);
-    expect(edited.waiting.value).toEqual([]);
+    expect(seen).toContain(45);
+    expect(edited.unsent()).toEqual([]);
     expect(edited.confirmed.value.saved).toBe("take.segments.json");
   });
 
@@ -93,7 +100,6 @@ describe("while the server answers", () => {
     const { revision, segmentation, ids } = edited.confirmed.value;
     expect(revision).toBe(1);
     expect(segmentation.segments.map((each) => each.label)).toEqual(["", "", "hop", ""]);
-    expect(segmentation.annotation.corrections).toBe(1);
     expect(ids).toEqual(server.now.ids);
   });
 
@@ -105,118 +111,44 @@ describe("while the server answers", () => {
     expect(edited.confirmed.value).toEqual(server.now);
   });
 
-  it("a command is one of the table that the edits before it leave", async () => {
+  it("commands see the table of the edits before them, and come in the order they were given", async () => {
+    server.latency = 2;
     const edited = await open();
     const seen: number[][] = [];
-    const look = () => void seen.push(starts(edited.shown.value.segmentation));
-    void edited.edit(MOVE);
+    const look = () => void seen.push(starts(edited.confirmed.value.segmentation));
+    edited.edit(MOVE);
     edited.whenShown(() => {
       look();
-      void edited.edit(SPLIT);
+      edited.edit(SPLIT);
     });
+    edited.edit({ ...SPLIT, frame: 80 });
     edited.whenShown(look);
+    expect(edited.unsent()).toHaveLength(4);
+    await edited.settled();
     expect(seen).toEqual([
       [0, 40, 60],
-      [0, 40, 45, 60],
+      [0, 40, 45, 60, 80],
     ]);
-  });
-
-  it("a command waits for an edit of which only the server knows what it makes", async () => {
-    server.latency = 5;
-    const edited = await open();
-    await edited.edit(MOVE);
-    edited.edit({ kind: "undo" }); // of what this page has seen: foreseen
-    let seen: number[] = [];
-    edited.whenShown(() => (seen = starts(edited.shown.value.segmentation)));
-    expect(seen).toEqual([0, 30, 60]);
-    await edited.settled();
-    const again = await open();
-    again.edit({ kind: "redo" });
-    let settledWhen = -1;
-    again.whenShown(() => (settledWhen = again.unsent().length));
-    expect(settledWhen).toBe(-1);
-    await again.settled();
-    expect(settledWhen).toBe(0);
-  });
-
-  it("undo where there is nothing to undo is told of, and nothing to decide", async () => {
-    const edited = await open();
-    edited.edit({ kind: "undo" });
-    edited.edit(SPLIT);
-    await settled();
-    expect(told).toEqual(["It cannot be made."]);
-    expect(edited.refused.value).toEqual([]);
-    expect(server.got).toEqual([SPLIT]);
+    expect(server.got).toEqual([MOVE, SPLIT, { ...SPLIT, frame: 80 }]);
   });
 });
 
-/** The border at 30 five frames on, one by one; then a name, a kind and a check of its segment. */
-function workOn(edited: InstanceType<typeof EditedRecording>): void {
-  const segment = () => edited.shown.value.segmentation.segments[2]!;
-  for (let i = 0; i < 5; i++) {
-    const frame = segment().start_frame;
-    void edited.edit({ kind: "move_border", level: "primitive", frame, to: frame + 1 });
-  }
-  const frame = segment().start_frame;
-  void edited.edit({ kind: "name_segment", level: "primitive", frame, label: "hop" });
-  void edited.edit({ kind: "check", level: "primitive", frames: [frame], checked: true });
-}
-
-function expectWork({ segmentation }: Recording): void {
-  expect(starts(segmentation)).toEqual([0, 35, 60]);
+it("each edit is one of the segments that it was made on, however late the answers", async () => {
+  server.latency = 3;
+  const edited = await open();
+  for (const to of [31, 32, 33]) edited.edit({ ...MOVE, to });
+  edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
+  edited.edit({ kind: "check", level: "primitive", frames: [30], checked: true });
+  edited.edit({ kind: "merge", level: "primitive", start_frame: 0, stop_frame: 30 });
+  await edited.settled();
+  const { segmentation } = edited.confirmed.value;
+  expect(starts(segmentation)).toEqual([0, 33, 60]);
   expect(segmentation.segments.map((each) => each.label)).toEqual(["", "", "hop", ""]);
   expect(segmentation.checked).toEqual([2]);
-}
-
-describe("however late the server answers", () => {
-  it("each edit is one of what it was made on, and none is lost", async () => {
-    server.latency = 3;
-    const edited = await open();
-    workOn(edited);
-    expectWork(edited.shown.value);
-    await edited.settled();
-    expectWork(server.now);
-    expectWork(edited.confirmed.value);
-    expect(server.got).toHaveLength(7);
-    expect(edited.refused.value).toEqual([]);
-  });
-
-  it("an outage is nothing but a long latency", async () => {
-    const edited = await open();
-    server.up = false;
-    workOn(edited);
-    await settled();
-    expectWork(edited.shown.value);
-    expect(edited.unsent()).toHaveLength(7);
-    server.up = true;
-    await edited.resume();
-    expectWork(server.now);
-    expect(server.got).toHaveLength(7);
-  });
-
-  it("what was shown does not change when the answer comes", async () => {
-    server.latency = 2;
-    const edited = await open();
-    workOn(edited);
-    const seen = new Set([edited.shown.value.segmentation]);
-    edited.shown.subscribe((each) => void seen.add(each.segmentation));
-    await edited.settled();
-    expect(seen.size).toBe(1);
-    expect([...seen][0]).toEqual(server.now.segmentation);
-  });
-
-  it("undo takes back what has not been sent yet", async () => {
-    const edited = await open();
-    server.up = false;
-    edited.edit(MOVE);
-    edited.edit(SPLIT);
-    edited.undo();
-    expect(starts(edited.shown.value.segmentation)).toEqual([0, 40, 60]);
-    await settled();
-    server.up = true;
-    await edited.resume();
-    expect(starts(server.now.segmentation)).toEqual([0, 40, 60]);
-  });
+  expect(server.got).toHaveLength(5); // it does not know how to merge
+  expect(warned).toEqual([
+    "Not made: primitives merged from 0.00 s to 3.00 s (It cannot be made.).",
+  ]);
 });
 
 describe("what the server refuses", () => {
@@ -225,32 +157,14 @@ describe("what the server refuses", () => {
     server.refuses = ({ kind }) => kind === "delete_border";
   });
 
-  it("stays until somebody decides, and holds up nothing else", async () => {
+  it("is named, and holds up nothing else", async () => {
     const edited = await open();
     edited.edit(GONE);
     edited.edit(SPLIT);
     await settled();
     expect(server.got).toEqual([SPLIT]);
-    expect(edited.refused.value).toMatchObject([{ edit: GONE, refused: "It cannot be made." }]);
-    edited.dropRefused();
-    expect(edited.refused.value).toEqual([]);
+    expect(warned).toEqual(["Not made: primitive border at 3.00 s deleted (It cannot be made.)."]);
     expect(stored.size).toBe(0);
-  });
-
-  it("outlives the tab, and can be tried again", async () => {
-    const first = await open();
-    first.edit(GONE);
-    await settled();
-    first.close();
-    const edited = await open();
-    expect(edited.refused.value).toHaveLength(1);
-    await edited.edit(MOVE);
-    server.refuses = () => false;
-    edited.retryRefused();
-    await settled();
-    expect(edited.refused.value).toEqual([]);
-    expect(server.got.at(-1)).toEqual({ ...GONE, frame: 40 }); // where that border is now
-    expect(starts(server.now.segmentation)).toEqual([0, 60]);
   });
 
   it("and was taken back by its author is no edit at all: undo does not reach the one before", async () => {
@@ -261,22 +175,37 @@ describe("what the server refuses", () => {
     edited.undo();
     await edited.settled();
     expect(server.got).toEqual([MOVE]);
-    expect(edited.refused.value).toEqual([]);
+    expect([told, warned]).toEqual([["It cannot be made."], []]);
   });
 
-  it("and was never shown as made is told of at once, and nothing to decide", async () => {
+  it("undo where there is nothing to undo is told of in passing", async () => {
     const edited = await open();
-    edited.edit({ kind: "delete_border", level: "primitive", frame: 31 });
+    edited.edit({ kind: "undo" });
+    edited.edit(SPLIT);
     await settled();
-    expect(told).toEqual(["It cannot be made."]);
-    expect(edited.refused.value).toEqual([]);
+    expect([told, warned]).toEqual([["It cannot be made."], []]);
+    expect(server.got).toEqual([SPLIT]);
+  });
+
+  it("is shown as it was, also where a box was ticked for it", async () => {
+    const edited = await open();
+    const before = edited.confirmed.value.segmentation;
+    await edited.edit(GONE);
+    expect(edited.confirmed.value.segmentation).toEqual(before);
+    expect(edited.confirmed.value.segmentation).not.toBe(before);
   });
 });
 
 it("as many edits are undone as undo was asked for, however fast", async () => {
+  server.latency = 2;
   const edited = await open();
-  for (let i = 0; i < 4; i++) edited.undo();
-  expect(edited.waiting.value.map(({ edit }) => edit.kind)).toEqual(Array(4).fill("undo"));
+  edited.edit(MOVE);
+  edited.edit(SPLIT);
+  edited.undo();
+  edited.undo();
+  await edited.settled();
+  expect(starts(edited.confirmed.value.segmentation)).toEqual([0, 30, 60]);
+  expect(edited.confirmed.value.revision).toBe(4);
 });
 
 describe("when the server is gone", () => {
@@ -286,12 +215,22 @@ describe("when the server is gone", () => {
     edited.edit(MOVE);
     edited.edit(SPLIT);
     await settled();
-    expect(lost).toBeGreaterThan(0);
+    expect(away).toBe(true);
     expect(edited.unsent()).toHaveLength(2);
-    server.up = true;
-    await edited.resume();
+    await back(edited);
     expect(server.got).toEqual([MOVE, SPLIT]);
     expect(edited.unsent()).toEqual([]);
+  });
+
+  it("nothing more is taken, and that is said", async () => {
+    const edited = await open();
+    away = true;
+    await edited.edit(MOVE);
+    edited.whenShown(() => void edited.edit(SPLIT));
+    expect(edited.unsent()).toEqual([]);
+    expect(told).toEqual(Array(2).fill("Not done: the studio’s server does not answer."));
+    await back(edited);
+    expect(server.got).toEqual([]);
   });
 
   it("an edit that was saved before the answer was lost is not made twice", async () => {
@@ -301,8 +240,7 @@ describe("when the server is gone", () => {
     await settled();
     expect(edited.unsent()).toHaveLength(1);
     server.dieAfterSaving = false;
-    server.up = true;
-    await edited.resume();
+    await back(edited);
     expect(edited.unsent()).toEqual([]);
     expect(edited.blocked.value).toBeNull();
     expect(server.got).toEqual([MOVE]);
@@ -316,12 +254,12 @@ describe("when the server is gone", () => {
     await settled();
     edited.close();
     server.dieAfterSaving = false;
-    server.up = true;
+    [server.up, away] = [true, false];
     const next = await open();
     await settled();
-    expect(next.refused.value).toEqual([]);
+    expect(warned).toEqual([]);
     expect(server.got).toHaveLength(2);
-    expect(next.shown.value.segmentation.segments[1]!.label).toBe("whole");
+    expect(next.confirmed.value.segmentation.segments[1]!.label).toBe("whole");
   });
 
   it("the next tab may find a server that is still looking for segments", async () => {
@@ -330,7 +268,7 @@ describe("when the server is gone", () => {
     edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
     await settled();
     edited.close();
-    server.up = true;
+    [server.up, away] = [true, false];
     const bare = [row("activity", 0, 100), row("primitive", 0, 100)];
     const segmentation = { ...server.now.segmentation, segments: bare };
     const ids = ["a:0", "p:0"];
@@ -338,9 +276,9 @@ describe("when the server is gone", () => {
     vi.spyOn(server, "recording").mockResolvedValueOnce(finding);
     const next = await open();
     await settled();
-    expect(next.refused.value).toEqual([]);
+    expect(warned).toEqual([]);
     expect(server.got).toMatchObject([{ frame: 30, label: "hop" }]);
-    expect(next.shown.value.finding).toBe(false); // else it could never be edited again
+    expect(next.confirmed.value.finding).toBe(false); // else it could never be edited again
   });
 
   it("a tab that dies, too, leaves its edits to the next one", async () => {
@@ -349,7 +287,7 @@ describe("when the server is gone", () => {
     edited.edit(MOVE);
     await settled();
     edited.close();
-    server.up = true;
+    [server.up, away] = [true, false];
     const next = await open();
     await settled();
     expect(starts(next.confirmed.value.segmentation)).toContain(40);
@@ -393,19 +331,17 @@ describe("when somebody else changes the table", () => {
     edited.retry();
     await settled();
     expect(server.got).toHaveLength(2);
-    expect(edited.refused.value).toHaveLength(1);
+    expect(warned[0]).toContain("not there any more");
   });
 
-  it("edits made since are on the table as it is, and stay when the others are dropped", async () => {
+  it("nothing more is edited until somebody decides", async () => {
     const edited = await open();
     await server.edit("take", { revision: 0, edit: MOVE });
     edited.edit({ kind: "delete_border", level: "primitive", frame: 60 });
     await settled();
-    edited.edit(SPLIT);
-    expect(starts(edited.shown.value.segmentation)).toEqual([0, 40, 45, 60]);
-    edited.drop();
-    await settled();
-    expect(starts(server.now.segmentation)).toEqual([0, 40, 45, 60]);
+    await edited.edit(SPLIT);
+    expect(told).toEqual(["Not done: first choose what becomes of the edits above."]);
+    expect(edited.unsent()).toHaveLength(1);
   });
 
   it("it can be dropped, too", async () => {

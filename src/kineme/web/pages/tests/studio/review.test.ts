@@ -65,8 +65,8 @@ it("has one number for a segment, wherever that is shown", () => {
 
 it("says of a confidence that it is no probability", () => {
   const found = tableOf([segment(0, 10, { level: "activity", confidence: 0.4 })]);
-  expect(doubtsOf(found)[0]!.why).toBe("Its confidence is 0.40, a share and no probability.");
-  expect(doubtsOf(found)[0]!.text).toBe("confidence 0.40");
+  expect(doubtsOf(found)[0]!.why).toBe("Its confidence is 40 %, a share and no probability.");
+  expect(doubtsOf(found)[0]!.text).toBe("confidence 40 %");
 });
 
 it("leaves out what is checked, and counts it", () => {

@@ -30,7 +30,7 @@ export function LoopsDialog({ close }: Props): JSX.Element {
   useEffect(() => {
     if (!opened) return;
     opened
-      .settled() // its rows are those that are shown
+      .settled() // its rows are those that are shown then
       .then(() => api.loops(opened.id))
       .then((loops) => {
         found.value = loops;

@@ -83,7 +83,7 @@ export class Beside {
   /** Makes the shown segmentation the table. */
   apply(): void {
     const { value: proposal } = this.proposal;
-    if (!proposal) return;
+    if (!proposal || !this.around.edited.value?.takesEdits()) return;
     const { choice, keep } = proposal;
     this.discard();
     void this.around.edited.value?.edit({

@@ -15,10 +15,11 @@ export function split({ lane, frame }: Where): Edit | null {
   return { kind: "split", level: segment.level, frame };
 }
 
-/** A segment and the next one become one. */
-export function mergeWithNext({ lane }: Where, segment: Segment): Edit | null {
-  const next = lane[lane.indexOf(segment) + 1];
-  if (!next) return null;
+/** The segment at the playhead and the next one become one. */
+export function mergeWithNext({ lane, frame }: Where): Edit | null {
+  const at = indexAt(lane, frame);
+  const [segment, next] = [lane[at], lane[at + 1]];
+  if (!segment || !next) return null;
   const { level, start_frame } = segment;
   return { kind: "merge", level, start_frame, stop_frame: next.stop_frame };
 }

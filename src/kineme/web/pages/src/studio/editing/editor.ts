@@ -2,15 +2,23 @@
  * Edits as people make them. There is one target: the segment at the playhead,
  * on the level one works in, and the border nearest to the playhead. The
  * timeline shows both. What an edit would reach outside of the view is brought
- * into the view first.
+ * into the view first. A key that is pressed while edits are on their way is for
+ * where the playhead was then, in the table that these edits leave.
  */
 import { batch, computed, signal } from "@preact/signals";
-import type { ByHand, Edit, Kind, Level, Segment } from "../../messages";
+import type { ByHand, Edit, Kind, Level, Recording, Segment } from "../../messages";
 import type { Store } from "../../store";
 import * as commands from "./commands";
+import type { EditedRecording } from "./editedRecording";
 import type { Session } from "../session";
-import { isExcluded, nearestBorder } from "../../segments";
+import { isExcluded, laneOf, nearestBorder, segmentAt } from "../../segments";
 import { counted } from "../../counted";
+
+/** Where the playhead is for some keys: those that move a border take it along for those after them. */
+interface Place {
+  readonly level: Level;
+  frame: number;
+}
 
 export class Editor {
   /** Asks for the field of a name to take the keyboard: of a segment or its cluster. */
@@ -18,36 +26,48 @@ export class Editor {
   readonly segment = computed<Segment | undefined>(() => this.store.target.value);
   private readonly store: Store;
   /** The border that a key holds: from where, and how far it is by now. */
-  private held: { where: commands.Where; by: number } | null = null;
+  private held: { where: commands.Where; by: number; place: Place } | null = null;
+  /** Where the playhead was for the last key. */
+  private place: Place = { level: "primitive", frame: 0 };
+  /** The recording of the command whose turn it is. */
+  private turnOf: EditedRecording | undefined;
+  /** The key that moves a border, which may be released before its turn has come. */
+  private pressed: { isDown: boolean } | null = null;
 
   constructor(private readonly session: Session) {
     this.store = session.store;
   }
 
+  /** The border stays where it was dragged to until the table shows it there. */
   moveBorder(level: Level, frame: number, to: number): void {
-    if (frame !== to) this.send({ kind: "move_border", level, frame, to });
+    const drag = this.store.drag.peek();
+    const end = (): void => {
+      if (this.store.drag.peek() === drag) this.store.drag.value = null;
+    };
+    const made = this.send({ kind: "move_border", level, frame, to }, end);
+    void made.then(end);
   }
 
   split(): void {
     this.make(
-      () => commands.split(this.where()),
-      () => this.store.frame.value,
+      commands.split,
+      ({ frame }) => frame,
       "There is a border at the playhead already: move the playhead first.",
     );
   }
 
   mergeWithNext(): void {
     this.make(
-      () => (this.segment.value ? commands.mergeWithNext(this.where(), this.segment.value) : null),
-      () => this.segment.value?.stop_frame,
+      commands.mergeWithNext,
+      ({ lane, frame }) => segmentAt(lane, frame)?.stop_frame,
       "This is the last segment: choose one with a neighbour after it.",
     );
   }
 
   deleteBorder(): void {
     this.make(
-      () => commands.deleteBorder(this.where()),
-      () => this.store.border.value?.start_frame,
+      commands.deleteBorder,
+      ({ lane, frame }) => nearestBorder(lane, frame)?.start_frame,
       "There is no border to delete.",
     );
   }
@@ -55,8 +75,8 @@ export class Editor {
   /** The segment at the playhead starts, or stops, at the playhead. */
   borderHere(side: "start" | "stop"): void {
     this.make(
-      () => commands.borderHere(this.where(), side),
-      () => this.store.frame.value,
+      (where) => commands.borderHere(where, side),
+      ({ frame }) => frame,
       "There is a border at the playhead already, or none on that side to bring here.",
     );
   }
@@ -66,39 +86,43 @@ export class Editor {
    * released: as long as it is held it is one edit.
    */
   nudge(frames: number): void {
-    if (this.held) this.carry(frames);
-    else
-      this.make(
-        () => commands.nudgeBorder(this.where(), frames),
-        () => this.store.border.value?.start_frame,
-        "There is no border to move, or no room for it.",
-        () => {
-          this.held = { where: this.where(), by: 0 };
-          this.carry(frames);
-        },
-      );
+    if (this.held) return this.carry(frames);
+    const pressed = (this.pressed ??= { isDown: true });
+    this.make(
+      (where) => commands.nudgeBorder(where, frames),
+      ({ lane, frame }) => nearestBorder(lane, frame)?.start_frame,
+      "There is no border to move, or no room for it.",
+      (_, where, place) => {
+        this.held ??= { where, by: 0, place };
+        this.carry(frames);
+        if (!pressed.isDown) this.release();
+      },
+    );
   }
 
   /** Makes the border that a key holds. */
   release(): void {
-    const edit = this.held && commands.nudgeBorder(this.held.where, this.held.by);
+    if (this.pressed) this.pressed.isDown = false;
+    this.pressed = null;
+    if (!this.held) return;
+    const edit = commands.nudgeBorder(this.held.where, this.held.by);
     this.held = null;
-    batch(() => {
-      if (edit) this.send(edit);
-      this.store.drag.value = null;
-    });
+    if (edit) this.moveBorder(edit.level, edit.frame, edit.to);
+    else this.store.drag.value = null;
   }
 
   /** Takes the border that a key holds on, as far as there is room. */
   private carry(frames: number): void {
-    const { where, by } = this.held!;
+    const { where, by, place } = this.held!;
     const edit = commands.nudgeBorder(where, by + frames);
     const frame = nearestBorder(where.lane, where.frame)!.start_frame;
     const to = edit?.to ?? frame;
-    this.held = { where, by: to - frame };
+    const isThere = this.store.frame.peek() === place.frame; // it may have been moved since
+    this.held = { where, by: to - frame, place };
+    place.frame = to;
     batch(() => {
-      this.store.drag.value = { lane: this.store.worked.value, frame, to };
-      this.store.seek(to / this.store.fps.value);
+      this.store.drag.value = { lane: place.level, frame, to };
+      if (isThere) this.store.seek(to / this.store.fps.value);
     });
   }
 
@@ -106,51 +130,48 @@ export class Editor {
   startNaming(target: "segment" | "cluster"): void {
     const segment = this.segment.value;
     if (segment && target === "cluster" && segment.cluster < 0)
-      this.session.bulletin.tell("This segment is in no cluster: there is no cluster to name.");
+      this.session.bulletin.refuse("This segment is in no cluster: there is no cluster to name.");
     else if (segment) this.naming.value = target;
   }
 
   name(segment: Segment, label: string): void {
     const { level, start_frame: frame } = segment;
-    this.send({ kind: "name_segment", level, frame, label });
+    void this.send({ kind: "name_segment", level, frame, label });
   }
 
   /** Gives the segment one works on a name of its own. */
   nameTarget(label: string): void {
-    this.session.edited.value?.whenShown(() => {
-      const segment = this.segment.value;
-      if (segment) this.name(segment, label);
-    });
+    this.atPlayhead((segment) => this.name(segment, label));
   }
 
   comment({ level, start_frame: frame }: Segment, text: string): void {
-    this.send({ kind: "comment", level, frame, text });
+    void this.send({ kind: "comment", level, frame, text });
   }
 
   splitCluster(cluster: number, frames: number[]): void {
-    this.send({ kind: "split_cluster", cluster, frames });
+    void this.send({ kind: "split_cluster", cluster, frames });
   }
 
   orderClusters(order: number[]): void {
-    this.send({ kind: "order_clusters", order });
+    void this.send({ kind: "order_clusters", order });
   }
 
   nameCluster(cluster: number, label: string): void {
-    this.send({ kind: "name_cluster", cluster, label });
+    void this.send({ kind: "name_cluster", cluster, label });
   }
 
   mergeClusters(cluster: number, into: number): void {
-    this.send({ kind: "merge_clusters", cluster, into });
+    void this.send({ kind: "merge_clusters", cluster, into });
   }
 
   setCluster(segment: Segment, cluster: number): void {
     const { level, start_frame: frame } = segment;
-    if (cluster !== segment.cluster) this.send({ kind: "set_cluster", level, frame, cluster });
+    if (cluster !== segment.cluster) void this.send({ kind: "set_cluster", level, frame, cluster });
   }
 
   setKind(segment: Segment, to: Kind): void {
     const { level, start_frame: frame } = segment;
-    if (to !== segment.kind) this.send({ kind: "set_kind", level, frame, to });
+    if (to !== segment.kind) void this.send({ kind: "set_kind", level, frame, to });
   }
 
   /** Marks segments as checked, or takes the mark away. */
@@ -167,7 +188,7 @@ export class Editor {
   /** The primitives that start at these frames count in no mean, or do so again. */
   exclude(frames: number[], excluded: boolean): void {
     const what = excluded ? "left out of means" : "in means again";
-    this.send({ kind: "exclude", frames, excluded }, () => {
+    void this.send({ kind: "exclude", frames, excluded }, () => {
       this.session.bulletin.tell(`${counted(frames.length, "repetition")} ${what}.`);
     });
   }
@@ -175,64 +196,88 @@ export class Editor {
   /** Leaves the selected repetition out of means, or brings it back. */
   toggleExcluded(): void {
     const row = this.store.selected.value;
-    const table = this.store.recording.value?.segmentation;
-    if (row?.kind === "primitive" && table)
-      this.exclude([row.start_frame], !isExcluded(table.annotation, row));
-    else this.session.bulletin.tell("Select the repetition to leave out of means first.");
+    if (row?.kind === "primitive")
+      this.inTurn((_, { segmentation }) =>
+        this.exclude([row.start_frame], !isExcluded(segmentation.annotation, row)),
+      );
+    else this.session.bulletin.refuse("Select the repetition to leave out of means first.");
   }
 
   /** Several edits as one step, which says how many segments it reached. */
   together(edits: ByHand[], what: string): void {
     if (!edits.length) return;
-    this.send(edits.length === 1 ? edits[0]! : { kind: "together", edits }, () => {
+    void this.send(edits.length === 1 ? edits[0]! : { kind: "together", edits }, () => {
       if (what) this.session.bulletin.tell(`${counted(edits.length, "segment")} ${what}.`);
     });
   }
 
   undo(): void {
     if (this.isOpenTo("can_undo")) this.session.edited.value?.undo();
-    else this.session.bulletin.tell("There is nothing to undo.");
+    else this.session.bulletin.refuse("There is nothing to undo.");
   }
 
   redo(): void {
-    if (this.isOpenTo("can_redo")) this.send({ kind: "redo" });
-    else this.session.bulletin.tell("There is nothing to redo.");
+    if (this.isOpenTo("can_redo")) void this.send({ kind: "redo" });
+    else this.session.bulletin.refuse("There is nothing to redo.");
+  }
+
+  /** Does something with the segment at the playhead, as it is once the edits before are shown. */
+  atPlayhead(act: (segment: Segment) => void): void {
+    this.inTurn(({ lane, frame }) => {
+      const segment = segmentAt(lane, frame);
+      if (segment) act(segment);
+    });
   }
 
   /** Edits on their way may be what there is to undo or redo. */
   private isOpenTo(what: "can_undo" | "can_redo"): boolean {
     const edited = this.session.edited.value;
-    return edited !== undefined && (edited.confirmed.value[what] || edited.unsent().length > 0);
+    return edited !== undefined && (edited.confirmed.value[what] || edited.isOwing());
   }
 
-  /** An edit of what is at the playhead once the edits before it are shown, if it can be seen. */
+  /** An edit of what is at the playhead, if it can be seen. */
   private make(
-    command: () => Edit | null,
-    place: () => number | undefined,
+    command: (where: commands.Where) => Edit | null,
+    affects: (where: commands.Where) => number | undefined,
     otherwise: string,
-    act: (edit: Edit) => void = (edit) => this.send(edit),
+    act: (edit: Edit, where: commands.Where, place: Place) => void = (edit) => void this.send(edit),
   ): void {
-    this.session.edited.value?.whenShown(() => {
-      const edit = command();
-      const frame = place();
-      if (!edit || frame === undefined) this.session.bulletin.tell(otherwise);
+    this.inTurn((where, _, place) => {
+      const edit = command(where);
+      const frame = affects(where);
+      if (!edit || frame === undefined) this.session.bulletin.refuse(otherwise);
+      else if (this.turnOf !== this.session.edited.peek()) void this.send(edit);
       else if (this.store.reveal(frame / this.store.fps.value))
         this.session.bulletin.tell("This is where it would be: press once more to do it.");
-      else act(edit);
+      else act(edit, where, place);
+    });
+  }
+
+  /** Does something at the playhead as it is now, once the edits before are shown. */
+  private inTurn(act: (where: commands.Where, recording: Recording, place: Place) => void): void {
+    const edited = this.session.edited.peek();
+    const [level, frame] = [this.store.worked.peek(), this.store.frame.peek()];
+    if (this.place.level !== level || this.place.frame !== frame) this.place = { level, frame };
+    const { place } = this;
+    edited?.whenShown(() => {
+      const { value: recording } = edited.confirmed;
+      const lane = laneOf(recording.segmentation, level);
+      this.turnOf = edited; // another one may be in front by now
+      act({ lane, frame: place.frame }, recording, place);
+      this.turnOf = undefined;
     });
   }
 
   /** The selection follows the border that it starts at. */
-  private send(edit: Edit, made?: () => void): void {
-    const at = this.store.selection.peek();
-    const start = at && commands.followed(edit, at.level, at.start_frame);
-    batch(() => {
-      void this.session.edited.value?.edit(edit, made);
+  private send(edit: Edit, made?: () => void): Promise<void> {
+    const edited = this.turnOf ?? this.session.edited.peek();
+    const sent = edited?.edit(edit, () => {
+      made?.();
+      if (edited !== this.session.edited.peek()) return;
+      const at = this.store.selection.peek();
+      const start = at && commands.followed(edit, at.level, at.start_frame);
       if (at && start !== null) this.store.selection.value = { ...at, start_frame: start };
     });
-  }
-
-  private where(): commands.Where {
-    return { lane: this.store.lane(this.store.worked.value), frame: this.store.frame.value };
+    return sent ?? Promise.resolve();
   }
 }

@@ -15,10 +15,6 @@ export interface Unsent {
   base: number | null;
   /** Who the segments are that it names, in the order of their frames. */
   on?: (string | null)[];
-  /** Whether the page has never shown it as made: it is one that cannot be. */
-  hopeless?: boolean;
-  /** Why it could not be made, where it could not. */
-  refused?: string;
 }
 
 const PREFIX = "kineme.unsent";

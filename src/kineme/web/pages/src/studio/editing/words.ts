@@ -69,6 +69,11 @@ export function inWords(edit: Edit, fps: number): string {
   }
 }
 
+/** Whether another table takes the place of the present one, which can take a while. */
+export function replacesTable({ kind }: Edit): boolean {
+  return ["segment", "transfer", "take_labels", "restore"].includes(kind);
+}
+
 /** What a segmentation found, and in what time; that it found nothing where it was cancelled. */
 export function foundIn(table: Segments): string {
   if (!Object.keys(table.timings).length) return "Not segmented.";

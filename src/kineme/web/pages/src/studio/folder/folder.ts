@@ -55,8 +55,8 @@ export class Folder {
   constructor(readonly session: Session) {
     effect(() => {
       const open = session.recordings.value
-        .filter((edited) => !edited.shown.value.finding)
-        .map((edited) => [edited.id, edited.shown.value.segmentation] as const);
+        .filter((edited) => !edited.confirmed.value.finding)
+        .map((edited) => [edited.id, edited.confirmed.value.segmentation] as const);
       const ofPage = untracked(() => this.ofPage.value);
       if (open.some(([id, table]) => ofPage.get(id) !== table))
         this.ofPage.value = new Map([...ofPage, ...open]);

@@ -41,6 +41,10 @@ export class FolderQueue {
     if (!folder.ready.value) await folder.refresh();
     if (!this.places.value.length && folder.without.value.length) await folder.find();
     this.passPresent();
+    if (!this.upcoming().length) {
+      await folder.session.edited.value?.settled(); // what was just checked is none any more
+      this.passed.value.clear();
+    }
     const [next, ...after] = this.upcoming();
     if (next) {
       await this.go(next);
@@ -76,14 +80,10 @@ export class FolderQueue {
       this.passed.value.add(keyOf({ id: looking.value.id, doubt: { segment: target.value } }));
   }
 
-  /** The next places, those passed over last. */
+  /** The next places that were not passed over. */
   private upcoming(): Place[] {
     const { value: passed } = this.passed;
-    const found = (): Place[] => firstOf(this.places.value, (each) => !passed.has(keyOf(each)));
-    const some = found();
-    if (some.length || !this.places.value.length) return some;
-    passed.clear();
-    return found();
+    return firstOf(this.places.value, (each) => !passed.has(keyOf(each)));
   }
 
   /** Has the server open the recordings that come next. */

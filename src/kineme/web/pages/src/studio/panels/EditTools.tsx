@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { useStore } from "../../context";
 import type { Level } from "../../messages";
 import { useStudio } from "../context";
+import { deleteBorder, mergeWithNext } from "../editing/commands";
 
 const LEVELS: readonly (readonly [Level, string])[] = [
   ["activity", "Activities"],
@@ -13,6 +14,7 @@ export function EditTools(): JSX.Element {
   const store = useStore();
   const { editor } = useStudio();
   const disabled = !editor.segment.value;
+  const where = { lane: store.lane(store.worked.value), frame: store.frame.value };
   return (
     <>
       <span class="group" role="group" aria-label="Work on">
@@ -40,7 +42,7 @@ export function EditTools(): JSX.Element {
         </button>
         <button
           type="button"
-          disabled={disabled}
+          disabled={!mergeWithNext(where)}
           title="The segment and the next one become one (M)"
           onClick={() => editor.mergeWithNext()}
         >
@@ -48,7 +50,7 @@ export function EditTools(): JSX.Element {
         </button>
         <button
           type="button"
-          disabled={disabled}
+          disabled={!deleteBorder(where)}
           title="Delete the border nearest to the playhead (Delete)"
           onClick={() => editor.deleteBorder()}
         >

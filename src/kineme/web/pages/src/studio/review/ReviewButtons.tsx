@@ -6,7 +6,7 @@ export function ReviewButtons(): JSX.Element {
   const { review } = useStudio();
   return (
     <>
-      <button type="button" title="Next to look at (J)" onClick={() => review.next()}>
+      <button type="button" title="Next to look at (J)" onClick={() => void review.next()}>
         Next
       </button>
       <button

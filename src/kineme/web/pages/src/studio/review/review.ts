@@ -43,18 +43,18 @@ export class Review {
   }
 
   /** Goes to the segment of lowest confidence that has not been looked at. */
-  next(): void {
+  async next(): Promise<void> {
     const { everywhere, session } = this;
-    if (everywhere.value) return void this.queue.next();
+    if (everywhere.value) return this.queue.next();
     const several = (session.state.value?.recordings.length ?? 0) > 1;
-    if (!session.store.recording.value && several) return void this.goEverywhere(true);
-    const { value: doubts } = this.doubts;
-    const { present } = this;
+    if (!session.store.recording.value && several) return this.goEverywhere(true);
+    const { doubts, present } = this;
     if (present.value) this.passed.value.add(keyOf(present.value.segment));
-    let next = doubts.find(({ segment }) => !this.passed.value.has(keyOf(segment)));
+    let next = doubts.value.find(({ segment }) => !this.passed.value.has(keyOf(segment)));
     if (!next) {
+      await session.edited.value?.settled(); // what was just checked is none any more
       this.passed.value.clear();
-      next = doubts.find((doubt) => doubt !== present.value) ?? doubts[0];
+      next = doubts.value.find((doubt) => doubt !== present.value) ?? doubts.value[0];
     }
     if (next) this.go(next);
     else this.session.bulletin.tell("Every segment of this recording is checked.");
@@ -66,16 +66,14 @@ export class Review {
 
   /** Marks the segment at the playhead as checked, and goes on. */
   checkAndGoOn(): void {
-    const segment = this.editor.segment.value;
-    if (!segment) return;
-    this.editor.check([segment], true);
-    this.session.edited.value?.whenShown(() => this.next());
+    if (!this.editor.segment.value || !this.session.edited.value?.takesEdits()) return;
+    this.editor.atPlayhead((segment) => this.editor.check([segment], true));
+    void this.next();
   }
 
   /** Marks the segment at the playhead, or takes the mark away. */
   toggle(): void {
-    const segment = this.editor.segment.value;
-    if (segment) this.editor.check([segment], !this.isChecked(segment));
+    this.editor.atPlayhead((segment) => this.editor.check([segment], !this.isChecked(segment)));
   }
 
   isChecked(segment: Segment): boolean {

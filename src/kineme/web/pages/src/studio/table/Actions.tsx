@@ -15,8 +15,10 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
     if (!edited.value) return;
     busy.value = true;
     try {
-      await edited.value.settled(); // its rows are those that are shown
-      const numbers = rows.map(({ number }) => number);
+      const { ids = [] } = edited.value.confirmed.value;
+      await edited.value.settled();
+      const now = edited.value.confirmed.value.ids ?? []; // edits on their way may move rows
+      const numbers = rows.map(({ number }) => now.indexOf(ids[number]!)).filter((row) => row >= 0);
       save(await api.clips(edited.value.id, { rows: numbers, loops }));
       bulletin.solved("clips");
     } catch (error) {

@@ -1,0 +1,82 @@
+"""Read files as people say: their options, and which of several people a recording is of."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from kineme._counts import counted
+from kineme.errors import KinemeError, SeveralPeopleError
+from kineme.studio.folder import Folder
+from kineme.studio.reading import RecordingCache
+from kineme.studio.storage.listed import ListedRecording
+from kineme.studio.storage.sidecars import (
+    Reading,
+    given,
+    keep_reading,
+    options_of,
+    read_options,
+    reading_of,
+)
+from kineme.studio.storage.tables import usual_table
+
+
+class Reader:
+    """How the recordings of a folder are read."""
+
+    def __init__(self, folder: Folder, cache: RecordingCache):
+        self._folder, self._cache = folder, cache
+
+    def check_person(self, listed: ListedRecording) -> None:
+        """Raise SeveralPeopleError if the file holds several people and none was selected.
+
+        Markers are read without being told; but which are whose people should know. Where a table
+        of them has been saved, or a library was made of them, it is that person.
+        """
+        person = listed.person or read_options(listed, self._cache.options.file).person
+        if person or self._folder.of_library or usual_table(listed):
+            return
+        people = self._cache.read(listed).provenance.people
+        if len(people) > 1:
+            reason = f"{counted(len(people), 'person')} are in it: choose one of them, or all"
+            raise SeveralPeopleError(listed.path, reason, people)
+
+    def change_options(
+        self, listed: ListedRecording, options: dict[str, Any], *, everybody: bool
+    ) -> tuple[set[str], str]:
+        """Read a file with these options from now on; KinemeError where it cannot be read so.
+
+        Return the options that differ from those before, and which of several people was read.
+        """
+        before = reading_of(listed.path)
+        after, person = self._read(listed, Reading(given(options), before.people), everybody)
+        keep_reading(listed.path, after)
+        return after.differs_from(before), person
+
+    def _read(
+        self, listed: ListedRecording, choice: Reading, everybody: bool
+    ) -> tuple[Reading, str]:
+        """Return how a file is read from now on, and which of several people was read.
+
+        ``choice`` has the people of before.
+        """
+        people = self._cache.people(listed.path, choice) if everybody else ()
+        person = people[0] if people else choice.options.get("person") or listed.person
+        found = self._cache.read(ListedRecording(listed.path, person), choice).provenance
+        people = people or found.people
+        if self._folder.of_library:
+            return choice, ""
+        if len(people) < 2:
+            return Reading(choice.options), ""
+        before = options_of(listed.path).get("person", "")
+        first = before if listed.person else self._first_person(listed)
+        kept = choice.people if {*people} <= {*choice.people} and not everybody else people
+        return Reading({**choice.options, "person": first}, kept), found.person or ""
+
+    def _first_person(self, listed: ListedRecording) -> str:
+        """Return whose the table of a file is, if one was saved before people were told apart."""
+        if usual_table(listed) is None:
+            return ""
+        try:
+            return self._cache.read(listed).provenance.person or ""
+        except KinemeError:
+            return ""
