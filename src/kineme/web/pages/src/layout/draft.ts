@@ -9,6 +9,7 @@ interface DraftProps {
   value: string;
   onFocus: (event: TargetedEvent<Field>) => void;
   onInput: (event: TargetedEvent<Field>) => void;
+  onChange: () => void;
   onBlur: () => void;
   onKeyDown: (event: TargetedKeyboardEvent<Field>) => void;
 }
@@ -16,12 +17,19 @@ interface DraftProps {
 /**
  * Properties of a field that shows its draft while it has the focus, and `value` otherwise.
  *
- * Leaving the field hands the draft to the `onText` of when it got the focus: meanwhile playback or
- * another edit may have put another segment in the panel. Escape drops the draft.
+ * Each change (a step of a number, Enter, leaving the field) hands the draft to the `onText` of when
+ * the field got the focus: meanwhile playback or another edit may have put another segment in the
+ * panel. Escape drops the draft.
  */
 export function useDraft(value: string, onText: (text: string) => void): DraftProps {
   const draft = useSignal<string | null>(null);
   const begun = useRef({ value, onText });
+  const commit = (): void => {
+    const text = draft.value;
+    if (text === null || text === begun.current.value) return;
+    begun.current.value = text;
+    begun.current.onText(text);
+  };
   return {
     value: draft.value ?? value,
     onFocus: (event) => {
@@ -29,10 +37,10 @@ export function useDraft(value: string, onText: (text: string) => void): DraftPr
       draft.value = event.currentTarget.value;
     },
     onInput: (event) => (draft.value = event.currentTarget.value),
+    onChange: commit,
     onBlur: () => {
-      const text = draft.value;
+      commit();
       draft.value = null;
-      if (text !== null && text !== begun.current.value) begun.current.onText(text);
     },
     onKeyDown: (event) => {
       const isTextArea = event.currentTarget instanceof HTMLTextAreaElement;

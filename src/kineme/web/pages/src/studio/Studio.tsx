@@ -110,6 +110,7 @@ function Stage(): JSX.Element {
         <Channels ruler />
         <Video />
         <QueueBar />
+        <Opening />
       </>
     );
   return (
@@ -120,12 +121,13 @@ function Stage(): JSX.Element {
       {!store.active.value && (
         <p class="empty quiet">
           {session.opening.value || !session.state.value ? (
-            <Opening />
+            <span class="busy" role="status" aria-label="Opening" />
           ) : (
             session.question.value || "Choose a recording on the left, or drop files here."
           )}
         </p>
       )}
+      <Opening />
     </>
   );
 }

@@ -140,6 +140,8 @@ export class Session {
       void this.refresh();
       await loadMotion(opened);
     } catch (error) {
+      const isShown = store.opened.value.some((each) => each.recording.value.id === id);
+      if (this.opening.value !== id && !isShown) return; // cancelled, or another one chosen
       const isAsked = this.notRead(id, error);
       if (!isAsked || store.opened.value.length)
         // else the stage asks

@@ -4,6 +4,7 @@ import { expect, it } from "vitest";
 import type { State } from "../../src/messages";
 import { Store } from "../../src/store";
 import type { Api } from "../../src/studio/server/api";
+import { Refused } from "../../src/studio/server/answers";
 import { Session } from "../../src/studio/session";
 import { briefOf, listing } from "../studio/briefs";
 import { recording } from "../studio/tables";
@@ -37,5 +38,17 @@ it("leaves open what only has no segments yet", async () => {
   const { session, cancelled } = await opened(false);
   session.cancel();
   expect(cancelled).toEqual(["take"]);
+  expect(session.store.recording.value?.id).toBe("take");
+});
+
+it("says nothing of a file that nobody waits for any more", async () => {
+  const { session } = await opened(false);
+  session.api.recording = () =>
+    Promise.reject(new Refused(400, "It is broken.", { reading: true }));
+  const opening = session.open("other");
+  session.stopOpening();
+  await opening;
+  expect(session.bulletin.problems.value).toEqual([]);
+  expect(session.unread.value).toBeNull();
   expect(session.store.recording.value?.id).toBe("take");
 });

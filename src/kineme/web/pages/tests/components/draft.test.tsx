@@ -3,6 +3,7 @@ import "./offscreen";
 import { cleanup, fireEvent, render, waitFor } from "@testing-library/preact";
 import { afterEach, expect, test } from "vitest";
 import { NameInput } from "../../src/layout/NameInput";
+import { NumberInput } from "../../src/layout/NumberInput";
 import { SegmentPanel } from "../../src/studio/panels/SegmentPanel";
 import { row, table } from "../studio/tables";
 import "./browser";
@@ -38,6 +39,22 @@ test("Escape leaves the name as it was", () => {
   fireEvent.blur(input);
   expect(named).toEqual([]);
   expect(input.value).toBe("walk");
+});
+
+test("each step of a number is handed over at once, and once", () => {
+  const given: number[] = [];
+  const page = render(
+    <NumberInput label="Frame" value={7} onNumber={(number) => given.push(number)} />,
+  );
+  const input = page.getByLabelText("Frame") as HTMLInputElement;
+  fireEvent.focus(input);
+  for (const step of ["8", "9"]) {
+    fireEvent.input(input, { target: { value: step } });
+    fireEvent.change(input);
+  }
+  expect(given).toEqual([8, 9]);
+  fireEvent.blur(input);
+  expect(given).toEqual([8, 9]);
 });
 
 test("the panel keeps what is typed when the playhead reaches another segment", async () => {

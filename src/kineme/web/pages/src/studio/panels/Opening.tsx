@@ -5,7 +5,7 @@ import type { JSX } from "preact";
 import { useStudio } from "../context";
 import { megabytes } from "./FolderPanel";
 
-export function Opening(): JSX.Element {
+export function Opening(): JSX.Element | null {
   const { session } = useStudio();
   const id = session.opening.value;
   const listing = session.state.value?.recordings.find((each) => each.id === id);
@@ -15,18 +15,13 @@ export function Opening(): JSX.Element {
     const timer = window.setInterval(() => (seconds.value += 1), 1000);
     return () => window.clearInterval(timer);
   }, [id, seconds]);
+  if (!listing || seconds.value === 0) return null; // most recordings are there at once
   return (
-    <>
-      <span class="busy" role="status" aria-label="Opening" />
-      {listing && seconds.value > 0 && (
-        <>
-          {" "}
-          Reading {listing.name}, {megabytes(listing.bytes)}: {seconds.value} s{" "}
-          <button type="button" onClick={() => session.stopOpening()}>
-            Cancel
-          </button>
-        </>
-      )}
-    </>
+    <p class="opening">
+      Reading {listing.name}, {megabytes(listing.bytes)}: {seconds.value} s{" "}
+      <button type="button" onClick={() => session.stopOpening()}>
+        Cancel
+      </button>
+    </p>
   );
 }

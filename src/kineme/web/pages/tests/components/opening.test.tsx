@@ -1,0 +1,32 @@
+// @vitest-environment happy-dom
+import "./offscreen";
+import { act, cleanup, fireEvent } from "@testing-library/preact";
+import { afterEach, expect, test, vi } from "vitest";
+import type { State } from "../../src/messages";
+import { Opening } from "../../src/studio/panels/Opening";
+import { listing } from "../studio/briefs";
+import { table } from "../studio/tables";
+import "./browser";
+import { show } from "./page";
+
+afterEach(() => {
+  cleanup();
+  vi.useRealTimers();
+});
+
+test("a recording that takes long can be left while another one is shown", async () => {
+  const page = await show(<Opening />, table());
+  const { session } = page.parts;
+  vi.useFakeTimers();
+  const long = { ...listing("long", null), bytes: 156_700_000 };
+  await act(() => {
+    session.state.value = { recordings: [long] } as unknown as State;
+    session.opening.value = "long";
+  });
+  await act(() => void vi.advanceTimersByTime(3000));
+  expect(page.container.textContent).toContain("Reading long.bvh, 156.7 MB: 3 s");
+  await act(() => void fireEvent.click(page.getByText("Cancel")));
+  expect(page.container.textContent).toBe("");
+  expect(session.opening.value).toBeNull();
+  expect(page.store.recording.value?.id).toBe("take");
+});
