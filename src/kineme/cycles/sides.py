@@ -12,9 +12,10 @@ import re
 
 import numpy as np
 
+from kineme._arrays import Floats
 from kineme._checks import check_flag, check_type
 from kineme.cycles.phases import is_phase, mean_phase, phase_differences
-from kineme.cycles.table import CONFIDENCE, Columns, Cycles, Floats
+from kineme.cycles.table import CONFIDENCE, Columns, Cycles
 
 MEASURES = ("range", "min", "max", "mean", "min_at", "max_at")
 """Statistics that are compared; times of the cycle are of one clock for both sides."""

@@ -51,7 +51,7 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
     lost = at_origin.any(axis=0) & ~(at_origin | empty[:, None]).all(axis=0)
     if lost.any():
         points[at_origin & lost] = np.nan
-        named = listed([names[i] for i in np.flatnonzero(lost)])
+        named = listed([names[i] for i in np.flatnonzero(lost).tolist()])
         remark = f"exactly at the origin in some frames, taken as not seen there: {named}"
         notes.append(Note(remark, "warning"))
     jumps, others = _find_jumps(points, fps)
@@ -139,7 +139,7 @@ def _find_fast_steps(points: Floats, step: float) -> NDArray[np.bool_]:
 def _size(points: Floats) -> float:
     """Return the largest extent of the points, in the middle of some frames."""
     some = points[:: max(1, len(points) // SAMPLED)]
-    seen = ~np.isnan(some).any(axis=2)
+    seen = np.asarray(~np.isnan(some).any(axis=2))
     some = some[seen.any(axis=1)]
     if not len(some):
         return 0.0

@@ -7,6 +7,7 @@ from os import PathLike
 
 import numpy as np
 
+from kineme._arrays import Float32s
 from kineme._checks import is_number
 from kineme.errors import ParameterError, ReadError
 from kineme.features.canonical import mirrored_features
@@ -21,7 +22,7 @@ from kineme.library.storage.analyses import read_features
 from kineme.library.storage.index import open_index
 from kineme.library.storage.layout import ANALYSES, BODIES
 from kineme.library.storage.places import place
-from kineme.library.windows import Float32s, length_for
+from kineme.library.windows import length_for
 from kineme.recordings import Motion, Signals
 
 AnyPath = str | PathLike[str]

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from kineme._arrays import Float32s, Ints
 from kineme._threads import map_threads
 from kineme.errors import KinemeError
 from kineme.library._kernels import least_squares
@@ -24,13 +25,7 @@ from kineme.library.executors import Executor
 from kineme.library.searching import spans_like
 from kineme.library.storage.analyses import read_parts
 from kineme.library.storage.index import Windows
-from kineme.library.windows import (
-    FINER,
-    Float32s,
-    Ints,
-    parts_at_speeds,
-    step,
-)
+from kineme.library.windows import FINER, parts_at_speeds, step
 from kineme.matching import Matches
 
 SHARE = 0.01

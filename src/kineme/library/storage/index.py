@@ -12,11 +12,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from kineme._arrays import Ints
 from kineme.errors import ReadError
 from kineme.library.storage.analyses import read_windows
 from kineme.library.storage.layout import ANALYSES, BODIES, TABLES
 from kineme.library.storage.places import near, written
-from kineme.library.windows import LENGTHS, NUMBERS, Bytes, Ints, by_length, count
+from kineme.library.windows import LENGTHS, NUMBERS, Bytes, by_length, count
 
 FROM_HOURS = 100.0
 """Of recordings of bodies, from which a library has an index."""
