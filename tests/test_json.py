@@ -70,13 +70,8 @@ PROVENANCES: list[dict[str, Any]] = [
     {"input": ["x"]},
     {"input": {"path": 5}},
     {"notes": {"a": 1}},
-    {"by_hand": [[[], 0, 1]]},
-    {"checked": [["activity", {}, 1]]},
-    {"comments": [["activity", "x", 1]]},
-    {"cluster_names": {"0": []}},
     {"labels": {"counts": 3}},
     {"gaps": [[1]]},
-    {"corrections": []},
 ]
 
 

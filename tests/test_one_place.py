@@ -40,7 +40,7 @@ class Halves:
             "start_frame": np.array([0, self.cut]),
             "stop_frame": np.array([self.cut, len(self.features)]),
             "cluster": np.array([0, 1]),
-            "score": np.full(2, np.nan),
+            "confidence": np.full(2, np.nan),
         }
 
     @cached_property
@@ -297,7 +297,7 @@ def test_its_files_are_read_segmented_and_converted(python: Run, kineme_all, fol
 
 
 def test_its_tables_are_read(python: Run, tmp_path: Path) -> None:
-    rows = [f"{i / 30};{i * 2};{i}" for i in range(40)]
+    rows = [f"{i / 30};{i * 2 + 1};{i}" for i in range(40)]
     (tmp_path / "a.csv").write_text("\n".join(["time;X.hip;Y.hip", *rows]))
     code = "import kineme; found = kineme.read('a.csv'); print(found, found.provenance.format)"
     shown = python("-c", code)

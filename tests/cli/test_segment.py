@@ -173,7 +173,7 @@ def test_a_folder_that_is_a_recording_stays_one(kineme, tmp_path: Path) -> None:
     folder = tmp_path / "video"
     folder.mkdir()
     for number in range(40):
-        keypoints = [value for point in range(25) for value in (point, number % 7 * point, 0.9)]
+        keypoints = [value for point in range(25) for value in (point + 1, number / 9, 0.9)]
         frame = {"version": 1.3, "people": [{"pose_keypoints_2d": keypoints}]}
         (folder / f"video_{number:012}_keypoints.json").write_text(json.dumps(frame))
     done = kineme("info", "video", "--json", "--fps", 30)

@@ -146,7 +146,7 @@ def test_a_jump_without_return_is_warned_of_and_kept(tmp_path: Path) -> None:
     points = walker()
     points[200:, NAMES.index("LWRA"), 1] += 0.6
     motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
-    assert motion.provenance.warnings == ("points that jump: LWRA (frame 200)",)
+    assert motion.provenance.warnings == ("points that jump: LWRA (first in frame 200)",)
     assert motion.gaps == ()
 
 

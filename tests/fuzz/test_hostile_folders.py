@@ -15,6 +15,7 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any
 
@@ -132,6 +133,7 @@ def alarm(seconds: int) -> Iterator[None]:
 @contextmanager
 def full_disk(largest: int) -> Iterator[None]:
     """Let no file of this process grow above `largest` bytes."""
+    forkserver.ensure_running()  # else it would inherit the limit, and its children for ever
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (largest, hard))
     try:

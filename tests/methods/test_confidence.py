@@ -109,7 +109,7 @@ def columns(links: list[float], borders: list[float], counts: list[float]) -> di
         "start_frame": np.append(starts, halves),
         "stop_frame": np.append(starts + 10, halves + 5),
         "cluster": np.zeros(3 * n, np.int64),
-        "score": np.append(links, np.repeat(counts, 2)),
+        "confidence": np.append(links, np.repeat(counts, 2)),
         "border_confidence": np.append(borders, np.full(2 * n, 0.01)),
     }
 

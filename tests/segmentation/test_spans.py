@@ -37,7 +37,7 @@ def recordings(draw: st.DrawFn) -> tuple[list[RecordedSpan], dict[str, np.ndarra
         "start_frame": np.tile(cuts[:-1], 2),
         "stop_frame": np.tile(cuts[1:], 2),
         "cluster": np.tile(np.arange(n), 2),
-        "score": np.ones(2 * n),
+        "confidence": np.ones(2 * n),
     }
     return parts, columns, n_frames, ratio
 

@@ -44,7 +44,7 @@ class SegmentsFound:
             "start_frame": self.segments.starts,
             "stop_frame": self.segments.stops,
             "cluster": self.segments.clusters,
-            "score": np.full(n, np.nan),
+            "confidence": np.full(n, np.nan),
         }
 
     @cached_property

@@ -62,7 +62,10 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
         remark = f"points that jump away and back, taken as not seen there: {listed(parts)}"
         notes.append(Note(remark, "warning"))
     if others:
-        parts = [f"{names[point]} (frame {frame})" for point, frame in others]
+        first: dict[int, int] = {}
+        for point, frame in others:
+            first.setdefault(point, frame)
+        parts = [f"{names[point]} (first in frame {frame})" for point, frame in first.items()]
         notes.append(Note(f"points that jump: {listed(parts)}", "warning"))
     return notes
 

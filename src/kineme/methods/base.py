@@ -61,7 +61,7 @@ class Found(Protocol):
     def columns(self) -> Columns:
         """Columns of a segment table: ``level``, ``kind``, ``start_frame``, ``stop_frame``.
 
-        Frames count samples. ``cluster`` and ``score`` go with them, and
+        Frames count samples. ``cluster`` and ``confidence`` go with them, and
         ``border_confidence`` where the method has probabilities of borders.
         """
 

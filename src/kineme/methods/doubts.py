@@ -23,7 +23,7 @@ def doubts(columns: Columns, fps: float) -> list[str]:
     Parameters
     ----------
     columns : dict of str to array
-        Of a segment table, with ``score`` and ``border_confidence``.
+        Of a segment table, with ``confidence`` and ``border_confidence``.
     fps : float
         Frames per second of the table.
     """
@@ -35,7 +35,7 @@ def doubts(columns: Columns, fps: float) -> list[str]:
 def _of_activities(columns: Columns, fps: float) -> Iterator[Doubt]:
     """Clusters and borders."""
     for row in np.flatnonzero(columns["level"] == "activity"):
-        border, link = (float(columns[name][row]) for name in ("border_confidence", "score"))
+        border, link = (float(columns[name][row]) for name in ("border_confidence", "confidence"))
         if border < UNSURE:
             at = columns["start_frame"][row] / fps
             yield border, _with_confidence(f"look at the border at {at:.2f} s", border)
@@ -51,7 +51,7 @@ def _of_counts(columns: Columns, fps: float) -> Iterator[Doubt]:
     for row in np.flatnonzero(is_activity):
         inside = is_primitive & (columns["start_frame"] >= columns["start_frame"][row])
         inside &= columns["stop_frame"] <= columns["stop_frame"][row]
-        count = float(columns["score"][inside].min(initial=1))
+        count = float(columns["confidence"][inside].min(initial=1))
         if count < UNSURE and np.count_nonzero(inside) > 1:  # of one there is nothing to count
             where = _span(columns, row, fps)
             yield count, _with_confidence(f"look at the number of repetitions {where}", count)

@@ -236,7 +236,7 @@ def _rows(source: Columns, starts: Ints, end: int) -> Columns:
     stops = np.append(starts[1:], end)
     same_span = same_start & (rows["stop_frame"] == stops)
     rows["stop_frame"] = stops
-    for name, same in (("score", same_span), ("border_confidence", same_start)):
+    for name, same in (("confidence", same_span), ("border_confidence", same_start)):
         if name in rows:
             rows[name] = np.where(same, rows[name], np.nan)
     return rows

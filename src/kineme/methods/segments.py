@@ -16,7 +16,7 @@ def columns_of(
     is_activity: NDArray[np.bool_],
     is_primitive: NDArray[np.bool_] | None = None,
     clusters: tuple[Ints, Ints],
-    scores: tuple[Floats, Floats],
+    confidence: tuple[Floats, Floats],
     border_confidence: tuple[Floats, Floats] | None = None,
 ) -> Columns:
     """Columns of both levels.
@@ -30,7 +30,7 @@ def columns_of(
         Whether it is an activity, or else a transition.
     is_primitive : (primitives,) array of bool, optional
         Whether it is a primitive, or else a transition; by default all in activities are.
-    clusters, scores : pair of arrays
+    clusters, confidence : pair of arrays
         Of the activities, and of the primitives.
     border_confidence : pair of arrays, optional
         The probability that their starts are right, where the method has one.
@@ -38,7 +38,7 @@ def columns_of(
     Returns
     -------
     dict of str to array
-        ``level``, ``kind``, ``start_frame``, ``stop_frame``, ``cluster``, ``score``, and
+        ``level``, ``kind``, ``start_frame``, ``stop_frame``, ``cluster``, ``confidence``, and
         ``border_confidence`` if given.
     """
     parents = np.searchsorted(activities, primitives[:-1], side="right") - 1
@@ -49,7 +49,7 @@ def columns_of(
         "start_frame": np.concatenate([activities[:-1], primitives[:-1]]),
         "stop_frame": np.concatenate([activities[1:], primitives[1:]]),
         "cluster": np.concatenate(clusters),
-        "score": np.concatenate(scores),
+        "confidence": np.concatenate(confidence),
     }
     if border_confidence is not None:
         columns["border_confidence"] = np.concatenate(border_confidence)

@@ -119,4 +119,4 @@ def test_what_is_part_of_no_repetition_is_a_transition_of_the_primitive_level() 
         lengths[repetition], np.where(lengths[repetition] > 33, 36, 30), atol=6
     )
     assert (columns["cluster"][primitive][~repetition] == -1).all()
-    assert np.isnan(columns["score"][primitive][~repetition]).all()
+    assert np.isnan(columns["confidence"][primitive][~repetition]).all()

@@ -188,7 +188,7 @@ def test_gestures_are_primitives_where_nothing_is_counted() -> None:
     assert (found.segments.counts <= 1).all()
     columns = found.columns()
     primitive = columns["level"] == "primitive"
-    assert np.isnan(columns["score"][primitive][occurring]).all()
+    assert np.isnan(columns["confidence"][primitive][occurring]).all()
 
 
 def test_what_is_counted_for_sure_keeps_its_repetitions() -> None:

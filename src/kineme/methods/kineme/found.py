@@ -84,7 +84,7 @@ class KinemeFound:
             is_activity=segments.labels >= 0,
             is_primitive=segments.clusters >= 0,
             clusters=(segments.labels, segments.clusters),
-            scores=(probabilities.links, counts),
+            confidence=(probabilities.links, counts),
             border_confidence=(probabilities.borders, probabilities.cuts),
         )
 

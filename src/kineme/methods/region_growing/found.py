@@ -67,7 +67,7 @@ class RegionsFound:
             self.primitives,
             is_activity=self.repeats,
             clusters=(of_activities, clusters),
-            scores=(self.repetition, self.clustering.scores),
+            confidence=(self.repetition, self.clustering.scores),
         )
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:  # noqa: ARG002
