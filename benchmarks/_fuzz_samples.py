@@ -19,7 +19,7 @@ import numpy as np
 import _fbx
 import kineme
 from kineme import formats, labels
-from kineme._files import CORRECTED
+from kineme._util.files import CORRECTED
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import MissingDependencyError
 from kineme.evaluation.annotations import is_annotations, read_trials

@@ -11,7 +11,7 @@ import pytest
 from msgspec import Struct
 
 import kineme
-from kineme._json import DEEPEST, decoded, loaded
+from kineme._util.json import DEEPEST, decoded, loaded
 from kineme.datasets import bundled_truth
 from kineme.errors import ParameterError, ReadError
 from kineme.evaluation import Truth

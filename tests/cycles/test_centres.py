@@ -9,7 +9,7 @@ import pytest
 from posed_figures import posed
 
 import kineme
-from kineme import _rotations as rot
+from kineme._util import rotations as rot
 from kineme.cycles import channels_of, landmarks
 from kineme.cycles.centres import with_centres
 from kineme.datasets import Action, synthesize

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from kineme import _rotations as rot
+from kineme._util import rotations as rot
 from kineme.cycles import bend, between, cardan
 from kineme.cycles.angles import about
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import kineme
-from kineme._clock import Clock
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.labels.clock_times import by_clock
 from kineme.labels.collections import LabelSource, labels_of
 from kineme.labels.spans import Labels, Span
+from kineme.recordings.clock import Clock
 
 FPS = 30.0
 PAUSE_S, BEGUN = 600.0, 1_769_851_800.25  # 2026-01-31T09:30:00.25Z

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import kineme
 from growth import LINEAR, times_longer
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.errors import ReadError
 from kineme.labels.collections import in_frames, labels_of
 from kineme.labels.spans import Labels, Span
@@ -58,7 +58,7 @@ def test_a_frame_has_the_last_of_the_labels_that_cover_it(given_labels: Labels) 
         for i, new in enumerate(given_labels.spans) if new.start < min(new.stop, 25)
     )  # fmt: skip
     assert [note for note in found.notes if note.startswith("overlapping")] == (
-        [f"overlapping others: {counted(overlapping, 'label')}"] if overlapping else []
+        [f"overlapping others: {format_count(overlapping, 'label')}"] if overlapping else []
     )
 
 

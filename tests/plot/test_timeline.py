@@ -10,9 +10,9 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 import kineme
-from kineme._colors import cluster_color
 from kineme.errors import ParameterError
 from kineme.plot.timeline import matched_clusters
+from kineme.segments.colors import cluster_color
 from kineme.segments.editing import name_segment
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations

@@ -7,8 +7,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from hypothesis import given, settings
 
-from kineme._colors import cluster_color, label_colors
 from kineme.segments import timeline
+from kineme.segments.colors import cluster_color, label_colors
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.timeline import FIRST_ROWS
 from segmentations import segmentations

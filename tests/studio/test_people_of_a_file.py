@@ -11,7 +11,7 @@ from studio_clients import Studio
 from typer.testing import CliRunner
 
 import kineme
-from kineme import _json
+from kineme._util import json as _json
 from kineme.cli.app import app
 from kineme.cli.studio import _tell_apart
 from kineme.studio.reading import ReadingOptions

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
@@ -282,7 +282,7 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
     """One picture: axes for each channel, for each of a pair of sides, or for two sessions."""
     from matplotlib.figure import Figure
 
-    from kineme._files import atomic_write
+    from kineme._util.files import atomic_write
     from kineme.cycles import compare_curves, plot_curves, plot_sessions, plot_sides
     from kineme.cycles.sides import sides_of
 
@@ -354,11 +354,11 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     of = "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
     console.print(f"n, means: over {of}.")
     if len(cycles.channels) > len(shown) > 0:
-        more = counted(len(cycles.channels) - len(shown), "more channel")
+        more = format_count(len(cycles.channels) - len(shown), "more channel")
         console.print(f"{more} measured: --output writes all, --channels chooses.")
     reasons = [reason for reason in cycles.columns["excluded"].tolist() if reason]
     for reason in dict.fromkeys(reasons):
-        console.print(f"{counted(reasons.count(reason), 'cycle')} left out: {reason}.")
+        console.print(f"{format_count(reasons.count(reason), 'cycle')} left out: {reason}.")
     if without and not ends:
         groups = ", ".join(dict.fromkeys(without))
         console.print(f"{groups}: no inner repetition; --ends counts the others.")

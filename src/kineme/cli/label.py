@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
@@ -84,4 +84,6 @@ def _show(knowledge: Path, added: dict[Path, KnowledgeBase], total: int) -> None
     """One line per recording: what it added."""
     for path, base in added.items():
         what = ", ".join(f"{name} {count}" for name, count in base.counts().items())
-        typer.echo(f"{knowledge}: {what} from {path.name}; {counted(total, 'primitive')} in all")
+        typer.echo(
+            f"{knowledge}: {what} from {path.name}; {format_count(total, 'primitive')} in all"
+        )

@@ -13,8 +13,8 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from kineme._colors import cluster_color
 from kineme.cli.terminal import Console
+from kineme.segments.colors import cluster_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 

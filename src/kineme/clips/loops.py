@@ -27,8 +27,8 @@ from math import atan2, cos, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import forward_kinematics, local_translations, world_rotations
 

@@ -21,7 +21,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from kineme._arrays import Floats, Masks
+from kineme._util.arrays import Floats, Masks
 from kineme.clips.loops import Carry, seam_sides
 
 USUAL = 95.0

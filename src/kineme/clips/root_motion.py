@@ -16,8 +16,8 @@ from math import atan2, cos, hypot, sin
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.clips.loops import Carry
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import heading

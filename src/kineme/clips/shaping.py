@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from kineme._arrays import Masks
-from kineme._checks import check_flag, is_number
+from kineme._util.arrays import Masks
+from kineme._util.checks import check_flag, is_number
 from kineme.clips.loops import Carry, carry_of, loop, with_first_again
 from kineme.clips.quality import LoopQuality, distances, loop_quality, ranks, usual_steps
 from kineme.clips.root_motion import (

@@ -32,8 +32,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, get_args
 
-from kineme._checks import is_number, is_one_of
-from kineme._files import atomic_folder
+from kineme._util.checks import is_number, is_one_of
+from kineme._util.files import atomic_folder
 from kineme.clips.manifest import Clip, write_manifests
 from kineme.clips.names import file_name, safe_name, unlike
 from kineme.clips.shaping import Shape, ShapedClip, shaped

@@ -20,7 +20,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 
 LINEAR, LANDMARKS, WARP = "linear", "landmarks", "warp"
 ALIGNMENTS = (LINEAR, LANDMARKS, WARP)

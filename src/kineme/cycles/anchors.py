@@ -13,8 +13,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from kineme._arrays import Floats
-from kineme._checks import as_floats
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_floats
 from kineme.cycles.channels import channels_of
 from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
 from kineme.cycles.runs import Repetition, movement

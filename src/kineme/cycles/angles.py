@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 
 MOVES = 0.1
 """Radians by which a hinge deviates from its mean, at least, for its axis to be seen."""

@@ -29,7 +29,7 @@ from functools import cached_property
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 
 WINDOWS = (0.5, 0.35, 0.25, 0.25)
 """Of a cycle, for each step: what is compared before and after a border. The wide ones cannot be

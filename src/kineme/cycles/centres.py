@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.cycles.angles import normalize, remove_along
 from kineme.cycles.landmarks import SIDES
 from kineme.features.naming import part_and_side

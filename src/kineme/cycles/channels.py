@@ -27,9 +27,9 @@ from functools import partial
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
-from kineme._checks import as_texts
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_texts
 from kineme.cycles.angles import (
     about,
     bend,

@@ -21,8 +21,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._arrays import Floats
-from kineme._checks import as_floats
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_floats
 from kineme.errors import ParameterError
 from kineme.features.feet import low_and_slow
 from kineme.recordings.arrays import spans_of

@@ -8,7 +8,7 @@ from math import ceil
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import distance_features, pose_features
 from kineme.recordings import Motion, Signals

@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from kineme._arrays import Floats
-from kineme._checks import as_indices, check_flag, check_one_of, check_type
-from kineme._files import as_display_name, ending_of
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_indices, check_flag, check_one_of, check_type
+from kineme._util.files import as_display_name, make_person_suffix
 from kineme._version import __version__
 from kineme.cycles.align import ALIGNMENTS, LINEAR, aligned
 from kineme.cycles.anchors import anchored
@@ -237,7 +237,7 @@ def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
         each.provenance.person if len(each.provenance.people) > 1 else "" for each in recordings
     ]
     names = [
-        as_display_name(path.stem) + ending_of(person or "") * (counts[path.stem] > 1)
+        as_display_name(path.stem) + make_person_suffix(person or "") * (counts[path.stem] > 1)
         for path, person in zip(files, people, strict=True)
     ]
     counts = Counter(names)

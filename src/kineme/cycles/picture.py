@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kineme._arrays import Floats
-from kineme._colors import PALETTE, cluster_color
+from kineme._util.arrays import Floats
 from kineme.cycles.table import Columns, Cycles
 from kineme.errors import ParameterError
+from kineme.segments.colors import PALETTE, cluster_color
 from kineme.segments.timeline import new_axes
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ import re
 
 import numpy as np
 
-from kineme._arrays import Floats
-from kineme._checks import check_flag, check_type
+from kineme._util.arrays import Floats
+from kineme._util.checks import check_flag, check_type
 from kineme.cycles.phases import is_phase, mean_phase, phase_differences
 from kineme.cycles.table import CONFIDENCE, Columns, Cycles
 

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._checks import as_indices, check_flag, is_number
-from kineme._counts import counted
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_indices, check_flag, format_count, is_number
 from kineme.cycles.phases import CYCLE, is_phase, mean_phase, phase_differences
 from kineme.errors import MissingDependencyError, ParameterError
 
@@ -75,8 +74,8 @@ class Cycles:
         return len(self.curves)
 
     def __repr__(self) -> str:
-        of = counted(len(self.groups), "group")
-        return f"<Cycles: {len(self)} of {of}, {counted(len(self.channels), 'channel')}>"
+        of = format_count(len(self.groups), "group")
+        return f"<Cycles: {len(self)} of {of}, {format_count(len(self.channels), 'channel')}>"
 
     @property
     def groups(self) -> list[str]:

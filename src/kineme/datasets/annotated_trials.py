@@ -18,7 +18,7 @@ from typing import Annotated, NamedTuple
 
 from msgspec import Meta, Struct
 
-from kineme._json import decoded
+from kineme._util.json import decoded
 from kineme.errors import KinemeWarning, ReadError
 
 TRIAL_FPS = 120.0

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.datasets.figure import ANGLES, LIMBS, SIDES
 
 STANDING = dict.fromkeys(ANGLES, 0.0) | {

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme._json import decoded
+from kineme._util.json import decoded
 from kineme.datasets.annotated_trials import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.truth import Truth, round_half_up

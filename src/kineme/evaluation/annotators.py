@@ -25,7 +25,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Ints
+from kineme._util.arrays import Ints
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.evaluation.borders import border_score

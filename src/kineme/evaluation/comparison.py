@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import linear_sum_assignment
 
-from kineme._arrays import Ints
+from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
 from kineme.evaluation.label_truth import labelling_of as labelling_of  # noqa: PLC0414 (others have it from here)
 from kineme.evaluation.label_truth import truth_of, with_repetitions

@@ -129,13 +129,13 @@ def score(truth: Truth, found: Segmentation, motion: Motion | None = None) -> di
     """Every score, of a truth at the rate of comparison; variances, too, with the recording."""
     data: dict[str, Any] = {}
     if motion is not None:
+        from kineme.methods.prepare import compute_motion_features
         from kineme.methods.region_growing.preset import VOEGELE2014
         from kineme.recordings.operations import resample
-        from kineme.segmentation.bodies import motion_features
 
         preset = VOEGELE2014.replace(working_fps=truth.fps)
         data["positions"] = resample(motion, truth.fps).positions
-        data["features"] = motion_features(motion, preset)
+        data["features"] = compute_motion_features(motion, preset)
         if len(data["positions"]) != truth.frames:
             raise ParameterError(
                 f"the recording has {len(data['positions'])} frames at {truth.fps:g} Hz, "

@@ -20,8 +20,7 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._checks import check_one_of
-from kineme._registry import Registry
+from kineme._util.checks import Registry, check_one_of
 from kineme.errors import KinemeError, KinemeWarning
 from kineme.evaluation.comparison import Comparison, labelling_of
 from kineme.evaluation.truth import Labelling, Truth

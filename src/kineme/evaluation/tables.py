@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
 from kineme.evaluation.score import scores

@@ -17,8 +17,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import is_text
-from kineme._files import atomic_write, refuse_pipe
+from kineme._util.checks import is_text
+from kineme._util.files import atomic_write, refuse_pipe
 from kineme.errors import KinemeWarning, ReadError, WriteError
 from kineme.recordings import Motion, Note, Provenance
 

@@ -16,8 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._interpolation import bridge_line
+from kineme._util.arrays import Floats, bridge_line
 from kineme.formats.files import warn
 from kineme.recordings import Motion
 from kineme.recordings.arrays import spans_of

@@ -14,8 +14,8 @@ from math import ceil, floor
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.recordings import Note, Skeleton
 from kineme.recordings.kinematics import at_rest
 

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import needed
+from kineme._util.checks import require_extra
 from kineme.errors import ParameterError, ReadError
 from kineme.formats.columns import LIMIT
 from kineme.formats.files import FileContent, warn
@@ -67,7 +67,7 @@ def to_movement(
     >>> dict(to_movement(motion).sizes)
     {'time': 2898, 'space': 3, 'keypoints': 26, 'individuals': 1}
     """
-    with needed("xarray", "xarray"):
+    with require_extra("xarray", "xarray"):
         import xarray as xr
     missing = covered(motion.gaps, motion.n_frames)
     positions = np.where(missing[:, None, None], np.nan, motion.positions)

@@ -20,8 +20,8 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
-from kineme._files import atomic_write
-from kineme._json import loaded
+from kineme._util.files import atomic_write
+from kineme._util.json import loaded
 from kineme.errors import ReadError, WriteError
 from kineme.labels import pairs
 from kineme.labels.delimited import integer, number, read_rows, write_rows

@@ -20,7 +20,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.label_tables import is_boris_table
 from kineme.labels.delimited import number, read_rows, write_rows

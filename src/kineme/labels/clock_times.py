@@ -15,9 +15,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats
-from kineme._clock import Clock
+from kineme._util.arrays import Floats
 from kineme.labels.spans import Labels, Span
+from kineme.recordings.clock import Clock
 
 NAMED = 4
 """Labels that a note names before it only counts."""

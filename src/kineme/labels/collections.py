@@ -21,8 +21,7 @@ from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
-from kineme._clock import Clock
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.errors import ReadError
 from kineme.labels import csv_table
 from kineme.labels.clock_times import by_clock, lost_labels
@@ -31,6 +30,7 @@ from kineme.labels.heads import columns
 from kineme.labels.pairs import SAME
 from kineme.labels.registry import format_to_read, holds_labels
 from kineme.labels.spans import TOO_FAR, Labels, Span, as_segmentation
+from kineme.recordings.clock import Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
@@ -168,7 +168,7 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
         "beginning before the start, cut off there": before,
         "reaching beyond the end, cut off there": beyond,
     }
-    notes = [f"{what}: {counted(count, 'label')}" for what, count in counts.items() if count]
+    notes = [f"{what}: {format_count(count, 'label')}" for what, count in counts.items() if count]
     notes += lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
     return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
 

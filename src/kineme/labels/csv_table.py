@@ -26,7 +26,7 @@ from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any, Literal
 
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.delimited import dotted, from_text
 from kineme.formats.timing import date_seconds, is_date

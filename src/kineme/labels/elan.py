@@ -26,8 +26,7 @@ from pathlib import Path
 from typing import get_args
 from xml.etree import ElementTree as ET
 
-from kineme._files import atomic_write, video_beside
-from kineme._xml import NoEntities
+from kineme._util.files import NoEntities, atomic_write, find_video
 from kineme.errors import ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
@@ -116,7 +115,7 @@ def _name_medium(header: ET.Element, segmentation: Segmentation) -> None:
     """Say which video the annotations are of, where one is known."""
     source, video = (segmentation.provenance.get(name) or {} for name in ("input", "video"))
     given = Path(video.get("path") or "")
-    place = given if given.is_file() else video_beside(Path(source.get("path") or ""))
+    place = given if given.is_file() else find_video(Path(source.get("path") or ""))
     if place is None:
         return
     medium = ET.SubElement(header, "MEDIA_DESCRIPTOR", MEDIA_URL=place.absolute().as_uri())

@@ -43,8 +43,8 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._files import atomic_write
-from kineme._json import decoded
+from kineme._util.files import atomic_write
+from kineme._util.json import decoded
 from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat

@@ -21,7 +21,7 @@ from contextlib import suppress
 from itertools import groupby
 from pathlib import Path
 
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import needed
-from kineme._files import atomic_write
+from kineme._util.checks import require_extra
+from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.channels.parquet import parquet_columns, parquet_file
 from kineme.formats.files import load
@@ -66,7 +66,7 @@ def read(path: Path) -> Segmentation:
 
 
 def _pyarrow() -> tuple[Any, Any]:
-    with needed("pyarrow", "tables"):
+    with require_extra("pyarrow", "tables"):
         import pyarrow as pa
         from pyarrow import parquet
     return pa, parquet

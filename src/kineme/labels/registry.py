@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
-from kineme._checks import is_one_of
-from kineme._registry import Registry
+from kineme._util.checks import Registry, is_one_of
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 

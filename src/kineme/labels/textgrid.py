@@ -22,7 +22,7 @@ import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.elan import chosen_tiers
 from kineme.labels.label_format import LabelFormat

@@ -22,9 +22,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats, Ints
+from kineme._util.arrays import Floats, Ints
 from kineme.methods.base import Columns
-from kineme.methods.segments import by_first_appearance
+from kineme.methods.segments import number_by_appearance
 
 COARSER = (0.125, 0.25, 0.5, 0.75)
 FINER = (2.0, 4.0, 8.0)
@@ -111,10 +111,10 @@ def tables_at(
         if same.setdefault((detail < 1, labels.tobytes()), detail) == detail:
             begins = np.isin(borders[:-1], before["start_frame"] if detail > 1 else 0)
             first = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | begins)
-            starts, of = borders[:-1][first], by_first_appearance(labels[first])
+            starts, of = borders[:-1][first], number_by_appearance(labels[first])
             if not (
                 np.array_equal(starts, before["start_frame"])
-                and np.array_equal(of, by_first_appearance(before["cluster"]))
+                and np.array_equal(of, number_by_appearance(before["cluster"]))
             ):
                 found[detail] = at_detail(before, inner, starts, of, int(borders[-1]))
     return found

@@ -12,11 +12,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from kineme._arrays import Floats
-from kineme._checks import check_type, is_number
-from kineme._colors import cluster_color
+from kineme._util.arrays import Floats
+from kineme._util.checks import check_type, is_number
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
+from kineme.segments.colors import cluster_color
 from kineme.segments.timeline import new_axes
 
 if TYPE_CHECKING:

@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from kineme._checks import as_texts, check_type, is_one_of
-from kineme._colors import label_colors
-from kineme._files import as_display_name
+from kineme._util.checks import as_texts, check_type, is_one_of
+from kineme._util.files import as_display_name
 from kineme.errors import ParameterError
+from kineme.segments.colors import label_colors
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
 from kineme.segments.timeline import draw_timeline, segment_color

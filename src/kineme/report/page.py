@@ -15,8 +15,8 @@ from importlib.resources import files
 from os import PathLike
 from pathlib import Path
 
-from kineme._checks import check_path, check_type
-from kineme._files import atomic_write
+from kineme._util.checks import check_path, check_type
+from kineme._util.files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
 from kineme.segments.segmentation import Segmentation

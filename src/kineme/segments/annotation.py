@@ -13,7 +13,7 @@ from typing import Any, Self
 
 import msgspec
 
-from kineme._json import converted
+from kineme._util.json import converted
 from kineme.errors import ParameterError
 from kineme.segments.table import Level
 

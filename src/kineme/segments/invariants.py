@@ -8,8 +8,8 @@ from typing import Any, TypedDict
 
 import numpy as np
 
-from kineme._checks import is_number
-from kineme._json import converted, fault_of
+from kineme._util.checks import is_number
+from kineme._util.json import converted, fault_of
 from kineme.errors import ParameterError
 from kineme.segments.table import Level, SegmentTable
 

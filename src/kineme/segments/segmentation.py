@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import check_type, is_one_of
-from kineme._clock import Clock
-from kineme._counts import counted
+from kineme._util.checks import check_type, format_count, is_one_of
 from kineme.errors import ParameterError
+from kineme.recordings.clock import Clock
 from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.invariants import (
@@ -266,7 +265,7 @@ class Segmentation:
             "primitive": self.primitives.kind.tolist().count("primitive"),
             "cluster": len(clusters - {-1}),
         }
-        return ", ".join(counted(n, name) for name, n in counts.items())
+        return ", ".join(format_count(n, name) for name, n in counts.items())
 
     @property
     def clock(self) -> Clock | None:
@@ -337,7 +336,7 @@ class Segmentation:
 
     def __repr__(self) -> str:
         seconds = self.n_frames / self.fps
-        length = f"{counted(self.n_frames, 'frame')} ({seconds:.1f} s)"
+        length = f"{format_count(self.n_frames, 'frame')} ({seconds:.1f} s)"
         return f"<Segmentation of {length}: {self.describe()}>"
 
     def _repr_html_(self) -> str:

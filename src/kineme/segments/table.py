@@ -32,8 +32,7 @@ from typing import (
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import needed
-from kineme._counts import counted
+from kineme._util.checks import format_count, require_extra
 from kineme.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -233,7 +232,7 @@ class SegmentTable:
         >>> float(frame.groupby("label").duration_s.sum().round(2)["walk"])
         9.78
         """
-        with needed("pandas", "tables"):
+        with require_extra("pandas", "tables"):
             import pandas as pd
         frame = pd.DataFrame(self.columns())
         frame.insert([*COLUMNS].index("stop_s") + 1, "duration_s", self.duration_s)
@@ -304,7 +303,7 @@ class SegmentTable:
 
     def __repr__(self) -> str:
         n = len(self)
-        of = f"{counted(n, 'segment')}"
+        of = f"{format_count(n, 'segment')}"
         span = f", {self.start_s.min():.2f} to {self.stop_s.max():.2f} s" if n else ""
         return f"<SegmentTable of {of}{span}>"
 

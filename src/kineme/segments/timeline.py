@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._colors import cluster_color, label_colors
+from kineme.segments.colors import cluster_color, label_colors
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

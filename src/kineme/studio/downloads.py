@@ -15,8 +15,8 @@ from functools import partial
 from io import BytesIO, StringIO
 from pathlib import Path
 
-from kineme._checks import is_text
-from kineme._files import video_beside
+from kineme._util.checks import is_text
+from kineme._util.files import find_video
 from kineme.clips.split import split, write_clips
 from kineme.errors import ParameterError
 from kineme.formats.delimited import as_text
@@ -138,7 +138,7 @@ def _stem_of(opened: OpenRecording) -> str:
 
 def _with_video(opened: OpenRecording) -> Segmentation:
     """Return the table, and in its provenance the video of the recording, if there is one."""
-    video = video_beside(opened.path)
+    video = find_video(opened.path)
     if video is None:
         return opened.table
     place = {"path": str(video), "offset_s": offset_of(opened.path)}

@@ -20,8 +20,8 @@ from typing import Literal, TypeVar
 from msgspec import UNSET, structs
 from threadpoolctl import threadpool_limits
 
-from kineme._counts import counted
-from kineme._threads import map_threads
+from kineme._util.checks import format_count
+from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, ParameterError
 from kineme.labels import read_segments
 from kineme.library import Example, Library
@@ -337,7 +337,7 @@ def _made(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> s
         return f"cluster {edit.cluster} is called “{edit.name.strip()}”"
     if isinstance(edit, JoinClusters):
         library.merge(edit.cluster, *edit.others)
-        return f"{counted(len(edit.others), 'cluster')} merged into {edit.cluster}"
+        return f"{format_count(len(edit.others), 'cluster')} merged into {edit.cluster}"
     into = library.split(edit.cluster, edit.recordings)
     return f"cluster {into} split from {edit.cluster}"
 

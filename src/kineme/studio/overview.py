@@ -14,7 +14,7 @@ from pathlib import Path
 
 import msgspec
 
-from kineme._files import refuse_pipe
+from kineme._util.files import refuse_pipe
 from kineme.errors import KinemeError, ReadError
 from kineme.labels import json_table, read_segments
 from kineme.segments.annotation import NO_ANNOTATION, Annotation, Span

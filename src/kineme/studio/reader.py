@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.errors import KinemeError, SeveralPeopleError
 from kineme.studio.folder import Folder
 from kineme.studio.reading import RecordingCache
@@ -37,7 +37,7 @@ class Reader:
             return
         people = self._cache.read(listed).provenance.people
         if len(people) > 1:
-            reason = f"{counted(len(people), 'person')} are in it: choose one of them, or all"
+            reason = f"{format_count(len(people), 'person')} are in it: choose one of them, or all"
             raise SeveralPeopleError(listed.path, reason, people)
 
     def change_options(

@@ -16,7 +16,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 from starlette.routing import Route
 
-from kineme._files import video_beside
+from kineme._util.files import find_video
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
@@ -332,7 +332,7 @@ class Api:
         return loops.played(self._opened(request), *_numbers(request, "number"))
 
     def video(self, request: Request) -> Response:
-        found = video_beside(self._opened(request).path)
+        found = find_video(self._opened(request).path)
         if found is None:
             raise UnknownError("there is no video of that name beside the recording")
         return FileResponse(found)

@@ -15,10 +15,9 @@ from itertools import accumulate, pairwise
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
-from kineme._checks import as_indices, check_type
-from kineme._counts import counted
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_indices, check_type, format_count
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Provenance
 from kineme.recordings.kinematics import local_translations
@@ -130,7 +129,7 @@ def synthesize(
         graph.fps,
         translations=translations,
         provenance=Provenance(format="synthesis").noted(
-            f"{counted(len(route), 'primitive')}, {counted(jumps, 'jump')}"
+            f"{format_count(len(route), 'primitive')}, {format_count(jumps, 'jump')}"
         ),
     )
     return plant_feet(motion) if plant else motion

@@ -27,8 +27,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from kineme._files import atomic_write, reading
-from kineme._json import converted, loaded
+from kineme._util.files import atomic_write, translate_read_errors
+from kineme._util.json import converted, loaded
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import read_motion
 from kineme.recordings import Motion
@@ -152,7 +152,7 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     motions = []
     for source in graph.sources:
         path = Path(source.path or "")
-        with reading(path):
+        with translate_read_errors(path):
             exists = path.is_file()
             digest = sha256(path.read_bytes()).hexdigest() if exists else ""
         if not exists:

@@ -15,8 +15,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from kineme._colors import cluster_color
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
+from kineme.segments.colors import cluster_color
 from kineme.synthesis.graph import MotionGraph
 
 

@@ -28,8 +28,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._files import atomic_write
-from kineme._json import decoded
+from kineme._util.files import atomic_write
+from kineme._util.json import decoded
 from kineme._version import __version__
 from kineme.errors import ReadError, WriteError
 from kineme.formats.arrays.numpy_files import members

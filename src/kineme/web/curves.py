@@ -16,7 +16,7 @@ from threading import Lock
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.recordings import Motion, Signals
 from kineme.web.drawn import of_analog, of_motion, of_signals
 from kineme.web.messages import Curve, CurveList

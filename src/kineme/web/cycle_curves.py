@@ -17,7 +17,7 @@ import numpy as np
 from msgspec import structs
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.recordings import Motion, Signals
 from kineme.segments.annotation import NO_ANNOTATION
 from kineme.segments.segmentation import Segmentation

@@ -19,7 +19,7 @@ from math import floor
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.errors import MotionError
 from kineme.features import PARTS, Names, end_effectors, heading
 from kineme.formats.marker_sets import PARENTS

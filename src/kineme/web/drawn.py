@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.cycles.angles import bend
 from kineme.cycles.channels import ANGLE, channels_of
 from kineme.features.feet import speed_of

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.errors import MotionError, ParameterError
 from kineme.features import Names, body_size, distance_features, end_effectors, pose_features
 from kineme.features.distances import SIZE

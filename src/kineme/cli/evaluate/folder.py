@@ -8,7 +8,7 @@ from typing import Any
 
 import typer
 
-from kineme._counts import listed
+from kineme._util.checks import join_names
 from kineme.cli.messages import progress
 from kineme.cli.tables import show_table
 from kineme.cli.terminal import harmless
@@ -70,7 +70,7 @@ def run_folder(
 
 def _tell(what: str, names: Sequence[str]) -> None:
     if names:
-        typer.echo(harmless(f"{what}: {listed(names, NAMED)}"), err=True)
+        typer.echo(harmless(f"{what}: {join_names(names, NAMED)}"), err=True)
 
 
 def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures, one_line
 
@@ -181,7 +181,7 @@ def _show_library(library: Library) -> None:
     console = Console(highlight=False)
     console.print(Text(str(library.folder), style="bold"))
     n = len(library)
-    console.print(f"{counted(n, 'recording')}, {library.hours:.2f} h")
+    console.print(f"{format_count(n, 'recording')}, {library.hours:.2f} h")
     table = new_table(
         "cluster", "label", "recordings", "activities", "repetitions", "minutes", "typical s",
         "example",
@@ -223,7 +223,7 @@ def _show_answer(answer: Any) -> None:
         table.add_row(*(Text(_cell(value)) for value in row.values()))
     console.print(table)
     if len(answer) > SHOWN:
-        console.print(f"and {counted(len(answer) - SHOWN, 'row')} more: --json prints all")
+        console.print(f"and {format_count(len(answer) - SHOWN, 'row')} more: --json prints all")
 
 
 def _cell(value: object) -> str:

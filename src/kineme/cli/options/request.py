@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from kineme._compiled import telling_of_compiling
+from kineme._util.parallel import announce_compilation
 from kineme.cli.options.method import Constants, Detail, PresetName, constants_of
 from kineme.cli.options.reading import Effectors, Emg, effector_names, keywords_of
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
-from kineme.segmentation.options import SegmentOptions
+from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
 if TYPE_CHECKING:
@@ -149,10 +149,10 @@ class Request:
 
     def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
         """Return the segments at the detail asked for, and what was found on the way to them."""
-        from kineme.segmentation.segmenter import segmented
+        from kineme.methods.segmenter import segment_with_options
 
-        with telling_of_compiling(stage):
-            result, found = segmented(recording, self.options, progress=stage)
+        with announce_compilation(stage):
+            result, found = segment_with_options(recording, self.options, progress=stage)
         return result.at_detail(self.detail), found
 
     def segments(

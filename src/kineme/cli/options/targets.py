@@ -17,7 +17,7 @@ from pathlib import Path
 
 import typer
 
-from kineme._files import CORRECTED, ending_of
+from kineme._util.files import CORRECTED, make_person_suffix
 from kineme.errors import ReadError, WriteError
 from kineme.labels.heads import columns
 
@@ -67,7 +67,10 @@ def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -
     usual = [_kept(path, recordings) for path in paths]
     if not person:
         return usual
-    named = [_kept(path.with_name(f"{path.name}{ending_of(person)}"), recordings) for path in paths]
+    named = [
+        _kept(path.with_name(f"{path.name}{make_person_suffix(person)}"), recordings)
+        for path in paths
+    ]
     return [
         one if one.exists() or not other.exists() else other
         for one, other in zip(named, usual, strict=True)

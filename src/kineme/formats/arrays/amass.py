@@ -21,8 +21,8 @@ from typing import Any
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.units import metres, up_rotation

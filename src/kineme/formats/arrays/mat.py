@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._arrays import Array
+from kineme._util.arrays import Array
 from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
 from kineme.formats.arrays.mat_file import parse_mat
 from kineme.formats.arrays.named_arrays import Arrays, arrays_to_motion

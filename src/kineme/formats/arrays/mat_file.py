@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._arrays import Array
+from kineme._util.arrays import Array
 from kineme.formats.files import FileContent
 
 Bytes = memoryview

@@ -22,8 +22,8 @@ from warnings import catch_warnings
 import numpy as np
 from numpy.lib import format as npy_format
 
-from kineme._arrays import Array
-from kineme._files import atomic_write, short
+from kineme._util.arrays import Array
+from kineme._util.files import atomic_write, shorten_error
 from kineme.formats.arrays.named_arrays import arrays_to_motion, positions_to_motion
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import FileContent, spelled
@@ -118,7 +118,7 @@ def _array(content: FileContent, data: bytes, name: str) -> Array:
             return np.empty(0)
         flat = np.frombuffer(data, kind, count, file.tell())
     except _HEADER_DAMAGE as error:
-        raise content.error(f"{name} is no npy array: {short(error)}") from error
+        raise content.error(f"{name} is no npy array: {shorten_error(error)}") from error
     return flat.reshape(shape, order="F" if fortran else "C")
 
 

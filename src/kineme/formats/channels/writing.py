@@ -23,8 +23,8 @@ from typing import Any
 
 import numpy as np
 
-from kineme._checks import needed
-from kineme._files import atomic_write
+from kineme._util.checks import require_extra
+from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.reading import ChannelTable, text_channels
@@ -163,7 +163,7 @@ class _ParquetRows:
     @classmethod
     def of_values(cls, signals: Signals) -> _ParquetRows:
         """Times and channels, null in gaps."""
-        with needed("pyarrow", "tables"):
+        with require_extra("pyarrow", "tables"):
             import pyarrow as pa
         missing = covered(signals.gaps, signals.n_frames)
         rate = {RATE: pa.array([signals.fps])} if signals.n_frames < 2 else {}

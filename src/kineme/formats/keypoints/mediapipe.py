@@ -31,7 +31,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._checks import is_number
+from kineme._util.checks import is_number
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import Person, Video, by_number, video_to_motion
 from kineme.formats.options import ReadOptions

@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._files import head_of
+from kineme._util.files import read_head
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, load
 from kineme.formats.keypoints.coco import LAYOUTS
@@ -115,7 +115,7 @@ def frame_files(folder: Path) -> list[tuple[int, Path]]:
 
 def _begins_a_frame(file: Path) -> bool:
     try:
-        head = head_of(file)
+        head = read_head(file)
     except OSError:
         return False
     return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") and b'"people"' in head

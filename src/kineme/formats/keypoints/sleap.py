@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._counts import counted
+from kineme._util.arrays import Floats
+from kineme._util.checks import format_count
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.people import Detections, rows_of_person
 from kineme.formats.options import ReadOptions
@@ -76,7 +76,7 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     positions[frames[rows]] = points[rows]
     if unsure[rows].any():
         notes.append(
-            f"{counted(int(unsure[rows].sum()), 'position')} less sure than {limit:g} not used"
+            f"{format_count(int(unsure[rows].sum()), 'position')} less sure than {limit:g} not used"
         )
     notes += [*video.notes, *_flatness(points, video.unit)]
     unit, up = options.unit or video.unit, options.up or video.up

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.formats.delimited import DelimitedText, dotted, separator_of
 from kineme.formats.files import FileContent, in_a_cell, numbers, save, spelled
 from kineme.formats.gaps import split_at, unseen

@@ -23,8 +23,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.formats.files import MOST_EXPANSION, FileContent, unique
 from kineme.formats.scenes.characters import SceneNode, carriers
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.fbx_nodes import FBXNode
 from kineme.formats.scenes.sampling import between

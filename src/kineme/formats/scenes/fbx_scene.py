@@ -30,8 +30,8 @@ from math import isfinite
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.assembly import Inheritance, Transform
 from kineme.formats.scenes.characters import SceneNode, is_end

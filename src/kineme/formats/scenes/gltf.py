@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format

@@ -21,8 +21,8 @@ import numpy as np
 from msgspec import Struct, field
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._json import decoded
+from kineme._util.arrays import Floats
+from kineme._util.json import decoded
 from kineme.formats.files import FileContent, find_beside, load
 
 Part = TypeVar("Part")

@@ -25,8 +25,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._files import atomic_write
+from kineme._util.arrays import Floats
+from kineme._util.files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
 from kineme.formats.files import rotations_of, spelled

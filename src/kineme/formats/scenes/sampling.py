@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 
 
 def between(times: Floats, at: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:

@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from kineme._arrays import Floats
-from kineme._checks import needed
-from kineme._files import atomic_write
+from kineme._util.arrays import Floats
+from kineme._util.checks import require_extra
+from kineme._util.files import atomic_write
 from kineme.errors import WriteError
 from kineme.formats.files import rotations_of, spelled, unique
 from kineme.formats.gaps import warn_of_gaps
@@ -30,7 +30,7 @@ END_SITES = "kineme:endSites"
 def write_usd(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in a USD file."""
     rotations = rotations_of(motion, path, "a USD")
-    with needed("usd-core", "usd"):
+    with require_extra("usd-core", "usd"):
         from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
     warn_of_gaps([motion], path)
     skeleton = motion.skeleton

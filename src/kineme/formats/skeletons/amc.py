@@ -27,8 +27,8 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, load, numbers
 from kineme.formats.options import ReadOptions

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.errors import WriteError
 from kineme.formats.files import save, spelled, table
 from kineme.formats.skeletons.asf import ROOT

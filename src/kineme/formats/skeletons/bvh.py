@@ -29,9 +29,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
-from kineme._counts import counted
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme._util.checks import format_count
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.options import ReadOptions
@@ -324,7 +324,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
     if joined:
         content.warn(
-            f"blanks before minus signs are missing in {counted(joined, 'frame')}: put there"
+            f"blanks before minus signs are missing in {format_count(joined, 'frame')}: put there"
         )
     return np.frombuffer(values).reshape(-1, width)
 

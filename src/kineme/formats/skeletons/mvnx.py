@@ -18,9 +18,9 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
-from kineme._xml import NoEntities
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme._util.files import NoEntities
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.persons import chosen_person

@@ -19,8 +19,8 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._files import reading
-from kineme._json import decoded
+from kineme._util.files import translate_read_errors
+from kineme._util.json import decoded
 from kineme.errors import ReadError
 from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.places import near, written
@@ -105,7 +105,7 @@ def read_analysis(folder: Path, key: str) -> Analysis:
     """Return the analysis of that name."""
     pa, parquet = arrow()
     path = folder / f"{key}.parquet"
-    with reading(path):
+    with translate_read_errors(path):
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
         facts = decoded(table.schema.metadata[METADATA], path, dict[str, Any])

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import is_number
-from kineme._files import refuse_link
-from kineme._json import loaded
+from kineme._util.checks import is_number
+from kineme._util.files import refuse_link
+from kineme._util.json import loaded
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.library.storage.places import is_remote, place, written
 

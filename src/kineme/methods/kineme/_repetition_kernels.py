@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme._compiled import OPTIONS
+from kineme._util.parallel import OPTIONS
 
 # Poses of an end that are farther than this share of the largest distance never count in full.
 FARTHEST = 0.9

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants

@@ -17,11 +17,11 @@ from kineme.methods.kineme.borders import in_samples
 from kineme.methods.kineme.confidence import Confidence, Evidence, confidence
 from kineme.methods.kineme.primitives import Segments
 from kineme.methods.levels import DETAILS, FineSegments, clusters_at, tables_at
-from kineme.methods.segments import columns_of
+from kineme.methods.segments import make_columns
 
 if TYPE_CHECKING:
-    from kineme.graph import NeighborGraph
     from kineme.methods.kineme.constants import KinemeConstants
+    from kineme.methods.region_growing.neighbors import NeighborGraph
 
 Frames = NDArray[np.int64]
 
@@ -78,7 +78,7 @@ class KinemeFound:
         """Activities, primitives, and their confidence."""
         segments, probabilities = self.segments, self.confidence
         counts = np.where(segments.clusters >= 0, probabilities.counts[segments.parents], np.nan)
-        return columns_of(
+        return make_columns(
             self.borders,
             self.primitives,
             is_activity=segments.labels >= 0,
@@ -125,7 +125,7 @@ class KinemeFound:
     @cached_property
     def graph(self) -> NeighborGraph:
         """Neighbours of every sample, for pictures: within half the median distance."""
-        from kineme.graph import neighbor_graph
+        from kineme.methods.region_growing.neighbors import neighbor_graph
 
         return neighbor_graph(self.features, radius=0.5 * self.unit, k=PICTURED)
 

@@ -23,9 +23,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from threadpoolctl import threadpool_limits
 
-from kineme._arrays import Floats
-from kineme._checks import as_features
-from kineme._threads import map_threads
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_features
+from kineme._util.parallel import map_threads
 from kineme.features.channels import sampled_at
 from kineme.methods.kineme.borders import carried_over, to_the_frame
 from kineme.methods.kineme.confidence import evidence

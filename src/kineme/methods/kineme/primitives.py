@@ -18,14 +18,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._threads import map_threads
+from kineme._util.arrays import Floats
+from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repeating_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import repetitions_between
 from kineme.methods.kineme.ends import fitted_ends
 from kineme.methods.kineme.events import Occurrences, occurrences
 from kineme.methods.kineme.repetitions import PLACES, Movement, movement_of, repetitions
-from kineme.methods.segments import by_first_appearance
+from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -145,7 +145,7 @@ def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Se
     stops = segments.borders[1:][activities[np.append(first[1:], len(activities)) - 1]]
     groups = np.split(segments.preference[activities], first[1:])
     preference = np.array([group.mean() for group in groups])
-    labels = by_first_appearance(labels[activities[first]])
+    labels = number_by_appearance(labels[activities[first]])
     return with_repetitions(rows, starts, stops, labels, preference, preset)
 
 
@@ -275,14 +275,14 @@ def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Seg
     primitives = np.unique(np.concatenate([borders, cuts, found.starts, found.stops]))
     begin = primitives[:-1]
     # Numbers begin with those of activities, by appearance, as some may have vanished.
-    labels = by_first_appearance(segments.labels[old])
+    labels = number_by_appearance(segments.labels[old])
     numbers = np.full(segments.labels.max(initial=-1) + 2, -1)
     numbers[segments.labels[old] + 1] = labels
     actions = int(labels.max(initial=-1)) + 1
     # Repetitions keep the number of their activity, or get one after these.
     clusters = segments.clusters[_segment_at(segments.primitives, begin)]
     clusters[free[_segment_at(borders, begin)]] = -1
-    parts = by_first_appearance(np.where(clusters < len(numbers) - 1, -1, clusters))
+    parts = number_by_appearance(np.where(clusters < len(numbers) - 1, -1, clusters))
     clusters = np.where(parts < 0, numbers[np.where(parts < 0, clusters, -1) + 1], actions + parts)
     # Occurrences are numbered last.
     if len(found):

@@ -32,10 +32,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._threads import even_slices, map_threads
+from kineme._util.arrays import Floats
+from kineme._util.parallel import make_even_slices, map_threads
 from kineme.methods.kineme import _tree_kernels as kernels
-from kineme.methods.segments import by_first_appearance
+from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -175,7 +175,7 @@ def fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Sam
     def fill(rows: slice) -> None:
         kernels.similarity_band(features, unit, rows.start, rows.stop, similarity)
 
-    map_threads(fill, even_slices(len(features)))
+    map_threads(fill, make_even_slices(len(features)))
     borders: Samples = kernels.change_points(similarity, 2 * cost)
     return borders
 
@@ -199,7 +199,7 @@ def mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
     def fill(rows: slice) -> None:
         kernels.mean_distances(features, chosen, ends, rows.start, rows.stop, means)
 
-    map_threads(fill, even_slices(len(groups)))
+    map_threads(fill, make_even_slices(len(groups)))
     return np.triu(means) + np.triu(means, 1).T
 
 
@@ -295,7 +295,7 @@ def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
     labels = without_short(labels, lengths, sums, shortest)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     lengths, sums = np.add.reduceat(lengths, first), summed(sums, first)
-    labels = by_first_appearance(labels[first])
+    labels = number_by_appearance(labels[first])
     members = np.eye(int(labels.max()) + 1)[labels]
     within = np.einsum("sc,st,tc->c", members, sums, members) / (2 * lengths @ members)
     cost = within.sum() + segment_cost * len(labels) + cluster_cost * len(within)
@@ -417,7 +417,7 @@ def linked(
         means = mean_distances(features, chosen) / unit
         part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
         labels = link(means, sizes, part_of, price)[labels]
-    labels = by_first_appearance(labels)
+    labels = number_by_appearance(labels)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     preference = np.concatenate([part.preference for part in parts])
     return Level(fine, np.append(ends[first], ends[-1]), labels[first], preference[first])

@@ -25,7 +25,7 @@ from pathlib import Path
 
 import msgspec
 
-from kineme._files import reading
+from kineme._util.files import translate_read_errors
 from kineme.errors import ParameterError, ReadError
 from kineme.labels import json_table
 from kineme.segments.history import History
@@ -224,7 +224,7 @@ class Journal:
     def _kept(self, number: int) -> tuple[bytes, Segmentation]:
         """What the file of a table holds; ReadError where it is not there any more, or damaged."""
         path = self._path(number)
-        with reading(path):
+        with translate_read_errors(path):
             content = path.read_bytes()
             return content, json_table.loads(content, path)
 

@@ -21,8 +21,8 @@ from typing import Annotated, Any, TypedDict, TypeVar
 
 from msgspec import Meta, Struct
 
-from kineme._files import OwnedFolder, atomic_write, video_beside
-from kineme._json import loaded
+from kineme._util.files import OwnedFolder, atomic_write, find_video
+from kineme._util.json import loaded
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
 from kineme.studio.storage.listed import ListedRecording
@@ -113,7 +113,7 @@ def given(options: Mapping[str, Any]) -> dict[str, Any]:
 
 def video_message(recording: Path) -> Video | None:
     """Return what a page is told of the video."""
-    found = video_beside(recording)
+    found = find_video(recording)
     return Video(name=found.name, offset_s=offset_of(recording)) if found else None
 
 

@@ -23,7 +23,7 @@ from typing import Any, Literal, get_origin
 from msgspec import Struct, inspect, to_builtins
 from starlette.routing import Route
 
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.table import COLUMNS, Kind, Level, Segment
 from kineme.studio.library_routes import LibraryApi
