@@ -97,14 +97,14 @@ def test_one_bad_file_never_ends_a_listing(tmp_path: Path, monkeypatch) -> None:
         "locked.csv": PermissionError(13, "Permission denied"),
         "strange.csv": RuntimeError("something\nelse"),
     }
-    first_bytes = listing.head_of
+    first_bytes = listing.read_head
 
     def failing(path: Path) -> bytes:
         if path.name in faults:
             raise faults[path.name]
         return first_bytes(path)
 
-    monkeypatch.setattr(listing, "head_of", failing)
+    monkeypatch.setattr(listing, "read_head", failing)
     found = recordings_in(tmp_path)
     assert found.recordings == [tmp_path / "walk.bvh"]
     reasons = {path.name: reason for path, reason in found.passed_over}
