@@ -42,16 +42,18 @@ def _is_recording(path: Path) -> bool:
 def _names_channels(path: Path) -> bool:
     """Whether a text file is a table of channels: these name columns, labels begin with a time."""
     from kineme.errors import ReadError
-    from kineme.formats.devices import find_table
-    from kineme.formats.dialects import hold_channels
+    from kineme.formats.dialects import hold_channels, recognise_table
     from kineme.formats.files import load
     from kineme.formats.label_tables import refuse_labels
 
     try:
         refuse_labels(content := load(path))
-        table = find_table(content).numbered()
+        table, dialect = recognise_table(content)
     except ReadError:
         return False
+    if dialect:
+        return True
+    table = table.numbered()
     return hold_channels(table.names) and table.names[0] != "1" and bool(table.numeric())
 
 

@@ -27,6 +27,7 @@ from kineme.formats.timing import (
     date_seconds,
     day_comes_first,
     is_ambiguous,
+    is_date,
     is_timing,
     with_unit,
 )
@@ -87,7 +88,7 @@ class DelimitedText:
     hidden : frozenset of str
         Columns that are channels only where they are asked for, as a device's counters are.
     clocks : mapping of str to str, optional
-        The columns of times, as `times` has them, where a device tells them.
+        The columns of times and their units, "" for dates, where a device tells them.
     day_before_month : bool, optional
         How a header says that dates are written.
     """
@@ -131,17 +132,23 @@ class DelimitedText:
     @cached_property
     def dates(self) -> list[int]:
         """Return the columns that tell the time by dates."""
-        return date_columns(self.names, self.first_cells)
+        if self.clocks is None:
+            return date_columns(self.names, self.first_cells)
+        cells = zip(self.names, self.first_cells, strict=False)
+        return [i for i, (name, cell) in enumerate(cells) if name in self.clocks and is_date(cell)]
 
     @cached_property
     def times(self) -> dict[str, str]:
         """The columns that tell times or a rate, and their names as `table_timing` knows them."""
         if self.clocks is not None:
-            return {name: self.clocks[name] for name in self.names if name in self.clocks}
-        units = dict(zip(self.names, self.units, strict=False))
-        named = {
-            name: with_unit(name, units.get(name, "")) for name in self.names if is_timing(name)
-        }
+            named = {
+                name: f"time ({unit})" if unit else "time" for name, unit in self.clocks.items()
+            }
+        else:
+            units = dict(zip(self.names, self.units, strict=False))
+            named = {
+                name: with_unit(name, units.get(name, "")) for name in self.names if is_timing(name)
+            }
         return named | {self.names[i]: "time (s)" for i in self.dates}
 
     @cached_property

@@ -1,28 +1,30 @@
-"""Dialects of delimited text: tables of joints that one program writes in its own way.
+"""Dialects of delimited text: tables that one program or device writes in its own way.
 
-A table whose columns are ``JOINT_x JOINT_y JOINT_z`` needs none, see `kineme.formats.columns`.
-A dialect is told by the names of the columns or by the first lines, and has a reader of its
-own. It is one module that ends in one `Dialect`. Other packages name theirs as entry points
-of the group ``kineme.table_dialects``.
+A table whose columns are named, with a time among them, needs none. A dialect is recognised by the
+names of the columns or the first lines. It has a ``layout``, which says where the table stands and
+what its columns are, or a reader of its own. It is one module that ends in one `Dialect`. Other
+packages name theirs as entry points of the group ``kineme.table_dialects``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from kineme._util.checks import Registry
 from kineme.formats.columns import joint_names
 from kineme.formats.delimited import DelimitedText
+from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import speaks
-from kineme.recordings import Motion
+from kineme.formats.sniffing import sniff
+from kineme.recordings import Motion, Signals
 from kineme.recordings.coordinates import is_body
 
 
 @dataclass(frozen=True)
 class Dialect:
-    """How one program writes tables of joints.
+    """How one program or device writes tables.
 
     Parameters
     ----------
@@ -30,17 +32,26 @@ class Dialect:
         As people call it.
     recognises : callable
         From the names of the columns and the lines of the file to whether a table is of this
-        dialect; there are no lines where a table is no text.
-    read : callable
-        From the table and `ReadOptions` to the motion in it.
+        dialect. The names are those that `sniff` finds. There are no lines where a table is no
+        text.
+    read : callable, optional
+        From the table and `ReadOptions` to the recording in it. By default the columns are read
+        as those of any table. ``columns`` are chosen from the signals that it returns.
     channels : bool
-        Whether its columns can be read as channels, where these are asked for.
+        Whether channels can be asked for.
+    motion : bool
+        Whether ``read`` always returns a motion. Channels are then the columns of the table.
+    layout : callable, optional
+        From the table as `sniff` finds it to the table as this program means it, such as
+        `kineme.formats.devices.layout.Layout`.
     """
 
     name: str
     recognises: Callable[[Sequence[str], Sequence[str]], bool]
-    read: Callable[[DelimitedText, ReadOptions], Motion]
+    read: Callable[[DelimitedText, ReadOptions], Motion | Signals] | None = None
     channels: bool = True
+    motion: bool = False
+    layout: Callable[[DelimitedText], DelimitedText] | None = None
 
 
 DIALECTS: Registry[Dialect] = Registry(
@@ -49,6 +60,19 @@ DIALECTS: Registry[Dialect] = Registry(
     "kineme.table_dialects",
     home="kineme.formats",
     builtins=(
+        "devices.actigraph:DIALECT",
+        "devices.axivity:DIALECT",
+        "devices.biostamp:DIALECT",
+        "devices.empatica:DIALECT",
+        "devices.geneactiv:DIALECT",
+        "devices.metamotion:DIALECT",
+        "devices.opensignals:DIALECT",
+        "devices.phyphox:DIALECT",
+        "devices.sensor_logger:DIALECT",
+        "devices.sensorlog:DIALECT",
+        "devices.shimmer:DIALECT",
+        "devices.xsens_dot:DIALECT",
+        "devices.xsens_mt_manager:DIALECT",
         "markers.capture_tables:NEXUS",
         "markers.capture_tables:MOTIVE",
         "markers.capture_tables:QTM",
@@ -63,8 +87,23 @@ DIALECTS: Registry[Dialect] = Registry(
 """In the order in which they are tried: those of others ahead of the package's own."""
 
 
+def recognise_table(content: FileContent) -> tuple[DelimitedText, Dialect | None]:
+    """Return the table in a file of text, laid out as its dialect says, and the dialect if any."""
+    table = sniff(content)
+    dialect = dialect_of(table.names, table.lines)
+    if dialect and dialect.layout:
+        table = dialect.layout(table)
+        table = replace(table, notes=(f"read as {dialect.name} writes it", *table.notes))
+    return table, dialect
+
+
+def find_table(content: FileContent) -> DelimitedText:
+    """Return the table in a file of text, laid out as its dialect says."""
+    return recognise_table(content)[0]
+
+
 def dialect_of(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | None:
-    """The dialect that a table is in, by its columns and by its lines where it is text; or None."""
+    """Return the dialect of a table, by its columns and its lines if it is text; or None."""
     dialects = DIALECTS.values()
     return next((d for d in dialects if speaks(d.name, d.recognises, names, lines)), None)
 
@@ -80,4 +119,6 @@ def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
     >>> hold_channels(["time", "acc_x", "acc_y"]), hold_channels(["time", "hip_x", "hip_y"])
     (True, False)
     """
-    return dialect_of(names, lines) is None and not any(map(is_body, joint_names(names)))
+    dialect = dialect_of(names, lines)
+    has_reader = dialect is not None and dialect.read is not None
+    return not has_reader and not any(map(is_body, joint_names(names)))

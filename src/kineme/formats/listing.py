@@ -26,7 +26,7 @@ from kineme._util.checks import format_count
 from kineme._util.files import read_head, read_tail
 from kineme.errors import ReadError
 from kineme.formats.columns import joint_names
-from kineme.formats.devices import find_table
+from kineme.formats.dialects import find_table
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.label_tables import program_of_labels

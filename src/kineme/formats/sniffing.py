@@ -36,7 +36,9 @@ HIGHEST = 200
 WORDS = 2
 """Lines of words between names and numbers at most."""
 
-_SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
+SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
+"""The line in which spreadsheets say what parts their cells."""
+
 _HERTZ = re.compile(r"(\d+(?:[.,]\d+)?)\s*hz\b", re.IGNORECASE)
 _RATE = re.compile(
     r"\b(?:(?:sampl\w+|frame|update|output|measurement|capture|data)[\s_]*)?"
@@ -69,7 +71,7 @@ def sniff(content: FileContent) -> DelimitedText:
     ended = next((i for i, line in enumerate(lines) if line.strip().lower() == "endheader"), None)
     start = 0 if ended is None else ended + 1
     full = [i for i in range(start, len(lines)) if lines[i].strip() and lines[i][0] != "#"]
-    declared = _SEPARATOR.fullmatch(lines[full[0]]) if full else None
+    declared = SEPARATOR.fullmatch(lines[full[0]]) if full else None
     full = full[1:] if declared else full
     if not full:
         raise content.error("has no lines of numbers")
@@ -85,15 +87,12 @@ def sniff(content: FileContent) -> DelimitedText:
         cells = [cell.strip('"').strip() for cell in cells]
     else:
         row = next(filter(str.strip, islice(lines, below, None)), "")
-        cells = _head_cells(content, lines[head], row, separator)
+        cells = head_cells(content, lines[head], row, separator)
     passed = full[first + 1 : first + 1 + words]
     if words and (both := _joined(cells, cells_of(lines[passed[0]], separator))) != cells:
         cells, passed = both, passed[1:]
     headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
-    notes = []
-    if first:
-        what = "rows" if headless else "names"
-        notes.append(f"{format_count(first, 'line')} above the {what} passed over")
+    notes = passed_over(first, "rows" if headless else "names")
     notes += [f"line {i + 1} holds no numbers and is passed over: {lines[i]:.60}" for i in passed]
     return DelimitedText(
         content,
@@ -110,7 +109,12 @@ def sniff(content: FileContent) -> DelimitedText:
     )
 
 
-def _head_cells(content: FileContent, line: str, row: str, separator: str) -> list[str]:
+def passed_over(count: int, what: str) -> list[str]:
+    """Return the note on lines above the names or rows of a table, if there are any."""
+    return [f"{format_count(count, 'line')} above the {what} passed over"] if count else []
+
+
+def head_cells(content: FileContent, line: str, row: str, separator: str) -> list[str]:
     """Return the cells of the line of names above a row.
 
     A separator between quotes is part of a name, but where the row has as many cells as there

@@ -18,12 +18,16 @@ from pathlib import Path
 import numpy as np
 
 from kineme.formats.channels.parquet import parquet_channels, parquet_columns, parquet_file
-from kineme.formats.channels.reading import rate_above, text_channels, to_signals
+from kineme.formats.channels.reading import (
+    choose_channels,
+    rate_above,
+    text_channels,
+    to_signals,
+)
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.columns import columns_to_motion, is_used
 from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, named
-from kineme.formats.devices import find_table
-from kineme.formats.dialects import dialect_of, hold_channels
+from kineme.formats.dialects import find_table, hold_channels, recognise_table
 from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
 from kineme.formats.gaps import unseen
 from kineme.formats.label_tables import refuse_labels
@@ -36,14 +40,16 @@ from kineme.recordings import Motion, Signals
 def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """Return the joints or keypoints in a text table, or its channels where there are none."""
     refuse_labels(content)
-    table = find_table(content)
-    dialect = dialect_of(table.names, table.lines)
-    if options.channels:
-        if dialect and not dialect.channels:
-            raise content.error(f"is a {dialect.name} table of joints, which is a motion")
-    elif dialect:
-        return dialect.read(table, options)
-    elif not hold_channels(table.names):
+    table, dialect = recognise_table(content)
+    if options.channels and dialect and not dialect.channels:
+        raise content.error(f"is a {dialect.name} table of joints, which is a motion")
+    if dialect and dialect.read and not (options.channels and dialect.motion):
+        found = dialect.read(table, replace(options, columns=None))
+        if not options.channels:
+            return found
+        if isinstance(found, Signals):
+            return choose_channels(content, found, options.columns or None)
+    elif not options.channels and not hold_channels(table.names):
         return _read_joints(table, options)
     channels = text_channels(table, options.columns or None)
     return to_signals(content, TABLE.name, channels, options.fps)

@@ -108,6 +108,14 @@ def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> Channel
     return replace(table, rate=text.rate, notes=(*notes, rate_above(text.rate)))
 
 
+def choose_channels(
+    content: FileContent, signals: Signals, columns: Sequence[str] | None
+) -> Signals:
+    """Return those of a file's signals that are asked for, in this order; None for all."""
+    names = asked_for(content, signals.names, columns, signals.names)
+    return signals if names is None else signals.select(names)
+
+
 def rate_above(rate: float) -> str:
     """Return the note on a rate that stands above the names of a table."""
     return f"{rate:g} Hz, as a line above the columns says"

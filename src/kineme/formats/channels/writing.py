@@ -29,7 +29,7 @@ from kineme.errors import ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.reading import ChannelTable, text_channels
 from kineme.formats.delimited import as_text, dotted, named
-from kineme.formats.devices import find_table
+from kineme.formats.dialects import find_table
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import covered
 from kineme.formats.timing import RATE, is_rate, is_timing

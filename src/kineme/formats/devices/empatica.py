@@ -10,23 +10,32 @@ from collections.abc import Sequence
 from itertools import islice
 
 from kineme.formats.delimited import DelimitedText, cells_of, is_finite
-from kineme.formats.devices.device import Device
-from kineme.formats.files import FileContent
+from kineme.formats.dialects import Dialect
 from kineme.formats.sniffing import is_row
 
 SINCE_2001 = 1e9
 """Seconds since 1970: a first row of these tells when a recording began."""
 
 
-def find(content: FileContent) -> DelimitedText:
+def recognises(_: Sequence[str], lines: Sequence[str]) -> bool:
+    """Return whether the first row repeats a date since 1970 and the second a lower rate."""
+    rows = [cells_of(lines[i], ",") for i in _first_rows(lines)]
+    if len(rows) < 3 or len({len(row) for row in rows}) > 1 or not all(map(is_row, rows)):
+        return False
+    if any(len(set(row)) > 1 or not is_finite(row[0]) for row in rows[:2]):
+        return False
+    start, rate = (float(row[0]) for row in rows[:2])
+    return start >= SINCE_2001 and 0 < rate < start
+
+
+def lay_out(text: DelimitedText) -> DelimitedText:
     """Return the table below the first two rows, its columns named after the file."""
-    lines = content.text.splitlines()
-    full = _first_rows(lines)
-    width = len(cells_of(lines[full[2]], ","))
-    axes = [f"_{axis}" for axis in "xyz"] if width == 3 else [f"_{i + 1}" for i in range(width)]
-    called = content.path.stem.lower()
-    names = [called] if width == 1 else [f"{called}{axis}" for axis in axes]
-    return DelimitedText(content, lines, names, full[2], full[2], ",", rate=_rate(lines))
+    _, second, below = _first_rows(text.lines)
+    width, sensor = len(cells_of(text.lines[below], ",")), text.content.path.stem.lower()
+    axes = "xyz" if width == 3 else range(1, width + 1)
+    names = [sensor] if width == 1 else [f"{sensor}_{axis}" for axis in axes]
+    rate = float(cells_of(text.lines[second], ",")[0])
+    return DelimitedText(text.content, text.lines, names, below, below, ",", rate=rate, clocks={})
 
 
 def _first_rows(lines: Sequence[str]) -> list[int]:
@@ -34,16 +43,4 @@ def _first_rows(lines: Sequence[str]) -> list[int]:
     return list(islice(full, 3))
 
 
-def _rate(lines: Sequence[str]) -> float | None:
-    """Return the second row's number below a first row of seconds since 1970; None for others."""
-    rows = [cells_of(lines[i], ",") for i in _first_rows(lines)]
-    if len(rows) < 3 or len({len(row) for row in rows}) > 1 or not all(map(is_row, rows)):
-        return None
-    starts, rates = ({float(cell) if is_finite(cell) else 0.0 for cell in row} for row in rows[:2])
-    start, rate = max(starts), max(rates)
-    if len(starts) > 1 or len(rates) > 1 or start < SINCE_2001:
-        return None
-    return rate if 0 < rate < start else None
-
-
-DEVICE = Device("Empatica", lambda lines: _rate(lines) is not None, find)
+DIALECT = Dialect("Empatica", recognises, layout=lay_out)

@@ -48,4 +48,4 @@ def read(table: DelimitedText, options: ReadOptions) -> Motion:
     return columns_to_motion(table.content, "FreeMoCap table", columns, options).noted(*notes)
 
 
-DIALECT = Dialect("FreeMoCap", recognises, read)
+DIALECT = Dialect("FreeMoCap", recognises, read, motion=True)

@@ -53,4 +53,5 @@ DIALECT = Dialect(
     lambda names, _: len(names) > 1 and names[0].lower() == "scorer",
     read_deeplabcut,
     channels=False,
+    motion=True,
 )

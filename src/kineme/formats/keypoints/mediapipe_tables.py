@@ -146,5 +146,8 @@ WIDE = Dialect(
     "MediaPipe",
     lambda names, _: len(_landmark_columns(names)) >= 2 * len(NAMES),
     read_landmarks,
+    motion=True,
 )
-LONG = Dialect("MediaPipe, a row per landmark", lambda names, _: is_long(names), read_long)
+LONG = Dialect(
+    "MediaPipe, a row per landmark", lambda names, _: is_long(names), read_long, motion=True
+)

@@ -98,4 +98,5 @@ DIALECT = Dialect(
     "SLEAP",
     lambda names, _: "frame_idx" in names and any(name.endswith(".score") for name in names),
     read_sleap_table,
+    motion=True,
 )

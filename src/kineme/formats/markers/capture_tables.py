@@ -226,8 +226,11 @@ def _rate(content: FileContent, table: Capture) -> float:
     return rate
 
 
-NEXUS = Dialect("Nexus", is_nexus, partial(read_capture, program="Nexus", look=_nexus))
+NEXUS = Dialect("Nexus", is_nexus, partial(read_capture, program="Nexus", look=_nexus), motion=True)
 MOTIVE = Dialect(
-    "Motive", is_motive, partial(read_capture, program="Motive", look=_motive, usual_up="y")
+    "Motive",
+    is_motive,
+    partial(read_capture, program="Motive", look=_motive, usual_up="y"),
+    motion=True,
 )
-QTM = Dialect("QTM", is_qtm, partial(read_capture, program="QTM", look=_qtm))
+QTM = Dialect("QTM", is_qtm, partial(read_capture, program="QTM", look=_qtm), motion=True)

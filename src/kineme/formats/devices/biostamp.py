@@ -1,0 +1,12 @@
+"""BioStamp (MC10): one file a sensor, times in milli- or microseconds since 1970."""
+
+from __future__ import annotations
+
+from kineme.formats.devices.layout import Layout, begins_with
+from kineme.formats.dialects import Dialect
+
+DIALECT = Dialect(
+    "BioStamp",
+    begins_with(r"Timestamp \((?:ms|microseconds)\),(?:Accel|Gyro|Sample)\b"),
+    layout=Layout(clocks={r"Timestamp \(ms\)": "ms", r"Timestamp \(microseconds\)": "us"}),
+)

@@ -1,0 +1,12 @@
+"""MetaMotion (MbientLab): one file a sensor, the same time in three columns."""
+
+from __future__ import annotations
+
+from kineme.formats.devices.layout import Layout, begins_with
+from kineme.formats.dialects import Dialect
+
+DIALECT = Dialect(
+    "MetaMotion",
+    begins_with(r"epoch? \(ms\),time"),
+    layout=Layout(clocks={r"epoch? \(ms\)": "ms"}, hidden=r"time.*|elapsed \(s\)"),
+)

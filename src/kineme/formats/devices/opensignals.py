@@ -1,0 +1,34 @@
+"""OpenSignals (BITalino, biosignalsplux): a header of JSON between lines of ``#``, then rows.
+
+The header tells the rate, the names of the columns, and which of them are sensors.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+from kineme.formats.delimited import DelimitedText
+from kineme.formats.devices.layout import Layout, begins_with
+from kineme.formats.dialects import Dialect
+
+
+def lay_out(text: DelimitedText) -> DelimitedText:
+    """Return the table, its columns called by label and sensor: ``A1 EMG``."""
+    try:
+        devices = [*json.loads(text.lines[1].lstrip("# ")).values()]
+        rate = float(devices[0]["sampling rate"])
+        sensors = {
+            label: label if sensor in ("RAW", "") else f"{label} {sensor}"
+            for each in devices
+            for label, sensor in zip(each["label"], each["sensor"], strict=True)
+        }
+        columns = [str(column) for each in devices for column in each["column"]]
+    except (ValueError, LookupError, TypeError, AttributeError) as error:
+        raise text.content.error(f"its header cannot be read: {error}", 2) from None
+    names = [sensors.get(column, column) for column in columns]
+    table = Layout(head=r"(?!#)", names=names)(text)
+    return replace(table, rate=rate, hidden=frozenset(table.names) - {*sensors.values()})
+
+
+DIALECT = Dialect("OpenSignals", begins_with("# OpenSignals Text File Format"), layout=lay_out)

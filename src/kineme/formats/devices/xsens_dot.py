@@ -1,0 +1,16 @@
+"""Xsens DOT, Movella DOT: lines on the sensor, ``OutputRate:,60Hz`` among them, then the table."""
+
+from __future__ import annotations
+
+from kineme.formats.devices.layout import Layout, begins_with
+from kineme.formats.dialects import Dialect
+
+DIALECT = Dialect(
+    "Xsens DOT",
+    begins_with(r"OutputRate:", within=10),
+    layout=Layout(
+        head="PacketCounter",
+        rate=r"OutputRate:[,;\t ]*(\d+(?:\.\d+)?) *Hz",
+        hidden=r"PacketCounter|SampleTimeFine|Status|(?:Clip|RSSI)\w*",
+    ),
+)
