@@ -63,6 +63,7 @@ DIALECTS: Registry[Dialect] = Registry(
         "devices.actigraph:DIALECT",
         "devices.axivity:DIALECT",
         "devices.biostamp:DIALECT",
+        "devices.delsys:DIALECT",
         "devices.empatica:DIALECT",
         "devices.geneactiv:DIALECT",
         "devices.metamotion:DIALECT",

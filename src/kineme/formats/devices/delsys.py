@@ -1,0 +1,87 @@
+"""Delsys Trigno: channels stand behind columns of their own times, each at a rate of its own.
+
+EMGworks writes ``X[s],"biceps: EMG 1 [Volts]",X[s],"biceps: ACC X [g]"``. Trigno Discover writes
+names such as ``EMG 1 Time Series (s),EMG 1 (mV)`` below lines of sensors and their modes. Slower
+channels end in empty cells or zeros. All are interpolated at the times of the fastest.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from itertools import accumulate, zip_longest
+
+import numpy as np
+
+from kineme._util.arrays import Floats
+from kineme._util.checks import format_count
+from kineme.formats.channels.reading import ChannelTable, to_signals
+from kineme.formats.delimited import DelimitedText, cells_of, is_number, named
+from kineme.formats.devices.layout import Layout, begins_with
+from kineme.formats.dialects import Dialect
+from kineme.formats.options import ReadOptions
+from kineme.recordings import Signals
+
+_TIME = r'"?(?:X ?\[s\]|[^,;\t]*Time Series \(s\))'
+_EMG = re.compile(r"\bEMG\b")
+_NUMBER = re.compile(r" *\(\d+\)$")  # of a sensor
+
+
+def read(text: DelimitedText, options: ReadOptions) -> Signals:
+    """Return all channels at the rate of the fastest, or those of muscles with ``emg``."""
+    content, table = text.content, Layout(head=_TIME)(text)
+    cells = cells_of(table.lines[table.head], table.separator)
+    is_time = [re.match(_TIME, cell) is not None for cell in cells]
+    # each channel belongs to the last column of times on its left
+    clock_of = [*accumulate((i if time else 0 for i, time in enumerate(is_time)), max)]
+    names = named(_with_sensors(table, cells))
+    chosen = [i for i, time in enumerate(is_time) if cells[i] and not time]
+    if options.emg:
+        chosen = [i for i in chosen if _EMG.search(names[i])]
+    if not chosen:
+        raise content.error(f"none of its columns is a channel ({', '.join(names)})")
+    # Discover writes the rates between names and rows
+    firsts = (cells_of(line, table.separator)[0] for line in table.rows)
+    words = next((i for i, first in enumerate(firsts) if is_number(first)), 0)
+    columns = replace(table, names=names, below=table.below + words).numbers().T
+    lengths = {clock: _length(columns[clock]) for clock in {clock_of[i] for i in chosen}}
+    fastest = max(lengths, key=lambda clock: (lengths[clock], -clock))
+    times = columns[fastest, : lengths[fastest]]
+    values = [
+        np.interp(
+            times,
+            columns[clock_of[i], : lengths[clock_of[i]]],
+            columns[i, : lengths[clock_of[i]]],
+            left=np.nan,
+            right=np.nan,
+        )
+        for i in chosen
+    ]
+    slower = sum(lengths[clock_of[i]] < len(times) for i in chosen)
+    notes = [f"{format_count(slower, 'slower channel')} interpolated"] if slower else []
+    found = ChannelTable(
+        [names[i] for i in chosen], np.column_stack(values), {"time (s)": times}, None, (*notes,)
+    )
+    return to_signals(content, "Delsys table", found, options.fps)
+
+
+def _with_sensors(table: DelimitedText, cells: list[str]) -> list[str]:
+    """Return the names of columns, with the sensor before them where a line above tells it."""
+    above = [line for line in table.lines[: table.head] if line.strip(f"{table.separator} ")]
+    if len(above) < 2 or not above[-1].startswith("sensor mode"):
+        return cells
+    sensors = [_NUMBER.sub("", cell) for cell in cells_of(above[-2], table.separator)]
+    names, sensor = [], ""
+    for cell, written in zip_longest(cells, sensors[: len(cells)], fillvalue=""):
+        sensor = written or sensor  # it stands above the first of its columns
+        names.append(f"{sensor} {cell}".strip())
+    return names
+
+
+def _length(times: Floats) -> int:
+    """Return how many times there are before those that are empty or do not rise."""
+    ends = np.flatnonzero(~(np.diff(times) > 0))
+    return int(ends[0]) + 1 if len(ends) else len(times)
+
+
+DIALECT = Dialect("Delsys", begins_with(_TIME, within=60), read)
