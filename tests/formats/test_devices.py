@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -11,6 +13,7 @@ from marker_samples import PLUG_IN_GAIT, c3d_bytes, walking, z_up_millimetres
 
 import kineme
 from kineme.errors import ReadError
+from kineme.formats.dialects import DIALECTS, Dialect
 
 N, FPS = 300, 50
 VALUES = np.round(np.sin(np.arange(N)[:, None] / [7, 5, 3]), 4)
@@ -44,6 +47,12 @@ def counted(step: float, start: float = 0):
     return lambda i, _: f"{start + step * i:.10g}" if step < 1 else int(start + step * i)
 
 
+HEADER = {
+    "sensor": ["EMG", "RAW", "RAW"],
+    "label": ["A1", "A2", "A3"],
+    "column": ["nSeq", "I1", "A1", "A2", "A3"],
+    "sampling rate": FPS,
+}
 FILES = {
     "ActiGraph": ACTIGRAPH + "Accelerometer X,Accelerometer Y,Accelerometer Z\n" + rows(","),
     "ActiGraph without names": ACTIGRAPH + rows(","),
@@ -65,6 +74,23 @@ FILES = {
     + ", ".join(["50.000000"] * 3)
     + "\n"
     + rows(","),
+    "OpenSignals": "# OpenSignals Text File Format. Version 1\n# "
+    + json.dumps({"98:D3:31": HEADER})
+    + "\n# EndOfHeader\n"
+    + rows("\t", lambda i, _: i % 16, lambda *_: 1, end="\t"),
+    "Sensor Logger": "time,seconds_elapsed,X,Y,Z\n"
+    + rows(",", counted(20_000_000, 1_670_000_000_000_000_000), counted(0.02)),
+    "phyphox": '"Time (s)";"X (m/s^2)";"Y (m/s^2)";"Z (m/s^2)"\n'
+    + rows(";", counted(0.02)).replace(".", ","),
+    "BioStamp": "Timestamp (microseconds),Accel X (g),Accel Y (g),Accel Z (g)\n"
+    + rows(",", counted(20_000, 1_500_000_000_000_000)),
+    "MetaMotion": "epoc (ms),timestamp (+0100),elapsed (s),x-axis (g),y-axis (g),z-axis (g)\n"
+    + rows(",", counted(20, 1.5e12), dated("%Y-%m-%dT%H.%M.%S.%3f"), counted(0.02)),
+    "Movella DOT": "DeviceTag:,left\nOutputRate:,50Hz\n\n"
+    "PacketCounter,SampleTimeFine,X,Y,Z,Status\n"
+    + rows(",", counted(1), counted(20_000, 2**31), end=",0"),
+    "Delsys": "X[s],biceps: EMG 1 [Volts],triceps: EMG 2 [Volts],ACC X 1 [g]\n"
+    + rows(",", counted(0.02)),
     "SensorLog": "loggingTime(txt);loggingSample(N);X(G);Y(G);Z(G)\n"
     + rows(";", dated("%Y-%m-%dT%H:%M:%S.%3f+01:00"), counted(1)),
     "a clock under its own name": "sensorTimestamp_sinceReboot(s),X,Y,Z\n"
@@ -90,6 +116,107 @@ def test_channels_and_rate_of_a_device_are_read_without_options(
     assert signals.fps == FPS
     assert signals.gaps == ()
     assert np.array_equal(signals.values, VALUES)
+
+
+@pytest.mark.parametrize("device", FILES)
+def test_columns_are_chosen_from_those_that_a_device_has(tmp_path: Path, device: str) -> None:
+    """The rate, the rows and the names are those of reading all of them."""
+    *_, last = read(tmp_path, FILES[device]).names
+    chosen = read(tmp_path, FILES[device], columns=[last])
+    assert (chosen.names, chosen.fps) == ((last,), FPS)
+    assert np.array_equal(chosen.values, VALUES[:, 2:])
+
+
+@pytest.mark.parametrize(
+    ("device", "names"),
+    {
+        "ActiGraph without names": ["Accelerometer X", "Accelerometer Y", "Accelerometer Z"],
+        "GENEActiv": ["x", "y", "z"],
+        "Axivity": ["x", "y", "z"],
+        "OpenSignals": ["A1 EMG", "A2", "A3"],
+    }.items(),
+)
+def test_a_device_names_the_columns_of_rows_without_names(
+    tmp_path: Path, device: str, names: list[str]
+) -> None:
+    signals = read(tmp_path, FILES[device])
+    assert list(signals.names) == names
+    assert f"read as {device.split()[0]} writes it" in signals.provenance.notes
+
+
+def test_counters_and_clocks_of_a_device_are_channels_only_where_asked_for(tmp_path: Path) -> None:
+    counted = read(tmp_path, FILES["Movella DOT"], columns=["PacketCounter", "X"])
+    assert (counted.names, counted.fps) == (("PacketCounter", "X"), FPS)
+    with pytest.raises(ReadError, match="no column '1'; there are nSeq, I1, A1 EMG, A2, A3"):
+        read(tmp_path, FILES["OpenSignals"], columns=["1"])
+
+
+def test_counts_of_actigraph_have_the_rate_of_their_epochs(tmp_path: Path) -> None:
+    header = ACTIGRAPH.replace("00:00:00\n--", "00:00:05\n--")
+    assert read(tmp_path, header + "Axis1,Axis2,Axis3\n" + rows(",")).fps == 0.2
+
+
+def test_signals_of_two_shimmers_are_told_apart(tmp_path: Path) -> None:
+    text = (
+        "Shimmer 1\tShimmer 1\tShimmer 2\tShimmer 2\nTimestamp\tX\tTimestamp\tX\n"
+        "CAL\tCAL\tCAL\tCAL\nms\tg\tms\tg\n"
+    )
+    lines = "".join(f"{20 * i}\t{i % 7}\t{20 * i}\t{i % 5}\n" for i in range(N))
+    signals = read(tmp_path, text + lines)
+    assert (signals.names, signals.fps) == (("Shimmer 1 X", "Shimmer 2 X"), FPS)
+
+
+DISCOVER = (
+    "Application:,Trigno Discover (1.7.0)\nCollection Length (seconds):,6\n"
+    "biceps (81201),,,,triceps (81202),\nsensor mode: 50,,,,sensor mode: 40,\n"
+    "EMG 1 Time Series (s),EMG 1 (mV),ACC X Time Series (s),ACC X (G),EMG 1 Time Series (s),"
+    "EMG 1 (mV)\n,50 Hz,,10 Hz,,50 Hz\n,,,,,\n"
+)
+
+
+def test_channels_of_delsys_have_rates_of_their_own(tmp_path: Path) -> None:
+    lines = [
+        f"{i / 50},{a},{f'{i / 10},{i}' if i < N // 5 else ','},{i / 50},{b}\n"
+        for i, (a, b, _) in enumerate(VALUES.tolist())
+    ]
+    signals = read(tmp_path, DISCOVER + "".join(lines))
+    muscles = ("biceps EMG 1 (mV)", "triceps EMG 1 (mV)")
+    assert (signals.names, signals.fps) == ((muscles[0], "biceps ACC X (G)", muscles[1]), FPS)
+    assert np.array_equal(signals.values[:, [0, 2]], VALUES[:, :2])
+    assert signals.values[:296, 1] == pytest.approx(np.arange(296) / 5)  # a fifth of the rate
+    assert "1 slower channel interpolated" in signals.provenance.notes
+    assert read(tmp_path, DISCOVER + "".join(lines), emg=True).names == muscles
+    (slow,) = read(tmp_path, DISCOVER + "".join(lines), columns=["*acc*"]).names
+    assert slow == "biceps ACC X (G)"
+
+
+@pytest.fixture
+def my_watch() -> Iterator[None]:
+    """A dialect of somebody's that gives signals: in halves, at ticks of 20 ms."""
+
+    def recognises(names, lines):
+        return names[0] == "MyWatch"
+
+    def read_watch(table, options):
+        values = [[float(cell) / 2 for cell in row.split(",")] for row in table.lines[2:]]
+        source = table.content.provenance("MyWatch", [])
+        return kineme.Signals(values, options.fps or FPS, ["x", "y"], provenance=source)
+
+    DIALECTS.register(Dialect("MyWatch", recognises, read_watch))
+    yield
+    DIALECTS.remove("MyWatch")
+
+
+@pytest.mark.usefixtures("my_watch")
+def test_columns_are_chosen_from_signals_that_a_dialect_reads(tmp_path: Path) -> None:
+    text = "MyWatch,3\nhalves,of\n2,4\n6,8\n"
+    assert read(tmp_path, text).values.tolist() == [[1, 2], [3, 4]]
+    assert read(tmp_path, text, emg=True).names == ("x", "y")
+    for columns in (["y"], ["Y*"]):
+        chosen = read(tmp_path, text, columns=columns, fps=10)
+        assert (chosen.names, chosen.fps, chosen.values.tolist()) == (("y",), 10, [[2], [4]])
+    with pytest.raises(ReadError, match="no column 'z'; there are x, y"):
+        read(tmp_path, text, columns=["z"])
 
 
 def test_the_clock_is_found_beside_the_columns_that_are_asked_for(tmp_path: Path) -> None:
