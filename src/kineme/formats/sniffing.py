@@ -6,7 +6,7 @@
 - Cells are parted by tabs, semicolons or commas, else by blanks.
 - Below the names there may be two lines of words: units, what kind of numbers these are, or second
   names, where the first ones are those of several columns.
-- Names may be missing: rows of numbers then stand at the top, or below lines of fewer cells.
+- Names may be missing: rows of numbers then stand at the top.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Sequence
-from itertools import islice
+from itertools import chain, dropwhile, islice, takewhile
 
 from kineme._util.checks import format_count
 from kineme.formats.delimited import (
@@ -39,7 +39,6 @@ WORDS = 2
 SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
 """The line in which spreadsheets say what parts their cells."""
 
-_HERTZ = re.compile(r"(\d+(?:[.,]\d+)?)\s*hz\b", re.IGNORECASE)
 _RATE = re.compile(
     r"\b(?:(?:sampl\w+|frame|update|output|measurement|capture|data)[\s_]*)?"
     r"(?:rate|frequency|freq|fps)\b\s*(?:[(\[]hz[)\]])?[^\w]*(\d+(?:[.,]\d+)?)",
@@ -52,7 +51,7 @@ def sniff(content: FileContent) -> DelimitedText:
     r"""Return the table in a file of text.
 
     The names are in the first line, unless a line below it, of more cells than all above, looks
-    like names over rows of numbers, or is the first of rows of numbers without names.
+    like names over rows of numbers.
 
     Raises
     ------
@@ -70,13 +69,14 @@ def sniff(content: FileContent) -> DelimitedText:
     lines = content.text.splitlines()
     ended = next((i for i, line in enumerate(lines) if line.strip().lower() == "endheader"), None)
     start = 0 if ended is None else ended + 1
-    full = [i for i in range(start, len(lines)) if lines[i].strip() and lines[i][0] != "#"]
-    declared = SEPARATOR.fullmatch(lines[full[0]]) if full else None
-    full = full[1:] if declared else full
+    text = (i for i in range(start, len(lines)) if is_text_line(lines[i]))
+    full = [*islice(text, HIGHEST + WORDS + 3)]  # the highest head, words and rows below it
     if not full:
         raise content.error("has no lines of numbers")
+    declared = next(filter(None, map(SEPARATOR.fullmatch, lines[: full[0]])), None)
     separator = declared[1] if declared else None
-    first = _first_line(lines, full, separator)
+    places = range(min(HIGHEST, len(full)))
+    first = next((k for k in places if _is_head(lines, full, k, separator)), 0)
     head = full[first]
     separator = separator or separator_of(lines[head])
     words = _lines_of_words(lines, full[first:], separator)
@@ -92,8 +92,8 @@ def sniff(content: FileContent) -> DelimitedText:
     if words and (both := _joined(cells, cells_of(lines[passed[0]], separator))) != cells:
         cells, passed = both, passed[1:]
     headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
-    notes = passed_over(first, "rows" if headless else "names")
-    notes += [f"line {i + 1} holds no numbers and is passed over: {lines[i]:.60}" for i in passed]
+    remark = "holds no numbers and is passed over"
+    notes = [f"line {i + 1} {remark}: {lines[i]:.60}" for i in passed]
     return DelimitedText(
         content,
         lines,
@@ -105,13 +105,18 @@ def sniff(content: FileContent) -> DelimitedText:
         blanks,
         cells_of(lines[below - 1], separator) if words else (),
         _rate_in(lines[:head]),
-        tuple(notes),
+        (*passed_over(first, "rows" if headless else "names"), *notes),
     )
 
 
-def passed_over(count: int, what: str) -> list[str]:
+def is_text_line(line: str) -> bool:
+    """Return whether a line is neither blank, a comment, nor the ``sep=;`` of spreadsheets."""
+    return bool(line.strip()) and line[0] != "#" and not SEPARATOR.fullmatch(line)
+
+
+def passed_over(count: int, what: str) -> tuple[str, ...]:
     """Return the note on lines above the names or rows of a table, if there are any."""
-    return [f"{format_count(count, 'line')} above the {what} passed over"] if count else []
+    return (f"{format_count(count, 'line')} above the {what} passed over",) if count else ()
 
 
 def head_cells(content: FileContent, line: str, row: str, separator: str) -> list[str]:
@@ -130,36 +135,20 @@ def head_cells(content: FileContent, line: str, row: str, separator: str) -> lis
     return [cell.strip().strip('"').strip() for cell in cells]
 
 
-def _first_line(lines: Sequence[str], full: Sequence[int], separator: str | None) -> int:
-    """Which of the full lines has the names, or is the first row of a table without names."""
-    heads = (k for k in range(min(HIGHEST, len(full))) if _is_head(lines, full, k, separator))
-    nameless = _first_of_nameless(lines, full, separator)
-    if not nameless:
-        return next(heads, 0)
-
-    def width(place: int) -> int:
-        line = lines[full[place]]
-        return len(cells_of(line, separator or separator_of(line)))
-
-    return max([*heads, nameless], key=width)
-
-
 def _is_head(lines: Sequence[str], full: Sequence[int], at: int, separator: str | None) -> bool:
-    """Whether names stand in a line, rows of as many cells below it, and fewer cells above it."""
-    head = lines[full[at]]
-    sep = separator or separator_of(head)
-    cells = cells_of(head, sep)
-    if len(cells) == 1 or any(map(is_number, cells)) or not _are_names(cells):
-        return False
-    words = _lines_of_words(lines, full[at:], sep)
-    rows = [cells_of(lines[i], sep) for i in full[at + 1 + words : at + 4 + words]]
-    rows = rows[1:] if rows and not any(map(is_number, rows[0])) else rows[:2]
-    # spreadsheets fill lines up, and devices stand above each of their channels
-    above = [cells_of(lines[i].strip().rstrip(sep), sep) for i in full[:at]]
+    """Return whether a line has names: rows of as many cells below it, fewer cells above it."""
+    separator = separator or separator_of(lines[full[at]])
+    names, *below = (cells_of(lines[i], separator) for i in full[at : at + WORDS + 3])
+    rows = [*dropwhile(lambda cells: not any(map(is_number, cells)), below)][:2]
+    # spreadsheets fill lines up with separators
+    above = (cells_of(lines[i].strip().rstrip(separator), separator) for i in full[:at])
     return (
-        bool(rows)
-        and all(_fits(row, len(cells)) and any(map(is_number, row)) for row in rows)
-        and all(len(others) < len(cells) or not _are_names(others) for others in above)
+        len(names) > 1
+        and not any(map(is_number, names))
+        and _is_full(names)
+        and bool(rows)
+        and all(_fits(row, len(names)) and any(map(is_number, row)) for row in rows)
+        and all(len(cells) < len(names) or not _is_full(cells) for cells in above)
     )
 
 
@@ -178,42 +167,17 @@ def _joined(names: list[str], words: Sequence[str]) -> list[str]:
     return both if needed else names
 
 
-def _first_of_nameless(lines: Sequence[str], full: Sequence[int], separator: str | None) -> int:
-    """Of rows of numbers below lines of fewer cells, the first; 0 where there are none."""
-    for at in range(1, min(HIGHEST, len(full) - 1)):
-        line = lines[full[at]]
-        sep = separator or separator_of(line)
-        rows = [cells_of(lines[i], sep) for i in full[at : at + 3]]
-        width = len(rows[0])
-        if width > 1 and all(_fits(row, width) and is_row(row) for row in rows):
-            above = [len(cells_of(lines[i], sep)) for i in full[:at]]
-            return at if max(above) < width and (at > 1 or above[0] == 1) else 0
-    return 0
-
-
 def _lines_of_words(lines: Sequence[str], full: Sequence[int], separator: str) -> int:
-    """How many lines hold words below the names, in the first of the lines, and above numbers."""
-    names = cells_of(lines[full[0]], separator)
-    if len(names) == 1 or any(map(is_number, names)):
+    """Return how many lines hold words below the names, in the first line, and above numbers."""
+    names, *below = (cells_of(lines[i], separator) for i in full[: WORDS + 2])
+    words = [*takewhile(lambda cells: not any(map(_has_value, cells)), below[:WORDS])]
+    row = below[len(words)] if len(words) < len(below) else []
+    if len(names) == 1 or any(map(is_number, names)) or not _fits(row, len(names)):
         return 0
-    for n in range(WORDS, 0, -1):
-        *words, row = (cells_of(lines[i], separator) for i in full[1 : n + 2] or full[:1])
-        if len(words) == n and all(_are_words(each, row, len(names)) for each in words):
-            return n
-    return 0
-
-
-def _are_words(cells: Sequence[str], row: Sequence[str], width: int) -> bool:
-    """Return whether words stand over the numbers of a row."""
-    words = [i for i, cell in enumerate(cells) if cell.lower() not in EMPTY]
-    return (
-        bool(words)
-        and _fits(cells, width)
-        and _fits(row, width)
-        and max(words) < width
-        and not any(is_number(cells[i]) or is_date(cells[i]) for i in words)
-        and all(is_number(row[i]) or is_date(row[i]) for i in words)
-    )
+    places = [[i for i, cell in enumerate(each) if cell.lower() not in EMPTY] for each in words]
+    fits = all(_fits(each, len(names)) for each in words)
+    over = all(places) and all(i < len(names) and _has_value(row[i]) for i in chain(*places))
+    return len(words) if fits and over else 0
 
 
 def _fits(cells: Sequence[str], width: int) -> bool:
@@ -223,15 +187,17 @@ def _fits(cells: Sequence[str], width: int) -> bool:
 
 def is_row(cells: Sequence[str]) -> bool:
     """Return whether cells hold numbers, dates or nothing, and a number at least."""
-    return any(map(is_number, cells)) and all(
-        is_number(cell) or is_date(cell) or cell.lower() in EMPTY for cell in cells
-    )
+    has_number = any(map(is_number, cells))
+    return has_number and all(_has_value(cell) or cell.lower() in EMPTY for cell in cells)
 
 
-def _are_names(cells: Sequence[str]) -> bool:
-    """Return whether most cells of a line hold something, and not all of them the same."""
-    full = [cell for cell in cells if cell]
-    return 2 * len(full) > len(cells) and (len(cells) == 1 or len(set(full)) > 1)
+def _has_value(cell: str) -> bool:
+    return is_number(cell) or is_date(cell)
+
+
+def _is_full(cells: Sequence[str]) -> bool:
+    """Return whether most cells of a line hold something."""
+    return 2 * sum(map(bool, cells)) > len(cells)
 
 
 def _rate_in(lines: Sequence[str]) -> float | None:
@@ -240,7 +206,7 @@ def _rate_in(lines: Sequence[str]) -> float | None:
         float(match[1].replace(",", "."))
         for line in lines
         if not _OF_A_FILTER.search(line)
-        for match in (*_HERTZ.finditer(line), *_RATE.finditer(line))
+        for match in _RATE.finditer(line)
     }
     rates = found - {0.0}
     return rates.pop() if len(rates) == 1 else None

@@ -73,7 +73,6 @@ _WRITTEN = re.compile(
     r"(?:\s*(?P<half>[ap])\.?m\.?)?\s*(?P<zone>Z|[+-]\d\d:?\d\d)?",
     re.IGNORECASE,
 )
-_THOUSANDTHS = re.compile(r"(:\d\d:\d\d):(?=\d)")  # as GENEActiv parts them from the seconds
 _LEAP = re.compile(r"(?<=:\d\d:)60(?!\d)")
 
 
@@ -253,7 +252,6 @@ def date_seconds(text: str, *, day_first: bool | None = None) -> float:
     """
     if not any(mark in text for mark in "-:"):
         raise ValueError(f"{text[:40]!r} is no ISO date")
-    text = _THOUSANDTHS.sub(r"\1.", text)
     if leap := _LEAP.search(text):
         before = f"{text[: leap.start()]}59{text[leap.end() :]}"
         return date_seconds(before, day_first=day_first) + 1

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from itertools import accumulate, zip_longest
+from itertools import accumulate, chain, repeat
 
 import numpy as np
 
@@ -30,12 +30,11 @@ _NUMBER = re.compile(r" *\(\d+\)$")  # of a sensor
 def read(text: DelimitedText, options: ReadOptions) -> Signals:
     """Return all channels at the rate of the fastest, or those of muscles with ``emg``."""
     content, table = text.content, Layout(head=_TIME)(text)
-    cells = cells_of(table.lines[table.head], table.separator)
-    is_time = [re.match(_TIME, cell) is not None for cell in cells]
+    is_time = [re.match(_TIME, name) is not None for name in table.names]
     # each channel belongs to the last column of times on its left
-    clock_of = [*accumulate((i if time else 0 for i, time in enumerate(is_time)), max)]
-    names = named(_with_sensors(table, cells))
-    chosen = [i for i, time in enumerate(is_time) if cells[i] and not time]
+    clocks = [*accumulate((i if time else 0 for i, time in enumerate(is_time)), max)]
+    names = named(_with_sensors(table))
+    chosen = [i for i, time in enumerate(is_time) if not time]
     if options.emg:
         chosen = [i for i in chosen if _EMG.search(names[i])]
     if not chosen:
@@ -43,39 +42,33 @@ def read(text: DelimitedText, options: ReadOptions) -> Signals:
     # Discover writes the rates between names and rows
     firsts = (cells_of(line, table.separator)[0] for line in table.rows)
     words = next((i for i, first in enumerate(firsts) if is_number(first)), 0)
-    columns = replace(table, names=names, below=table.below + words).numbers().T
-    lengths = {clock: _length(columns[clock]) for clock in {clock_of[i] for i in chosen}}
-    fastest = max(lengths, key=lambda clock: (lengths[clock], -clock))
-    times = columns[fastest, : lengths[fastest]]
-    values = [
-        np.interp(
-            times,
-            columns[clock_of[i], : lengths[clock_of[i]]],
-            columns[i, : lengths[clock_of[i]]],
-            left=np.nan,
-            right=np.nan,
-        )
-        for i in chosen
-    ]
-    slower = sum(lengths[clock_of[i]] < len(times) for i in chosen)
-    notes = [f"{format_count(slower, 'slower channel')} interpolated"] if slower else []
-    found = ChannelTable(
-        [names[i] for i in chosen], np.column_stack(values), {"time (s)": times}, None, (*notes,)
-    )
-    return to_signals(content, "Delsys table", found, options.fps)
+    columns = replace(table, below=table.below + words).numbers().T
+    lengths = [_length(columns[clock]) for clock in clocks]
+    fastest = max(chosen, key=lengths.__getitem__)
+    times = columns[clocks[fastest], : lengths[fastest]]
+    values = []
+    for i in chosen:
+        at, known = columns[[clocks[i], i], : lengths[i]]
+        values.append(np.interp(times, at, known, left=np.nan, right=np.nan))
+    slower = sum(lengths[i] < len(times) for i in chosen)
+    notes = (f"{format_count(slower, 'slower channel')} interpolated",) if slower else ()
+    timing = {"time (s)": times}
+    channels = ChannelTable([names[i] for i in chosen], np.stack(values, 1), timing, None, notes)
+    return to_signals(content, "Delsys table", channels, options.fps)
 
 
-def _with_sensors(table: DelimitedText, cells: list[str]) -> list[str]:
+def _with_sensors(table: DelimitedText) -> list[str]:
     """Return the names of columns, with the sensor before them where a line above tells it."""
     above = [line for line in table.lines[: table.head] if line.strip(f"{table.separator} ")]
+    names = cells_of(table.lines[table.head], table.separator)[: len(table.names)]
     if len(above) < 2 or not above[-1].startswith("sensor mode"):
-        return cells
+        return names
+    # a sensor stands above the first of its columns
     sensors = [_NUMBER.sub("", cell) for cell in cells_of(above[-2], table.separator)]
-    names, sensor = [], ""
-    for cell, written in zip_longest(cells, sensors[: len(cells)], fillvalue=""):
-        sensor = written or sensor  # it stands above the first of its columns
-        names.append(f"{sensor} {cell}".strip())
-    return names
+    filled: accumulate[str] = accumulate(
+        chain(sensors, repeat("")), lambda sensor, cell: cell or sensor
+    )
+    return [f"{sensor} {name}" for name, sensor in zip(names, filled, strict=False)]
 
 
 def _length(times: Floats) -> int:

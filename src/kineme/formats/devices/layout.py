@@ -9,11 +9,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import islice
 
-from kineme.formats.delimited import DelimitedText, cells_of, named, separator_of
-from kineme.formats.sniffing import HIGHEST, SEPARATOR, head_cells, is_row, passed_over
+from kineme.formats.delimited import DelimitedText, named, separator_of
+from kineme.formats.sniffing import (
+    HIGHEST,
+    SEPARATOR,
+    head_cells,
+    is_row,
+    is_text_line,
+    passed_over,
+)
 
 Recognise = Callable[[Sequence[str], Sequence[str]], bool]
 
@@ -31,8 +38,8 @@ def begins_with(pattern: str, *, within: int = 1) -> Recognise:
     compiled = re.compile(pattern)
 
     def recognises(_: Sequence[str], lines: Sequence[str]) -> bool:
-        first = (line for line in lines if line.strip() and not SEPARATOR.fullmatch(line))
-        return any(map(compiled.match, islice(first, within)))
+        full = (line for line in lines if line.strip() and not SEPARATOR.fullmatch(line))
+        return any(map(compiled.match, islice(full, within)))
 
     return recognises
 
@@ -48,7 +55,7 @@ class Layout:
     names : sequence of str
         Of the columns, where a row stands in place of the line of names.
     words : int
-        Lines between names and rows. The last one has the units.
+        Lines between names and rows, such as units.
     clocks : mapping of str to str
         From patterns of the column of times to its unit, "" for dates. The first that fits counts.
     rate : str
@@ -77,47 +84,36 @@ class Layout:
 
     def __call__(self, text: DelimitedText) -> DelimitedText:
         """Return the table in the lines of a file; ReadError where its head is not there."""
-        lines = text.lines
-        first = (
-            i
-            for i, line in enumerate(islice(lines, HIGHEST))
-            if line.strip() and not SEPARATOR.fullmatch(line) and re.match(self.head, line)
-        )
-        head = next(first, None)
-        if head is None:
-            raise text.content.error("has no line of names where its device writes one")
+        lines, head = text.lines, self._head(text)
         separator = separator_of(lines[head])
-        cells = cells_of(lines[head], separator)
-        passed = sum(
-            bool(line.strip()) and line[0] != "#" and not SEPARATOR.fullmatch(line)
-            for line in lines[:head]
-        )
-        has_names = not (self.names and is_row(cells))
-        below = head + 1 + self.words if has_names else head
-        if has_names:
-            row = next(filter(str.strip, islice(lines, below, None)), "")
-            cells = head_cells(text.content, lines[head].rstrip(f"{separator} "), row, separator)
-        else:
-            # a row may end in one more separator than it has cells
-            width = len(cells) - (not cells[-1] and len(cells) > len(self.names))
-            cells = [*self.names, *map(str, range(len(self.names) + 1, width + 1))][:width]
+        # names and rows may end in one more separator
+        cells = head_cells(text.content, lines[head].rstrip(f"{separator} "), "", separator)
+        below = head + 1 + self.words
+        if has_no_names := bool(self.names) and is_row(cells):
+            numbered = map(str, range(len(self.names) + 1, len(cells) + 1))
+            cells, below = [*self.names, *numbered][: len(cells)], head
         names = named(cells)
         clocks = self._clocks(names)
         hidden = {name for name in names if self.hidden and re.fullmatch(self.hidden, name)}
-        return replace(
-            text,
-            names=names,
-            head=head,
-            below=below,
-            separator=separator,
-            headless=False,
-            blanks=False,
-            units=cells_of(lines[below - 1], separator) if self.words and has_names else (),
+        passed = sum(map(is_text_line, lines[:head]))
+        return DelimitedText(
+            text.content,
+            lines,
+            names,
+            head,
+            below,
+            separator,
             rate=self._rate(lines[:head]),
-            notes=(*passed_over(passed, "names" if has_names else "rows"),),
+            notes=passed_over(passed, "rows" if has_no_names else "names"),
             hidden=frozenset(hidden - clocks.keys()),
             clocks=clocks,
         )
+
+    def _head(self, text: DelimitedText) -> int:
+        for i, line in enumerate(islice(text.lines, HIGHEST)):
+            if line.strip() and not SEPARATOR.fullmatch(line) and re.match(self.head, line):
+                return i
+        raise text.content.error("has no line of names where its device writes one")
 
     def _clocks(self, names: Sequence[str]) -> dict[str, str]:
         for pattern, unit in self.clocks.items():
