@@ -60,9 +60,9 @@ def read(text: DelimitedText, options: ReadOptions) -> Signals:
 def _with_sensors(table: DelimitedText) -> list[str]:
     """Return the names of columns, with the sensor before them where a line above tells it."""
     above = [line for line in table.lines[: table.head] if line.strip(f"{table.separator} ")]
-    names = cells_of(table.lines[table.head], table.separator)[: len(table.names)]
     if len(above) < 2 or not above[-1].startswith("sensor mode"):
-        return names
+        return [*table.names]
+    names = cells_of(table.lines[table.head], table.separator)[: len(table.names)]
     # a sensor stands above the first of its columns
     sensors = [_NUMBER.sub("", cell) for cell in cells_of(above[-2], table.separator)]
     filled: accumulate[str] = accumulate(
