@@ -46,7 +46,7 @@ def rows_of(axes: object) -> list[list[tuple[float, float, str]]]:
 @given(segmentations())
 def test_every_result_is_drawn_segment_by_segment(found: Segmentation) -> None:
     given_axes = Figure().add_subplot()
-    assert found.plot(ax=given_axes) is given_axes
+    assert kineme.plot_timeline(found, ax=given_axes) is given_axes
     levels = [rows for rows in (found.activities, found.primitives) if len(rows)]
     for table, bars in zip(levels, rows_of(given_axes), strict=True):
         starts, stops, colors = zip(*bars)
@@ -69,7 +69,7 @@ def test_a_label_is_no_formula() -> None:
     found = result([40], [0])
     priced = name_segment(found, "activity", 0, "$5 and $")
     figure = Figure()
-    axes = priced.plot(ax=figure.add_subplot())
+    axes = kineme.plot_timeline(priced, ax=figure.add_subplot())
     assert axes.texts[0].get_text() == r"\$5 and \$"
     figure.canvas.draw()
 

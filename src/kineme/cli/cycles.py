@@ -283,8 +283,9 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
     from matplotlib.figure import Figure
 
     from kineme._util.files import atomic_write
-    from kineme.cycles import compare_curves, plot_curves, plot_sessions, plot_sides
+    from kineme.cycles import compare_curves
     from kineme.cycles.sides import sides_of
+    from kineme.plot import plot_curves, plot_sessions, plot_sides
 
     groups, pairs, channels = cycles.groups, sides_of(cycles.channels), cycles.channels
     panels: list[tuple[Callable[..., Axes], tuple[Any, ...]]]

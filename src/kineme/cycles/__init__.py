@@ -18,7 +18,6 @@ from kineme.cycles.events import Events, foot_events, gait, strides
 from kineme.cycles.export import write_cycles, write_table
 from kineme.cycles.landmarks import landmarks
 from kineme.cycles.measure import cycles
-from kineme.cycles.picture import plot_curves, plot_sessions, plot_sides
 from kineme.cycles.sessions import compare_curves, compare_sessions
 from kineme.cycles.sides import compare_sides
 from kineme.cycles.table import Cycles
@@ -38,9 +37,6 @@ __all__ = [
     "foot_events",
     "gait",
     "landmarks",
-    "plot_curves",
-    "plot_sessions",
-    "plot_sides",
     "stands_from_force",
     "stands_from_positions",
     "strides",

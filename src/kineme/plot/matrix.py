@@ -31,10 +31,11 @@ from numpy.typing import NDArray
 from kineme._util.checks import check_path, check_type
 from kineme._util.files import as_display_name, atomic_write
 from kineme.errors import WriteError
+from kineme.plot.timeline import new_axes
 from kineme.segments.colors import NO_CLUSTER, cluster_color, label_colors
+from kineme.segments.html import segment_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
-from kineme.segments.timeline import new_axes, segment_color
 
 if TYPE_CHECKING:
     from kineme.methods.base import Found

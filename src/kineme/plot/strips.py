@@ -15,9 +15,9 @@ from matplotlib.collections import LineCollection
 from kineme._util.arrays import Floats
 from kineme._util.checks import check_type, is_number
 from kineme.errors import ParameterError
+from kineme.plot.timeline import new_axes
 from kineme.recordings import Motion, Signals
 from kineme.segments.colors import cluster_color
-from kineme.segments.timeline import new_axes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -308,7 +308,7 @@ class SegmentTable:
         return f"<SegmentTable of {of}{span}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.timeline import page
+        from kineme.segments.html import page
 
         levels = [self[self.level == level] for level in get_args(Level)]
         return page(repr(self).strip("<>"), levels, self)
