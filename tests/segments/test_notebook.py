@@ -38,7 +38,7 @@ def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None
     bars = page.findall(".//rect")
     colors = {bar.get("fill") for bar in bars}
     labels = label_colors(result)
-    assert colors <= {timeline.segment_color(segment, labels) for segment in result}
+    assert colors <= {html.segment_color(segment, labels) for segment in result}
     assert len(bars) == len(result)
     for table in (result.table, result.activities, result.table[:0]):
         parsed(table._repr_html_())

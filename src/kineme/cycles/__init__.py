@@ -7,7 +7,7 @@ import sys
 from types import ModuleType
 from typing import Any
 
-from kineme.cycles.angles import bend, between, cardan
+from kineme.cycles.angles import bend, cardan, measure_angle
 from kineme.cycles.channels import Channel, channels_of
 from kineme.cycles.contacts import (
     stands_from_force,
@@ -27,7 +27,6 @@ __all__ = [
     "Cycles",
     "Events",
     "bend",
-    "between",
     "cardan",
     "channels_of",
     "compare_curves",
@@ -37,6 +36,7 @@ __all__ = [
     "foot_events",
     "gait",
     "landmarks",
+    "measure_angle",
     "stands_from_force",
     "stands_from_positions",
     "strides",

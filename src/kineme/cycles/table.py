@@ -259,7 +259,11 @@ class Cycles:
             for name in STATISTICS
         }
         lines = [
-            (group, measure, *_described(values[used & (self.columns["group"] == group)], measure))
+            (
+                group,
+                measure,
+                *_describe_values(values[used & (self.columns["group"] == group)], measure),
+            )
             for group in self.groups
             for measure, values in measures.items()
         ]
@@ -415,7 +419,7 @@ def count_confidence(confidence: Floats, borders: Floats) -> float:
     return float(np.nanmin(confidence))
 
 
-def _described(values: Floats, measure: str) -> tuple[float, ...]:
+def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
     """Number, mean, deviation, its share of the mean, median and quartiles; nan where too few."""
     values = values[np.isfinite(values)]
     n = len(values)

@@ -213,13 +213,13 @@ def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
             for row in full
         ]
     inner = [row for row in full if row[0] == "primitive"]
-    tiled = list(_tiled([row for row in full if row[0] == "activity"], n_frames, [], path))
+    tiled = list(_fill_between([row for row in full if row[0] == "activity"], n_frames, [], path))
     if inner:
-        tiled += _tiled(inner, n_frames, [row[2] for row in tiled], path)
+        tiled += _fill_between(inner, n_frames, [row[2] for row in tiled], path)
     return tiled
 
 
-def _tiled(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
+def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
     """Yield the rows of one level in time order, and transitions where there are none."""
     at = 0
     level = rows[0][0] if rows else "activity"

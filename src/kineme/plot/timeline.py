@@ -120,7 +120,7 @@ def compare(
         if not len(table):
             raise ParameterError(f"{name} has no segments of level {level!r}")
     first = rows[shown[0]]
-    tables = [_renumbered(table, matched_clusters(first, table)) for table in rows.values()]
+    tables = [_renumber(table, match_clusters(first, table)) for table in rows.values()]
     labels = label_colors(segment for table in tables for segment in table)
     return draw_timeline(
         rows,
@@ -184,7 +184,7 @@ def _write_label(axes: Axes, segment: Segment, row: int, color: str) -> None:
     )
 
 
-def matched_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
+def match_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
     """For each cluster of one table that of another with which it shares most time, one to one.
 
     Those that share no time with a free cluster are numbered on after those of ``first``.
@@ -216,7 +216,7 @@ def _clusters_at(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[np.
     return np.where(inside, table.cluster[row], -1)
 
 
-def _renumbered(table: SegmentTable, numbers: dict[int, int]) -> list[Segment]:
+def _renumber(table: SegmentTable, numbers: dict[int, int]) -> list[Segment]:
     return [replace(segment, cluster=numbers.get(segment.cluster, -1)) for segment in table]
 
 

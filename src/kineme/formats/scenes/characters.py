@@ -113,7 +113,7 @@ def choose_take(
     Where none is wanted, it is the first of the lively ones, which move a skeleton.
     """
     if name is not None:
-        number = _numbered(names, name)
+        number = _find_take(names, name)
         if number is None:
             shown = join_names(names) or "none"
             raise content.error(f"there is no take {name!r}: choose from {shown}")
@@ -133,7 +133,7 @@ def choose_take(
     return first, [Note(remark, "warning")]
 
 
-def _numbered(names: Sequence[str], name: str) -> int | None:
+def _find_take(names: Sequence[str], name: str) -> int | None:
     """The number of a take, by its name, what follows the armature's in it, or its number."""
     if name in names:
         return names.index(name)

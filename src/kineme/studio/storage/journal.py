@@ -198,7 +198,7 @@ class Journal:
         and the edit is known by its name.
         """
         names = (*self._record.names, name)[-MOST_NAMES:]
-        record = pruned(replace(change.record, revision=revision, names=names))
+        record = prune_steps(replace(change.record, revision=revision, names=names))
         try:
             self._write(record)
             save(change.content)
@@ -268,7 +268,7 @@ def write_record(folder: Path, record: Record) -> None:
     write_file(folder / HISTORY, content)
 
 
-def pruned(record: Record) -> Record:
+def prune_steps(record: Record) -> Record:
     """Return the record without the steps that nothing needs any more."""
     needed = needed_by(record)
     return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})
