@@ -150,7 +150,10 @@ def as_floats(
 
 
 def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64]:
-    """The values as float64 (frames, dims) without gaps in memory; ParameterError unless finite."""
+    """Return the values as float64 (frames, dims) without gaps in memory.
+
+    ParameterError unless finite.
+    """
     # Compiled code is typed for arrays that may be written to, whether it does or not.
     array = np.require(as_floats(values, name), requirements=("C", "W"))
     if array.ndim != 2 or 0 in array.shape:

@@ -46,7 +46,9 @@ Detail = Annotated[
 
 
 def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:
-    """The constants in texts such as ``min_action=2``, checked; each preset takes those it has.
+    """Return the constants in texts such as ``min_action=2``, checked.
+
+    Each preset takes those it has.
 
     typer.BadParameter names what is wrong: a preset, a constant that none has, or its value.
 

@@ -104,7 +104,10 @@ def _likelihoods(rows: Floats, side: Floats) -> Floats:
 
 
 def convert_to_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frames:
-    """The samples nearest to borders in frames, from 0 to n; each segment has one at least."""
+    """Return the samples nearest to borders in frames, from 0 to n.
+
+    Each segment has one at least.
+    """
     nearest = np.rint(frames / (preset.working_fps / preset.rate)).astype(np.int64)
     order = np.arange(len(frames))
     after = np.maximum.accumulate(nearest - order)

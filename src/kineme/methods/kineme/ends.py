@@ -62,7 +62,7 @@ def fitted_ends(
     cuts: Sequence[Frames],
     preset: KinemeConstants,
 ) -> Ends:
-    """The ends of activities where repetitions fit; neighbours do not overlap.
+    """Return the ends of activities where repetitions fit; neighbours do not overlap.
 
     Parameters
     ----------

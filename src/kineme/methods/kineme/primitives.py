@@ -73,7 +73,7 @@ class Segments:
 
     @cached_property
     def firsts(self) -> Frames:
-        """The first primitive of each activity or transition, and the number of primitives."""
+        """First primitive of each activity or transition, and the number of primitives."""
         return np.searchsorted(self.parents, np.arange(len(self.labels) + 1))
 
     @cached_property
@@ -220,7 +220,10 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
 
 
 def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
-    """The share of each segment's repetitions that the mean of the others explains; 0 of one."""
+    """Return the share of each segment's repetitions that the mean of the others explains.
+
+    0 of one.
+    """
     found = np.zeros(len(segments.labels))
 
     def explain(segment: int) -> None:
@@ -235,7 +238,7 @@ def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -
 def _find_repeated(
     rows: Rows, segments: Segments, segment: int, preset: KinemeConstants
 ) -> tuple[Movement, Frames, Floats]:
-    """The span of a segment that repeats, the frames in it at which repetitions begin, and these.
+    """Return the span of a segment that repeats, the frames at which repetitions begin, and these.
 
     Repetitions are (repetitions, places, dims), evenly along their path.
     """

@@ -426,7 +426,7 @@ def link_parts(
 
 
 def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Samples:
-    """The clusters of all parts, where those of different parts may be one: a number for each.
+    """Return clusters of all parts, where those of different parts may be one: a number for each.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ class Views:
 
 
 class Scale(NamedTuple):
-    """The constants of one view; see `KinemeConstants`."""
+    """Constants of one view; see `KinemeConstants`."""
 
     shared: float
     weight: float
@@ -93,7 +93,7 @@ def views_of(
 def append_velocities(
     view: NDArray[np.float32], channels: int, steps: int, weight: float
 ) -> NDArray[np.float32]:
-    """The view and, `weight` times, how its means change from `steps` before to `steps` after.
+    """Return view and, `weight` times, how its means change from `steps` before to `steps` after.
 
     Examples
     --------
@@ -255,7 +255,7 @@ def most_agreed(answers: Sequence[Labels], others: Sequence[Labels] = ()) -> int
 
 
 def mutual_information(first: Labels, second: Labels) -> float:
-    """The mutual information of two clusterings of the same samples, over their mean entropy.
+    """Return mutual information of two clusterings of the same samples, over their mean entropy.
 
     Examples
     --------
