@@ -10,8 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from pkgutil import iter_modules
 
 from kineme._util.checks import Registry
+from kineme.formats import devices
 from kineme.formats.columns import joint_names
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.files import FileContent
@@ -43,7 +45,7 @@ class Dialect:
         Whether ``read`` always returns a motion. Channels are then the columns of the table.
     layout : callable, optional
         From the table as `sniff` finds it to the table as this program means it, such as
-        `kineme.formats.devices.layout.Layout`.
+        `kineme.formats.devices.Layout`.
     """
 
     name: str
@@ -60,24 +62,11 @@ DIALECTS: Registry[Dialect] = Registry(
     "kineme.table_dialects",
     home="kineme.formats",
     builtins=(
-        "devices.actigraph:DIALECT",
-        "devices.axivity:DIALECT",
-        "devices.biostamp:DIALECT",
-        "devices.delsys:DIALECT",
-        "devices.empatica:DIALECT",
-        "devices.geneactiv:DIALECT",
-        "devices.metamotion:DIALECT",
-        "devices.opensignals:DIALECT",
-        "devices.phyphox:DIALECT",
-        "devices.sensor_logger:DIALECT",
-        "devices.sensorlog:DIALECT",
-        "devices.shimmer:DIALECT",
-        "devices.xsens_dot:DIALECT",
-        "devices.xsens_mt_manager:DIALECT",
+        # of each module in the folder
+        *(f"devices.{module.name}:DIALECT" for module in iter_modules(devices.__path__)),
         "markers.capture_tables:NEXUS",
         "markers.capture_tables:MOTIVE",
         "markers.capture_tables:QTM",
-        "devices.freemocap:DIALECT",
         "keypoints.deeplabcut:DIALECT",
         "keypoints.sleap:DIALECT",
         "keypoints.mediapipe_tables:WIDE",

@@ -26,7 +26,7 @@ from kineme._util.checks import format_count
 from kineme._util.files import read_head, read_tail
 from kineme.errors import ReadError
 from kineme.formats.columns import joint_names
-from kineme.formats.dialects import find_table
+from kineme.formats.dialects import find_table, recognise_table
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.label_tables import program_of_labels
@@ -146,7 +146,9 @@ def _is_text_table(path: Path) -> bool:
         return False
     head = read_head(path)
     try:
-        table = find_table(FileContent(path, head[: head.rfind(b"\n") + 1]))
+        table, dialect = recognise_table(FileContent(path, head[: head.rfind(b"\n") + 1]))
+        if dialect:
+            return True
         rows, columns = table.numbers().shape
     except ReadError:
         return False

@@ -1,1 +1,128 @@
-"""Tables of single devices and their programs: one module each, which ends in one `Dialect`."""
+"""Declare how a device lays out its table: the line of names, the clock, the rate, the counters.
+
+A device is one module of this folder that ends in one `Dialect`, ``DIALECT``. Its ``layout`` is a
+`Layout`, or a function from table to table where patterns do not say it all. Patterns are those of
+`re`, and begin where the line or name begins.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+
+from kineme.formats.delimited import DelimitedText, named, separator_of
+from kineme.formats.sniffing import (
+    HIGHEST,
+    SEPARATOR,
+    head_cells,
+    is_row,
+    is_text_line,
+    passed_over,
+)
+
+Recognise = Callable[[Sequence[str], Sequence[str]], bool]
+
+
+def begins_with(pattern: str, *, within: int = 1) -> Recognise:
+    """Return a test of whether one of the first lines of a file begins as a pattern.
+
+    Blank lines and the ``sep=;`` of spreadsheets do not count.
+
+    Examples
+    --------
+    >>> begins_with("DeviceTag:")([], ["sep=,", "DeviceTag:,left"])
+    True
+    """
+    compiled = re.compile(pattern)
+
+    def recognises(_: Sequence[str], lines: Sequence[str]) -> bool:
+        full = (line for line in lines if line.strip() and not SEPARATOR.fullmatch(line))
+        return any(map(compiled.match, islice(full, within)))
+
+    return recognises
+
+
+@dataclass(frozen=True)
+class Layout:
+    r"""Where a device's table stands in its file, and what the columns are.
+
+    Parameters
+    ----------
+    head : str
+        Pattern of the line of names, or of the first row. By default it is the first line.
+    names : sequence of str
+        Of the columns, where a row stands in place of the line of names.
+    words : int
+        Lines between names and rows, such as units.
+    clocks : mapping of str to str
+        From patterns of the column of times to its unit, "" for dates. The first that fits counts.
+    rate : str
+        Pattern of the frame rate, its group, anywhere in the lines above the names.
+    hidden : str
+        Pattern of columns that are channels only where they are asked for, such as counters.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from kineme.formats.files import FileContent
+    >>> from kineme.formats.sniffing import sniff
+    >>> watch = Layout(head="t,", clocks={"t": "ms"}, rate=r"at (\d+) Hz", hidden="battery")
+    >>> text = sniff(FileContent(Path("a.csv"), b"MyWatch at 50 Hz\nt,x,battery\n0,1.5,99\n"))
+    >>> table = watch(text)
+    >>> table.rate, table.times, table.numeric()
+    (50.0, {'t': 'time (ms)'}, ['t', 'x'])
+    """
+
+    head: str = ""
+    names: Sequence[str] = ()
+    words: int = 0
+    clocks: Mapping[str, str] = field(default_factory=dict)
+    rate: str = ""
+    hidden: str = ""
+
+    def __call__(self, text: DelimitedText) -> DelimitedText:
+        """Return the table in the lines of a file; ReadError where its head is not there."""
+        lines, head = text.lines, self._head(text)
+        separator = separator_of(lines[head])
+        # names and rows may end in one more separator
+        cells = head_cells(text.content, lines[head].rstrip(f"{separator} "), "", separator)
+        below = head + 1 + self.words
+        if has_no_names := bool(self.names) and is_row(cells):
+            numbered = map(str, range(len(self.names) + 1, len(cells) + 1))
+            cells, below = [*self.names, *numbered][: len(cells)], head
+        names = named(cells)
+        clocks = self._clocks(names)
+        hidden = {name for name in names if self.hidden and re.fullmatch(self.hidden, name)}
+        passed = sum(map(is_text_line, lines[:head]))
+        return DelimitedText(
+            text.content,
+            lines,
+            names,
+            head,
+            below,
+            separator,
+            rate=self._rate(lines[:head]),
+            notes=passed_over(passed, "rows" if has_no_names else "names"),
+            hidden=frozenset(hidden - clocks.keys()),
+            clocks=clocks,
+        )
+
+    def _head(self, text: DelimitedText) -> int:
+        for i, line in enumerate(islice(text.lines, HIGHEST)):
+            if line.strip() and not SEPARATOR.fullmatch(line) and re.match(self.head, line):
+                return i
+        raise text.content.error("has no line of names where its device writes one")
+
+    def _clocks(self, names: Sequence[str]) -> dict[str, str]:
+        for pattern, unit in self.clocks.items():
+            for name in names:
+                if re.fullmatch(pattern, name):
+                    return {name: unit}
+        return {}
+
+    def _rate(self, lines: Sequence[str]) -> float | None:
+        matches = (re.search(self.rate, line) for line in lines if self.rate)
+        rates = (float(match[1]) for match in matches if match)
+        return next((rate for rate in rates if rate > 0), None)

@@ -17,7 +17,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
 from kineme.formats.channels.reading import ChannelTable, to_signals
 from kineme.formats.delimited import DelimitedText, cells_of, is_number, named
-from kineme.formats.devices.layout import Layout, begins_with
+from kineme.formats.devices import Layout, begins_with
 from kineme.formats.dialects import Dialect
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Signals

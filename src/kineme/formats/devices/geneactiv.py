@@ -9,7 +9,7 @@ import re
 from dataclasses import replace
 
 from kineme.formats.delimited import DelimitedText
-from kineme.formats.devices.layout import Layout, begins_with
+from kineme.formats.devices import Layout, begins_with
 from kineme.formats.dialects import Dialect
 
 _THOUSANDTHS = re.compile(r"(?<=^....-..-.. ..:..:..):(?=\d{3},)")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kineme.formats.devices.layout import Layout, begins_with
+from kineme.formats.devices import Layout, begins_with
 from kineme.formats.dialects import Dialect
 
 _CLOCK = r"\w+Timestamp_since(?:Reboot|1970)\(s\)"

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kineme.formats.delimited import DelimitedText, cells_of, separator_of
-from kineme.formats.devices.layout import Layout, begins_with
+from kineme.formats.devices import Layout, begins_with
 from kineme.formats.dialects import Dialect
 
 _OTHERS = r".*(?:Timestamp|Battery|Packet_Reception|Event_Marker).*"
