@@ -1,4 +1,4 @@
-"""Where a table begins in a file of text, as loggers, devices and spreadsheets leave it.
+"""Find where a table begins in a file of text that no device claims, see `kineme.formats.devices`.
 
 - Above the names there may be blank lines, lines that begin with ``#``, the ``sep=;`` of
   spreadsheets, a header that ends in ``endheader``, and lines on the device and the recording. One

@@ -1,8 +1,7 @@
 """Declare how a device lays out its table: the line of names, the clock, the rate, the counters.
 
 A device is one module of this folder that ends in one `Dialect`, ``DIALECT``. Its ``layout`` is a
-`Layout`, or a function from table to table where patterns do not say it all. Patterns are those of
-`re`, and begin where the line or name begins.
+`Layout`, or a function from table to table where patterns do not say it all.
 """
 
 from __future__ import annotations
@@ -51,17 +50,18 @@ class Layout:
     Parameters
     ----------
     head : str
-        Pattern of the line of names, or of the first row. By default it is the first line.
+        Pattern that the line of names, or the first row, begins with; by default the first line.
     names : sequence of str
         Of the columns, where a row stands in place of the line of names.
     words : int
         Lines between names and rows, such as units.
     clocks : mapping of str to str
-        From patterns of the column of times to its unit, "" for dates. The first that fits counts.
+        From patterns of the name of the column of times to its unit, "" for dates. The first that
+        a column has counts.
     rate : str
-        Pattern of the frame rate, its group, anywhere in the lines above the names.
+        Pattern whose group is the frame rate, anywhere in the lines above the names.
     hidden : str
-        Pattern of columns that are channels only where they are asked for, such as counters.
+        Pattern of names of columns that are channels only if they are asked for, such as counters.
 
     Examples
     --------
