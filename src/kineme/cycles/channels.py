@@ -280,7 +280,7 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     for side, shoulder in zip(SIDES, shoulders, strict=True):
         elbow = joints.get(f"{side}_elbow")
         if elbow is not None:
-            compute = partial(_raise_error, places, shoulder, elbow, hips, shoulders)
+            compute = partial(_measure_arm_raise, places, shoulder, elbow, hips, shoulders)
             add(f"shoulder_{side[0]}", DEGREES, ANGLE, ["against the trunk", shoulder, elbow],
                 compute)  # fmt: skip
     for name, sideways in (("trunk_lean", False), ("trunk_side", True)):
@@ -357,7 +357,7 @@ def _against_trunk(
     )
 
 
-def _raise_error(
+def _measure_arm_raise(
     places: Floats, shoulder: int, elbow: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
     return measure_angle(places[:, elbow] - places[:, shoulder], -_trunk(places, hips, shoulders))

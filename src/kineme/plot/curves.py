@@ -141,7 +141,8 @@ def plot_sessions(
     Examples
     --------
     >>> import kineme
-    >>> from kineme.cycles import compare_curves, plot_sessions
+    >>> from kineme.cycles import compare_curves
+    >>> from kineme.plot import plot_sessions
     >>> from kineme.datasets import bundled_truth
     >>> from matplotlib.figure import Figure
     >>> motion = kineme.read(kineme.bundled_recording())
