@@ -5,6 +5,7 @@
 ========================== ==========================================================
 README.md, results.md      measured figures, from ``figures.json``
 segments.md, segments.schema.json  columns of the segment table, from `Segment`
+library.md                 columns of the tables of a library, from the tables
 parameters.md              constants of the presets, from the presets
 ========================== ==========================================================
 
@@ -24,6 +25,7 @@ from typing import Any, NamedTuple
 
 import kineme
 from kineme.labels.json_table import INDEPENDENT, SCHEMA
+from kineme.library.storage.tables import DESCRIBED
 from kineme.methods import Preset
 from kineme.segments.table import COLUMNS, Column, lacking
 
@@ -353,6 +355,20 @@ def columns_table() -> str:
     return markdown_table(rows)
 
 
+def library_tables() -> str:
+    """Return the columns of each table of a library, without those of the segment table."""
+    parts = []
+    for name, columns in DESCRIBED.items():
+        rows = [[f"`{name}`", "type", "meaning"]]
+        for column, described in columns.items():
+            is_known = name == "segments" and column in COLUMNS
+            if not is_known:
+                kind = "32 numbers" if column == "embedding" else TYPES[described.type]
+                rows.append([f"`{column}`", kind, described.meaning])
+        parts.append(markdown_table(rows))
+    return "\n\n".join(parts)
+
+
 def constants_table(method: str) -> str:
     """Return a row for each constant of a method's presets, with the first clause of its help."""
     presets: list[Preset] = [each for each in kineme.PRESETS.values() if each.method == method]
@@ -483,6 +499,7 @@ FILLS: dict[Path, tuple[str, Fill]] = {
     HERE.parent / "README.md": ("figures", lambda _: readme_table(_figures())),
     HERE / "results.md": ("figures", lambda _: results_tables(_figures())),
     HERE / "segments.md": ("columns", lambda _: columns_table()),
+    HERE / "library.md": ("tables", lambda _: library_tables()),
     HERE / "parameters.md": ("constants", constants_table),
 }
 """For each page the word in its comments, and what makes a table from the word behind that."""
