@@ -76,8 +76,8 @@ RESULTS = (
         "Subject 86 under the fair and the published scores",
         {f"subject_86.{name}": name for name in ("kineme", "voegele2014", "krueger2017")}
         | {
-            "subject_86.aca": "aca, as published",
-            "subject_86.haca": "haca, as published",
+            "subject_86.aca": "aca, mean of five runs",
+            "subject_86.haca": "haca, mean of five runs",
             "subject_86.means": "the annotators' mean borders, no transitions",
             "subject_86.spans": "the annotators' spans",
             "subject_86.uniform": "uniform cuts",
@@ -232,7 +232,7 @@ RESULTS = (
         "contacts",
         "Foot contacts by gyroscopes",
         {"fitting": "recordings without lost samples", "all": "all"},
-        {"f1_all": "F1", "exact": "strides counted exactly", "within_one": "within one"},
+        {"f1_all": "F1", "exact": "feet counted exactly", "within_one": "within one"},
     ),
     FigureTable(
         "search",
@@ -257,8 +257,9 @@ RESULTS = (
         {"": "recordings used in development", "others": "other recordings"},
         {
             "groups": "movements",
-            "seam": "step over the seam / largest step of the recording",
-            "above": "seams above it",
+            "first": "the first is the best, within a tenth",
+            "seam": "largest step over a seam / largest step inside",
+            "above": "seams above the recording's 95 % quantile",
         },
     ),
     FigureTable(
