@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._rotations import to_euler_zyx
+from kineme._util.rotations import to_euler_zyx
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
 

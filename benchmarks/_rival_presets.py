@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.presets import register
-from kineme.methods.segments import by_first_appearance
+from kineme.methods.segments import number_by_appearance
 from kineme_reproduction.baselines.constants import ClassCountConstants
 from kineme_reproduction.baselines.presets import BaselinePreset
 from kineme_reproduction.baselines.segments import Segments, unclustered
@@ -52,7 +52,7 @@ class ClapPreset(RivalPreset):
         found = AgglomerativeCLaPDetection().fit(features, change_points=cuts)
         states = np.unique(found.get_segment_labels(), return_inverse=True)[1]
         cuts = np.asarray(found.get_change_points(), np.int64)
-        return Segments(cuts, by_first_appearance(states), len(features))
+        return Segments(cuts, number_by_appearance(states), len(features))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +81,7 @@ class HiddenMarkovPreset(ClassCountConstants, RivalPreset):
         model = GaussianHMMDetector(n_states=self.required_classes(), random_state=self.seed)
         states = np.asarray(model.fit_predict(features), np.int64)
         cuts = np.flatnonzero(np.diff(states)) + 1
-        return Segments(cuts, by_first_appearance(states[np.append(0, cuts)]), len(features))
+        return Segments(cuts, number_by_appearance(states[np.append(0, cuts)]), len(features))
 
 
 def grouped(cuts: Ints, features: Floats, n_classes: int) -> Segments:
@@ -93,7 +93,7 @@ def grouped(cuts: Ints, features: Floats, n_classes: int) -> Segments:
     parts = np.split(features, cuts)
     shapes = np.array([np.append(part.mean(axis=0), part.std(axis=0)) for part in parts])
     joined = fcluster(linkage(shapes, "ward"), n_classes, "maxclust")
-    return Segments(cuts, by_first_appearance(joined - 1), len(features))
+    return Segments(cuts, number_by_appearance(joined - 1), len(features))
 
 
 RIVALS = (

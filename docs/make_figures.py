@@ -17,14 +17,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 import kineme
-from kineme._colors import PALETTE, cluster_color
 from kineme.datasets import bundled_truth
-from kineme.graph import component_labels
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.kineme.preset import KINEME
+from kineme.methods.prepare import compute_motion_features
 from kineme.methods.region_growing.preset import KRUEGER2017
 from kineme.methods.region_growing.preset import VOEGELE2014 as PRESET
 from kineme.methods.region_growing.primitives import primitive_cuts
+from kineme.methods.region_growing.warping import component_labels
 from kineme.plot.matrix import (
     BORDER,
     INK,
@@ -32,7 +32,7 @@ from kineme.plot.matrix import (
     plot_matrix,
     similarity_image,
 )
-from kineme.segmentation.bodies import motion_features
+from kineme.segments.colors import PALETTE, cluster_color
 
 IMAGES = Path(__file__).parent / "images"
 EFFECTORS = ("left ankle", "right ankle", "head", "left wrist", "right wrist")
@@ -54,7 +54,7 @@ def main() -> None:
     _save(figure, "features")
 
     figure = _figure(8, 3)
-    draw_visits(figure.add_subplot(), motion_features(motion, KINEME), found)
+    draw_visits(figure.add_subplot(), compute_motion_features(motion, KINEME), found)
     _save(figure, "repetitions")
 
     figure = _figure(8, 3.6)
@@ -108,7 +108,7 @@ def draw_visits(axes: Axes, features: np.ndarray, found: KinemeFound) -> None:
 
 def draw_bundling(pair: np.ndarray, motion: kineme.Motion, segments: kineme.Segmentation) -> None:
     """The features' path, a cluster in a colour, on their two widest axes."""
-    plain = motion_features(motion, KRUEGER2017)
+    plain = compute_motion_features(motion, KRUEGER2017)
     center = plain.mean(axis=0)
     axes = np.linalg.svd(plain - center, full_matrices=False)[2][:2].T
     for panel, features, title in zip(

@@ -24,7 +24,7 @@ from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 import kineme
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme.datasets import Action, bundled_truth, synthesize
 from kineme.recordings import Skeleton
 from kineme.recordings.operations import move, turn

@@ -44,7 +44,8 @@ ROOMS = {
         "`Motion` and `Signals` behind one protocol; kinematics; motions from motions", "errors"
     ),
     "segments": Room(
-        "the segment table, `Segmentation`, its editing and history, whoever found it", "errors"
+        "the segment table, `Segmentation`, its editing and history, whoever found it",
+        "recordings",
     ),
     "formats": Room("recordings from files and back: one registry, one `read`", "recordings"),
     "features": Room(
@@ -53,42 +54,38 @@ ROOMS = {
         "different people match",
         "recordings",
     ),
-    "graph": Room("`NeighborGraph`, `WarpingPaths` from arrays", "errors"),
-    "matching": Room("where features are like those of an example", ""),
     "methods": Room(
-        "presets, and what their methods find in arrays: `kineme`, `region_growing`",
-        "features.bundling features.channels graph",
+        "`segment()` and `Segmenter`: recording → features → method → `Segmentation`; presets, "
+        "and what their methods find in arrays: `kineme`, `region_growing`",
+        "features recordings segments",
     ),
-    "segmentation": Room(
-        "`segment()`: recording → features → method → `Segmentation`; `Segmenter`",
-        "features graph methods recordings segments",
+    "labels": Room(
+        "segment tables from files and back: one registry", "formats recordings segments"
     ),
-    "labels": Room("segment tables from files and back: one registry", "formats segments"),
     "cycles": Room(
         "`cycles()`: each repetition measured, mean curves, foot contacts",
         "features labels recordings segments",
     ),
-    "plot": Room("pictures, each on given axes", "graph methods recordings segmentation segments"),
     "clips": Room(
         "a file per segment, loops that close, ranked; manifests of them",
         "cycles features formats labels recordings segments",
     ),
     "interop": Room(
         "segments and recordings as other libraries have them",
-        "formats labels methods recordings segmentation segments",
+        "formats labels methods recordings segments",
     ),
     "transfer": Room(
         "`KnowledgeBase`; labels and cluster numbers for other recordings",
-        "features formats matching recordings segments",
+        "features formats recordings segments",
     ),
     "synthesis": Room(
         "`MotionGraph`, routes through it, new motion from them",
-        "features formats graph methods recordings segmentation segments transfer",
+        "features formats methods recordings segments transfer",
     ),
+    "plot": Room("pictures, each on given axes", "cycles methods recordings segments synthesis"),
     "library": Room(
         "collections of recordings, segmented once, with clusters in common, searched by example",
-        "clips features formats labels matching methods plot recordings segmentation segments "
-        "transfer",
+        "clips features formats labels methods plot recordings segments transfer",
     ),
     "datasets": Room(
         "recordings with known truth, the bundled one among them; CMU's, fetched",
@@ -96,7 +93,7 @@ ROOMS = {
     ),
     "evaluation": Room(
         "scores of any result against any truth, and of methods over a folder",
-        "datasets features formats labels methods recordings segmentation segments transfer",
+        "datasets features formats labels methods recordings segments transfer",
     ),
     "web": Room(
         "sources of the pages, the built pages, and what they are told",
@@ -104,35 +101,19 @@ ROOMS = {
     ),
     "report": Room(
         "one page of HTML that shows a recording, or compares two sessions",
-        "cycles features segments web",
+        "cycles features plot segments web",
     ),
     "studio": Room(
         "a local server and its page: recordings looked at, tables corrected and kept",
         "clips datasets evaluation features formats labels library methods recordings report "
-        "segmentation segments transfer web",
+        "segments transfer web",
     ),
     "cli": Room("commands, each imported when it is asked for", "*"),
 }
-# Helpers beside the rooms: what each may import; any room may import them.
-HELPERS = {
-    "_arrays": set(),
-    "_checks": {"errors"},
-    "_clock": {"_checks", "errors"},
-    "_colors": set(),
-    "_counts": set(),
-    "_compiled": set(),
-    "_files": {"errors"},
-    "_interpolation": set(),
-    "_json": {"_files", "errors"},
-    "_processes": {"_threads"},
-    "_registry": {"_checks", "errors"},
-    "_rotations": set(),
-    "_threads": set(),
-    "_version": set(),
-    "_xml": set(),
-}
-# From the graph on nothing knows what a skeleton is; bundling takes any curve.
-PLAIN = {"graph", "methods"}
+UTIL = {"_util", "_version"}
+"""What any room may import; `_util` itself imports errors alone."""
+KNOW_RECORDINGS = {"prepare", "segmenter", "estimator"}
+"""Modules of `methods` that take recordings; the others take arrays. Bundling takes any curve."""
 ON_ARRAYS = ("kineme.features.bundling", "kineme.features.channels")
 
 
@@ -185,7 +166,7 @@ def table() -> str:
 
 def test_every_room_is_in_the_plan() -> None:
     found = {room(module) for module in MODULES} - {"__init__", "__main__"}
-    assert found == ROOMS.keys() | HELPERS.keys()
+    assert found == ROOMS.keys() | UTIL
 
 
 @pytest.mark.parametrize("name", ROOMS)
@@ -195,7 +176,7 @@ def test_a_room_imports_only_what_the_plan_says(name: str) -> None:
         for module in MODULES
         if room(module) == name
         for target in IMPORTS[module]
-        if room(target) not in allowed(name) | {name} | HELPERS.keys()
+        if room(target) not in allowed(name) | {name} | UTIL
     }
     assert not wrong
 
@@ -213,10 +194,10 @@ def test_arrows_point_up_the_plan() -> None:
             assert allowed(name) <= set(order[: order.index(name) + 1])
 
 
-@pytest.mark.parametrize("name", HELPERS)
-def test_helpers_stand_alone(name: str) -> None:
-    # Aliases of types are everybody's.
-    assert {room(target) for target in IMPORTS[f"kineme.{name}"]} - {"_arrays"} <= HELPERS[name]
+def test_helpers_stand_alone() -> None:
+    found = {room(t) for m in MODULES if room(m) == "_util" for t in IMPORTS[m]}
+    assert found <= {"_util", "errors"}
+    assert len(list((ROOT / "_util").glob("[!_]*.py"))) <= 6
 
 
 def test_nobody_imports_the_command_line() -> None:
@@ -229,17 +210,17 @@ def test_nobody_imports_the_command_line() -> None:
     assert not wrong
 
 
-def test_from_the_graph_on_nothing_knows_what_a_skeleton_is() -> None:
+def test_methods_do_not_know_what_a_skeleton_is() -> None:
     wrong = {
         (module, target)
         for module in MODULES
-        if room(module) in PLAIN
+        if room(module) == "methods" and module.rsplit(".", 1)[-1] not in KNOW_RECORDINGS
         for target in IMPORTS[module]
         if room(target) in {"recordings", "formats", "features"} and target not in ON_ARRAYS
     }
     assert not wrong
     for module in ON_ARRAYS:
-        assert {room(target) for target in IMPORTS[module]} <= {"errors", "features", *HELPERS}
+        assert {room(target) for target in IMPORTS[module]} <= {"errors", "features", *UTIL}
 
 
 def test_no_modules_import_each_other_in_a_circle() -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from kineme import _compiled
+from kineme._util import parallel as _compiled
 
 NOBODY_WRITES = "import os; os.access = lambda *_, **__: False\n"
 NO_HOME = {"HOME": os.devnull, "XDG_CACHE_HOME": os.devnull}
@@ -48,12 +48,12 @@ def test_a_place_that_is_there_or_named_is_left_as_it_is(tmp_path: Path) -> None
 
 def test_it_is_said_once_that_code_is_compiled_and_not_when_it_is_loaded(tmp_path: Path) -> None:
     (tmp_path / "kernels.py").write_text(
-        "from numba import njit\nimport kineme._compiled as c\n"
+        "from numba import njit\nimport kineme._util.parallel as c\n"
         "one, other = (njit('i8(i8)', **c.OPTIONS)(f) for f in (lambda n: n, lambda n: n + 1))"
     )
     code = (
-        f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import kineme._compiled as c\n"
-        "with c.telling_of_compiling(print): import kernels"
+        f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import kineme._util.parallel as c\n"
+        "with c.announce_compilation(print): import kernels"
     )
     kept = {"NUMBA_CACHE_DIR": str(tmp_path / "kept")}
     assert run(code, tmp_path, **kept) == _compiled.COMPILING

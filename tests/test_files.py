@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from kineme import _files
-from kineme._files import atomic_folder, atomic_write
+from kineme._util import files as _files
+from kineme._util.files import atomic_folder, atomic_write
 from kineme.errors import WriteError
 
 HOUR = 3600

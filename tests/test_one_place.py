@@ -20,7 +20,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from kineme.graph import neighbor_graph
+from kineme.methods.region_growing.neighbors import neighbor_graph
 from kineme.methods import Preset, constant
 from kineme.methods.constants import Limits
 

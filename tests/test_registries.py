@@ -9,7 +9,7 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 
-from kineme._registry import Registry
+from kineme._util.checks import Registry
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.evaluation.score import SCORES
 from kineme.formats.dialects import DIALECTS

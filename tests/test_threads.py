@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kineme._threads import asking, even_slices, map_threads
+from kineme._util.parallel import cancellable, make_even_slices, map_threads
 
 
 @given(st.integers(0, 5000))
 def test_slices_are_all_of_a_range_once(n: int) -> None:
-    parts = even_slices(n)
+    parts = make_even_slices(n)
     assert [i for part in parts for i in range(n)[part]] == list(range(n))
     assert all(part.start < part.stop for part in parts)
 
@@ -38,7 +38,7 @@ def test_work_asks_whether_to_go_on_in_whichever_thread() -> None:
     def all_below(n: int) -> int:
         return sum(map_threads(abs, range(n)))
 
-    with asking(ask), pytest.raises(TimeoutError):
+    with cancellable(ask), pytest.raises(TimeoutError):
         map_threads(all_below, range(100))
     assert len(asked) < 300  # of thousands: what had not begun asks once
     map_threads(all_below, range(100))  # nobody asks any more
@@ -47,7 +47,7 @@ def test_work_asks_whether_to_go_on_in_whichever_thread() -> None:
 
 INTERRUPTED = """
 import threading
-from kineme._threads import map_threads
+from kineme._util.parallel import map_threads
 
 started = threading.Thread.start
 
@@ -71,7 +71,7 @@ TWO_IMPORTS = """
 import sys, threading, time, faulthandler
 
 faulthandler.dump_traceback_later(100, exit=True)
-from kineme._compiled import telling_of_compiling
+from kineme._util.parallel import announce_compilation
 
 begun = threading.Event()
 
@@ -87,12 +87,12 @@ class Pause:
 
 def announce():
     begun.wait()
-    with telling_of_compiling(print):
-        import kineme.matching._kernels
+    with announce_compilation(print):
+        import kineme.transfer._kernels
 
 
 def compute():
-    import kineme.graph._kernels
+    import kineme.methods.region_growing._neighbor_kernels
 
 
 sys.meta_path.insert(0, Pause())

@@ -30,8 +30,8 @@ from _figures import add_option, record
 from _measure import verdict
 from _options import QUICK, command_line, few, needed
 from kineme.methods.base import Preset
+from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
-from kineme.segmentation.bodies import motion_features
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 NOISE = 0.02  # of the spread of the features
@@ -43,7 +43,7 @@ def features_of(preset: Preset, hours: float) -> NDArray[np.float64]:
     folder = needed("cmu86")
     once = np.concatenate(
         [
-            motion_features(kineme.read(folder / f"{trial}.amc"), preset)
+            compute_motion_features(kineme.read(folder / f"{trial}.amc"), preset)
             for trial in few(TRIALS, TRIALS[:1])
         ]
     )

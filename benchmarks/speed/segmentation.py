@@ -24,9 +24,9 @@ from _figures import add_option, record
 from _measure import interleaved, verdict
 from _options import DATA, command_line, few, needed
 from kineme.methods.base import Preset
+from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.methods.region_growing.preset import KRUEGER2017
-from kineme.segmentation.bodies import motion_features
 
 PLAIN = KRUEGER2017.replace(bundling=None, radius=0.302 * math.sqrt(5))
 MEASURED = {DEFAULT: PRESETS[DEFAULT], **PUBLISHED, "krueger2017, not bundled": PLAIN}
@@ -46,7 +46,7 @@ def main() -> None:
     stages: dict[str, dict[str, list[float]]] = {name: defaultdict(list) for name in MEASURED}
     works = {}
     for name, preset in MEASURED.items():
-        features = motion_features(motion, preset).astype(np.float32)
+        features = compute_motion_features(motion, preset).astype(np.float32)
         copy = features.copy()
 
         def whole(name: str = name, preset: Preset = preset) -> None:

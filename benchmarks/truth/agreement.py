@@ -32,10 +32,10 @@ import kineme
 from _figures import add_option, record
 from _options import DATA, command_line, few, needed
 from kineme.features import mirror_features
+from kineme.methods.prepare import compute_motion_features
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
-from kineme.segmentation.bodies import motion_features
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 LEVELS = ("activities", "primitives", "clusters")
@@ -101,7 +101,7 @@ def compare(data: Path, configuration: str, trial: str) -> dict[str, Agreement]:
         with np.load(data / "cmu86" / "reference" / f"2017_bundled_{trial}.npz") as stored:
             features = stored["features"].T / 100.0
     else:
-        features = motion_features(kineme.read(data / "cmu86" / f"{trial}.amc"), preset)
+        features = compute_motion_features(kineme.read(data / "cmu86" / f"{trial}.amc"), preset)
     found = analyze_regions(features, preset, mirror=mirror_features)
     activities = set((found.activity_cuts.all + 1).tolist())
     inner = set((found.primitives[1:-1] + 1).tolist()) - activities

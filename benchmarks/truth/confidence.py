@@ -43,8 +43,8 @@ from _recordings import (
 from _sources import NEAR_S, session_recordings
 from kineme.methods.base import Columns
 from kineme.methods.kineme.found import KinemeFound
+from kineme.methods.segmenter import segment_and_found
 from kineme.recordings import Motion, Signals
-from kineme.segmentation.segmenter import segment_and_found
 from sets import READING
 
 Floats = NDArray[np.float64]

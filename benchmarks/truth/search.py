@@ -24,7 +24,7 @@ from _options import command_line, few
 from _sources import PERSON, of_bodies
 from kineme.features.canonical import MATCHING_FPS, matching_features, mirrored_features
 from kineme.library.searching import spans_like
-from kineme.matching import THRESHOLD, Matches
+from kineme.transfer.subsequences import THRESHOLD, Matches
 
 Features = NDArray[np.float32]
 

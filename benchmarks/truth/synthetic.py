@@ -22,7 +22,7 @@ from _figures import add_option, record
 from _options import command_line, few
 from kineme.datasets import random_recording
 from kineme.methods.presets import DEFAULT, PUBLISHED
-from kineme.segmentation.segmenter import segment
+from kineme.methods.segmenter import segment
 from kineme.segments.segmentation import Segmentation
 
 TOLERANCE_S = 0.25

@@ -25,8 +25,8 @@ from typing import Any, Literal, TypedDict
 
 import numpy as np
 
-from kineme._arrays import Ints
-from kineme._json import loaded
+from kineme._util.arrays import Ints
+from kineme._util.json import load_json
 from kineme.errors import ReadError
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.frames import one_to_one_accuracy
@@ -98,7 +98,7 @@ def _by_name(name: str, trial: Trial) -> Segmentation:
 
 
 def _by_preset(preset: Preset, trial: Trial) -> Segmentation:
-    from kineme.segmentation.segmenter import segment
+    from kineme.methods.segmenter import segment
 
     return segment(trial.motion, preset=preset)
 
@@ -216,7 +216,7 @@ def score_published_cuts(folder: Path) -> list[PublishedCuts]:
     truths = read_truths(folder)
     if not path.exists():
         raise ReadError(path, "no published cuts here: there is no such file")
-    stored = loaded(path, _Stored)
+    stored = load_json(path, _Stored)
     try:
         return [
             _published_cuts(method, trial, truth, stored)

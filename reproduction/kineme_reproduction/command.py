@@ -8,8 +8,8 @@ from typing import Any
 
 import typer
 
-from kineme._counts import counted
-from kineme._files import atomic_write
+from kineme._util.checks import format_count
+from kineme._util.files import atomic_write
 from kineme.cli.messages import progress
 from kineme.cli.tables import show_scores
 from kineme.errors import ParameterError, WriteError
@@ -65,7 +65,7 @@ def _show(results: list[Result]) -> None:
     for trial, columns in by_trial.items():
         show_scores(trial, columns)
     if len(by_trial) > 1:
-        show_scores(f"mean of {counted(len(by_trial), 'trial')}", mean_scores(results))
+        show_scores(f"mean of {format_count(len(by_trial), 'trial')}", mean_scores(results))
 
 
 def _draw(

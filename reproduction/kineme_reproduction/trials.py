@@ -50,10 +50,10 @@ class Trial:
     @cached_property
     def features(self) -> Floats:
         """The 45 stacked features of Vögele et al. 2014 (frames, 45) at 30 Hz, metres."""
+        from kineme.methods.prepare import compute_motion_features
         from kineme.methods.region_growing.preset import VOEGELE2014
-        from kineme.segmentation.bodies import motion_features
 
-        return motion_features(self.motion, VOEGELE2014)
+        return compute_motion_features(self.motion, VOEGELE2014)
 
 
 def find_folder(data: str | PathLike[str] | None = None) -> Path:

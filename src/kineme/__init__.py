@@ -12,7 +12,7 @@ Every public name is importable from here; each is loaded when first used.
 
 import lazy_loader
 
-from kineme._compiled import find_cache
+from kineme._util.parallel import find_cache
 from kineme._version import __version__
 
 find_cache()

@@ -113,18 +113,6 @@ from .formats import (
 from .formats import (
     write as write,
 )
-from .graph import (
-    NeighborGraph as NeighborGraph,
-)
-from .graph import (
-    WarpingPaths as WarpingPaths,
-)
-from .graph import (
-    neighbor_graph as neighbor_graph,
-)
-from .graph import (
-    warping_paths as warping_paths,
-)
 from .labels import (
     read_segments as read_segments,
 )
@@ -142,6 +130,30 @@ from .methods import (
 )
 from .methods import (
     Preset as Preset,
+)
+from .methods.estimator import (
+    Segmenter as Segmenter,
+)
+from .methods.region_growing.neighbors import (
+    NeighborGraph as NeighborGraph,
+)
+from .methods.region_growing.neighbors import (
+    neighbor_graph as neighbor_graph,
+)
+from .methods.region_growing.warping import (
+    WarpingPaths as WarpingPaths,
+)
+from .methods.region_growing.warping import (
+    warping_paths as warping_paths,
+)
+from .methods.segmenter import (
+    analyze as analyze,
+)
+from .methods.segmenter import (
+    segment as segment,
+)
+from .methods.segmenter import (
+    segment_and_found as segment_and_found,
 )
 from .plot import (
     compare as compare,
@@ -178,18 +190,6 @@ from .recordings.operations import (
 )
 from .report.page import (
     write_report as write_report,
-)
-from .segmentation.estimator import (
-    Segmenter as Segmenter,
-)
-from .segmentation.segmenter import (
-    analyze as analyze,
-)
-from .segmentation.segmenter import (
-    segment as segment,
-)
-from .segmentation.segmenter import (
-    segment_and_found as segment_and_found,
 )
 from .segments.segmentation import (
     Segmentation as Segmentation,

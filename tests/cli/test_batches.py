@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import kineme as package
-from kineme import _files
+from kineme._util import files as _files
 from kineme.cli.options.targets import files_for
 from kineme.datasets import bundled_recording
 from kineme.recordings.operations import cut

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
-from kineme import _rotations as rot
+from kineme._util import rotations as rot
 from kineme.cycles import (
     foot_events,
     gait,

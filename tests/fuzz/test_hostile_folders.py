@@ -24,7 +24,7 @@ import pytest
 from starlette.testclient import TestClient
 from typer.testing import CliRunner
 
-from kineme._files import is_draft
+from kineme._util.files import is_draft
 from kineme.cli.app import app
 from kineme.library import build
 from kineme.studio.app import create_app

@@ -6,7 +6,8 @@ import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from kineme.graph import BASIC_STEPS, NeighborGraph, WarpingPaths
+from kineme.methods.region_growing.neighbors import NeighborGraph
+from kineme.methods.region_growing.warping import BASIC_STEPS, WarpingPaths
 
 Pairs = dict[tuple[int, int], np.float32]
 

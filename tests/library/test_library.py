@@ -23,8 +23,8 @@ from kineme.library.descriptions import describe
 from kineme.library.settings import VOCABULARY
 from kineme.library.storage.layout import as_column
 from kineme.library.storage.tables import DESCRIBED
-from kineme.matching import THRESHOLD
 from kineme.segments.table import COLUMNS
+from kineme.transfer.subsequences import THRESHOLD
 
 
 def test_columns_are_those_described(library: Library) -> None:

@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from kineme._colors import NO_CLUSTER, PALETTE, cluster_color
 from kineme.errors import WriteError
-from kineme.graph import NeighborGraph, neighbor_graph
+from kineme.methods.region_growing.neighbors import NeighborGraph, neighbor_graph
 from kineme.plot import matrix, plot_matrix, plot_segmentation, similarity_image
+from kineme.segments.colors import NO_CLUSTER, PALETTE, cluster_color
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from kineme import _rotations as rot
+from kineme._util import rotations as rot
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import forward_kinematics, local_translations, world_rotations

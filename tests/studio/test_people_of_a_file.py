@@ -11,7 +11,7 @@ from studio_clients import Studio
 from typer.testing import CliRunner
 
 import kineme
-from kineme import _json
+from kineme._util import json as _json
 from kineme.cli.app import app
 from kineme.cli.studio import _tell_apart
 from kineme.studio.reading import ReadingOptions
@@ -118,7 +118,7 @@ def test_the_side_file_of_people_is_read_once_for_a_list(duet: Studio, monkeypat
 
     def loaded(path: Path, shape: Any) -> Any:
         read.append(path)
-        return _json.loaded(path, shape)
+        return _json.load_json(path, shape)
 
     monkeypatch.setattr(sidecars, "loaded", loaded)
     assert [each.person for each in sidecars.listed_in([duet.path])] == ["Anna", "Bob"]

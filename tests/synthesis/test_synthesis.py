@@ -10,7 +10,7 @@ import pybvh
 import pytest
 
 import kineme
-from kineme import _rotations as rot
+from kineme._util import rotations as rot
 from kineme.errors import ParameterError
 from kineme.features import end_effectors
 from kineme.recordings import Motion

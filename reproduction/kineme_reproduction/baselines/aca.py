@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.linalg import eigsh
 
-from kineme._threads import go_on
+from kineme._util.parallel import check_cancelled
 from kineme.errors import ParameterError
 from kineme_reproduction.baselines._kernels import (
     cheapest_lengths,
@@ -94,7 +94,7 @@ def initial_states(
     """States from spectral clustering of the propagated kernel, one per start."""
     embedding = spectral_embedding(propagate(kernel, lengths[1]), n_classes)
     for _ in range(starts):
-        go_on()
+        check_cancelled()
         labels = tightest_clusters(embedding, n_classes, preset.kmeans_starts, random)
         yield majority_segments(labels, n_classes, *lengths)
 
@@ -147,7 +147,7 @@ def improve(
     found: list[State] = []
     alignments: dict[tuple[int, int], Floats] = {}
     for _ in range(preset.searches):
-        go_on()
+        check_cancelled()
         spans = [(int(a), int(b)) for a, b in pairwise(state.borders)]
         alignments = {
             span: alignments[span]

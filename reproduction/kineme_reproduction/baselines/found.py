@@ -13,7 +13,7 @@ from kineme.methods.base import Columns
 from kineme_reproduction.baselines.segments import Segments
 
 if TYPE_CHECKING:
-    from kineme.graph import NeighborGraph
+    from kineme.methods.region_growing.neighbors import NeighborGraph
 
 # For pictures: neighbours per sample at most, and the pairs that tell how far samples lie apart.
 PICTURED, PAIRS = 128, 2000
@@ -50,7 +50,7 @@ class SegmentsFound:
     @cached_property
     def graph(self) -> NeighborGraph:
         """Neighbours of every sample, for pictures: the nearest tenth of all pairs."""
-        from kineme.graph import neighbor_graph
+        from kineme.methods.region_growing.neighbors import neighbor_graph
 
         n = len(self.features)
         first, second = np.random.default_rng(0).integers(0, n, (2, PAIRS))

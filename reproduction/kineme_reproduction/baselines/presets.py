@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import as_features
+from kineme._util.checks import as_features
 from kineme.methods.base import Mirror
 from kineme_reproduction.baselines.constants import (
     AcaConstants,

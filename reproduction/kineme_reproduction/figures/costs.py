@@ -17,13 +17,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from kineme._colors import PALETTE
 from kineme.evaluation.score import evaluate_segmentation
+from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.preset import RegionGrowingPreset
-from kineme.segmentation.bodies import motion_features
-from kineme.segmentation.segmenter import segment
+from kineme.methods.segmenter import segment
+from kineme.segments.colors import PALETTE
 from kineme_reproduction.benchmark import Scores, mean
 from kineme_reproduction.figures.style import FAINT, INK, heading, new_figure, save, tidy
 from kineme_reproduction.trials import Trial
@@ -55,7 +55,9 @@ def time_trials(trials: Sequence[Trial], preset: RegionGrowingPreset) -> list[Ti
 
 def time_growth(trials: Sequence[Trial], preset: RegionGrowingPreset) -> list[tuple[int, Timings]]:
     """Frames and seconds per step, for longer and longer parts of all trials in a row, twice."""
-    features = np.concatenate([motion_features(trial.motion, preset) for trial in trials] * 2)
+    features = np.concatenate(
+        [compute_motion_features(trial.motion, preset) for trial in trials] * 2
+    )
     lengths: NDArray[np.int64] = np.geomspace(500, len(features), POINTS).astype(np.int64)
     return [
         (int(n), _least([analyze_regions(features[:n], preset).timings for _ in range(RUNS)]))

@@ -19,16 +19,17 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
-from kineme._colors import PALETTE
 from kineme.evaluation.truth import TRANSITION, Truth
-from kineme.graph import NeighborGraph, component_labels
+from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.found import RegionsFound
+from kineme.methods.region_growing.neighbors import NeighborGraph
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import primitive_cuts
+from kineme.methods.region_growing.warping import component_labels
 from kineme.plot.matrix import SHADES, similarity_image
-from kineme.segmentation.bodies import motion_features
+from kineme.segments.colors import PALETTE
 from kineme_reproduction.figures.style import BETWEEN, heading, new_figure, save
 from kineme_reproduction.trials import Trial
 
@@ -39,7 +40,7 @@ def plot_regions(
     trial: Trial, path: Path, preset: RegionGrowingPreset = PUBLISHED["voegele2014"]
 ) -> Path:
     """Truth, forward regions, backward regions and activities in one matrix each."""
-    analysis = analyze_regions(motion_features(trial.motion, preset), preset)
+    analysis = analyze_regions(compute_motion_features(trial.motion, preset), preset)
     n, fps = len(analysis.graph), preset.working_fps
     figure = new_figure(9.2, 9.2)
     panels = figure.subplots(2, 2).ravel()
@@ -73,7 +74,7 @@ def plot_paths(
     trial: Trial, path: Path, preset: RegionGrowingPreset = PUBLISHED["voegele2014"]
 ) -> Path:
     """The longest activity: matrix, connected components, warping paths."""
-    analysis = analyze_regions(motion_features(trial.motion, preset), preset)
+    analysis = analyze_regions(compute_motion_features(trial.motion, preset), preset)
     lengths = np.diff(analysis.borders) * analysis.repeats
     first, stop = analysis.borders[lengths.argmax() :][:2].tolist()
     graph, fps = analysis.graph, preset.working_fps

@@ -17,12 +17,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._colors import PALETTE
 from kineme.errors import KinemeError
-from kineme.graph import NeighborGraph, neighbor_graph
+from kineme.methods.prepare import compute_motion_features
+from kineme.methods.region_growing.neighbors import NeighborGraph, neighbor_graph
 from kineme.methods.region_growing.preset import VOEGELE2014
 from kineme.recordings import Motion
-from kineme.segmentation.bodies import motion_features
+from kineme.segments.colors import PALETTE
 from kineme_reproduction.figures.style import INK, heading, new_figure, save, tidy
 
 MIN_LENGTH_S = 8.0
@@ -61,7 +61,7 @@ def reoccurring(motion: Motion) -> NDArray[np.bool_]:
     """Which poses come back within 10 s, (frames,) at 30 Hz."""
     fps = VOEGELE2014.working_fps
     graph = neighbor_graph(
-        motion_features(motion, VOEGELE2014),
+        compute_motion_features(motion, VOEGELE2014),
         radius=VOEGELE2014.radius,
         max_lag=round(SLOT_S * fps),
     )

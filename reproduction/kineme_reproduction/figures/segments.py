@@ -17,9 +17,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Rectangle
 
-from kineme._colors import PALETTE
 from kineme.evaluation.comparison import Comparison, labelling_of
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
+from kineme.segments.colors import PALETTE
 from kineme_reproduction.benchmark import Result
 from kineme_reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
 from kineme_reproduction.trials import Trial

@@ -11,8 +11,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from kineme._colors import PALETTE
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
+from kineme.segments.colors import PALETTE
 
 INK = "#1B1F2A"
 FAINT = "#8A8F9B"

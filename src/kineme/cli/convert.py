@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import INPUT, LABELS, OUTPUT, option
 from kineme.cli.options.inputs import Batch, Recursive
 from kineme.cli.options.reading import READING, Quiet
@@ -142,7 +142,7 @@ def _tell_of_primitives(segments: Segmentation, place: Path, name: str | None) -
     if len(primitives) and label_format.holds == "level":
         typer.echo(
             f"note: {place} holds the activities alone, without the "
-            f"{counted(len(primitives), 'segment')} of the level primitive: --level primitive "
+            f"{format_count(len(primitives), 'segment')} of the level primitive: --level primitive "
             "writes these instead",
             err=True,
         )

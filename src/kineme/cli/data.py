@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.reading import Quiet
@@ -133,7 +133,7 @@ def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], Non
 def _line(file: Fetched) -> str:
     from rich.filesize import decimal
 
-    length = "" if file.frames is None else f"{counted(file.frames, 'frame')}, "
+    length = "" if file.frames is None else f"{format_count(file.frames, 'frame')}, "
     how = "fetched" if file.new else "there already"
     return f"{file.path.name}: {length}{decimal(file.size)}, {how}"
 
@@ -144,6 +144,6 @@ def _summary(files: list[Fetched], seconds: float) -> str:
     new = [file for file in files if file.new]
     size = decimal(sum(file.size for file in new))
     return (
-        f"{counted(len(files), 'file')} in {files[0].path.parent}: {len(new)} fetched, "
+        f"{format_count(len(files), 'file')} in {files[0].path.parent}: {len(new)} fetched, "
         f"{size}, {seconds:.1f} s"
     )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import READING, Quiet
@@ -119,7 +119,7 @@ def _show(path: Path, events: Events, gait: Columns, written: list[Path | None])
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
-    console.print(Text.assemble((path.name, "bold"), f"  {counted(len(events), 'event')}"))
+    console.print(Text.assemble((path.name, "bold"), f"  {format_count(len(events), 'event')}"))
     for side, source in events.sources.items():
         console.print(Text(f"{side} foot: from {source}"))
     table = new_table("measure", "left", "n", "right", "n", "asymmetry %")

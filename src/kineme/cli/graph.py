@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
@@ -89,7 +89,7 @@ def graph(
         made = replace(made, sources=tuple(replace(s, options=stored) for s in made.sources))
         write_graph(made, output)
         if plot is not None:
-            from kineme.synthesis.picture import plot_graph
+            from kineme.plot.graph import plot_graph
 
             plot_graph(made, plot)
         if not quiet:
@@ -104,9 +104,9 @@ def _show(made: MotionGraph) -> None:
 
     for name, count in made.names.items():
         onward = ", ".join(following(made, name)) or "nothing"
-        typer.echo(f"{name}: {counted(count, 'primitive')}, then {onward}")
+        typer.echo(f"{name}: {format_count(count, 'primitive')}, then {onward}")
     jumps = sum(edge.jump for edge in made.edges)
     typer.echo(
-        f"{counted(len(made.nodes), 'node')}, {counted(len(made.edges), 'edge')}, "
-        f"{counted(jumps, 'jump')} among them."
+        f"{format_count(len(made.nodes), 'node')}, {format_count(len(made.edges), 'edge')}, "
+        f"{format_count(jumps, 'jump')} among them."
     )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options.inputs import Batch, FilesOfFormats, Recursive
 from kineme.cli.options.reading import READING, Effectors, Json
@@ -67,7 +67,7 @@ def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
         "notes": list(map(str, source.notes)),
     }
     if isinstance(recording, Motion):
-        return _with_body(facts, recording, effectors)
+        return _add_body(facts, recording, effectors)
     return facts | {"channels": list(recording.names)}
 
 
@@ -88,7 +88,7 @@ def _measures(path: Path, recording: Motion | Signals, request: Request) -> list
     ]
 
 
-def _with_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
+def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
     from kineme.features import PARTS, end_effectors
 
     skeleton = motion.skeleton
@@ -118,14 +118,17 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
     notes = [note for note in facts["notes"] if note not in recording.provenance.warnings]
     if not joints:  # from which points each joint of the body is: of use to few
         notes = [note for note in notes if not note.startswith(BODY)]
-    length = f"{counted(facts['frames'], 'frame')} at {facts['fps']:g} Hz, {facts['seconds']:.2f} s"
+    length = (
+        f"{format_count(facts['frames'], 'frame')} at {facts['fps']:g} Hz, {facts['seconds']:.2f} s"
+    )
     if isinstance(recording, Motion):
         named = (facts["end_effectors"] or {}).items()
         effectors = ", ".join(f"{part.replace('_', ' ')} {name}" for part, name in named)
         lines = {
             "format": facts["format"],
             "length": length,
-            "joints": f"{len(facts['joints'])}, and {counted(len(facts['end_sites']), 'end site')}",
+            "joints": f"{len(facts['joints'])}, "
+            f"and {format_count(len(facts['end_sites']), 'end site')}",
             "end effectors": effectors or "not found",
         }
         below = _tree(recording) if joints else None
@@ -139,11 +142,11 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
         }
         below = columns_of(names) if many else None
     if "measures" in facts:
-        below = _listed(facts["measures"])
+        below = _list_names(facts["measures"])
     show_facts(facts | {"notes": notes}, lines | {"SHA-256": facts["sha256"]}, below=below)
 
 
-def _listed(measures: list[Facts]) -> Any:
+def _list_names(measures: list[Facts]) -> Any:
     from kineme.cli.tables import new_table
 
     table = new_table("channel", "unit", "group", "from")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
@@ -57,7 +57,7 @@ def label(
     added: dict[Path, KnowledgeBase] = {}
     for path, table in zip(batch.paths, tables, strict=True):
         with batch.caught(path), batch.progress(path) as stage:
-            added[path] = _labelled(request, path, table, stage)
+            added[path] = _label_primitives(request, path, table, stage)
     with failures.caught(knowledge):
         if added:
             merged = KnowledgeBase.merged(*bases, *added.values())
@@ -68,7 +68,9 @@ def label(
     failures.exit()
 
 
-def _labelled(request: Request, path: Path, labels: Path | None, stage: Stage) -> KnowledgeBase:
+def _label_primitives(
+    request: Request, path: Path, labels: Path | None, stage: Stage
+) -> KnowledgeBase:
     """Return the primitives of a recording, called as its labels say."""
     from kineme.transfer import KnowledgeBase, name_primitives
 
@@ -84,4 +86,6 @@ def _show(knowledge: Path, added: dict[Path, KnowledgeBase], total: int) -> None
     """One line per recording: what it added."""
     for path, base in added.items():
         what = ", ".join(f"{name} {count}" for name, count in base.counts().items())
-        typer.echo(f"{knowledge}: {what} from {path.name}; {counted(total, 'primitive')} in all")
+        typer.echo(
+            f"{knowledge}: {what} from {path.name}; {format_count(total, 'primitive')} in all"
+        )

@@ -76,7 +76,7 @@ def segment(
         with batch.progress(path) as stage:
             stage("reading")
             recording = asked.read(path)
-            result = _segmented(recording, asked, targets, stage)
+            result = _segment_one(recording, asked, targets, stage)
         print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
@@ -84,7 +84,7 @@ def segment(
     batch.exit()
 
 
-def _segmented(
+def _segment_one(
     recording: Motion | Signals, request: Request, targets: Sequence[Path | None], stage: Stage
 ) -> Segmentation:
     """The segments of a recording, written as table, picture and page where these are wanted."""

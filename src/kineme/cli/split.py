@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.reading import READING, Quiet
@@ -92,7 +92,7 @@ def split(
         )
         if not quiet:
             where = "; manifest.csv tells how good each loop is (cost, less is better)" * loop
-            typer.echo(f"{counted(len(clips), 'clip')} in {folder}{where}")
+            typer.echo(f"{format_count(len(clips), 'clip')} in {folder}{where}")
 
     for path, folder in zip(batch.paths, folders, strict=True):
         batch.each_person(path, request, work, folder, tables=("--segments", segments))

@@ -13,8 +13,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from kineme._arrays import Floats
-from kineme._checks import as_floats
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_floats
 from kineme.cycles.channels import channels_of
 from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
 from kineme.cycles.runs import Repetition, movement
@@ -26,7 +26,7 @@ _EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
 _CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")
 
 
-def anchored(
+def anchor_repetitions(
     found: Sequence[Repetition],
     recordings: Sequence[Motion | Signals],
     groups: Sequence[Mapping[int | str, Hashable]],

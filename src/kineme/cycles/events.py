@@ -13,9 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._checks import check_type
-from kineme._counts import counted, listed
+from kineme._util.arrays import Floats
+from kineme._util.checks import check_type, format_count, join_names
 from kineme.cycles.contacts import (
     ground_velocity,
     stands_from_force,
@@ -79,7 +78,11 @@ class Events:
         return len(self.times)
 
     def __repr__(self) -> str:
-        return f"<Events: {counted(len(self), 'event')} of {counted(len({*self.names}), 'name')}>"
+        events, names = (
+            format_count(len(self), "event"),
+            format_count(len({*self.names}), "name"),
+        )
+        return f"<Events: {events} of {names}>"
 
     def at(self, name: str) -> Floats:
         """Return the seconds of all events of a name; none where it does not happen.
@@ -299,8 +302,8 @@ def _channels(names: Sequence[str], side: str, pattern: str | None) -> list[str]
         chosen = [name for name in names if fnmatchcase(name, pattern)]
         if len(chosen) not in (1, 3):
             raise ParameterError(
-                f"{side}={pattern!r} names {counted(len(chosen), 'channel')} of "
-                f"{listed(names, NAMED)}: three axes of a gyroscope are needed, or one force"
+                f"{side}={pattern!r} names {format_count(len(chosen), 'channel')} of "
+                f"{join_names(names, NAMED)}: three axes of a gyroscope are needed, or one force"
             )
         return chosen
     for words in (_FOOT[side], _SHANK[side]):

@@ -23,8 +23,8 @@ from typing import Any
 
 import numpy as np
 
-from kineme._checks import check_path, check_type
-from kineme._files import atomic_write
+from kineme._util.checks import check_path, check_type
+from kineme._util.files import atomic_write
 from kineme.cycles.table import Columns, Cycles
 from kineme.errors import MissingDependencyError, WriteError
 from kineme.labels.delimited import write_rows

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 
 PHASES = ("min_at", "max_at")
 """Of the statistics of a channel, those that are places in a cycle."""

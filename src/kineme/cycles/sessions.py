@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from kineme._arrays import Floats
-from kineme._checks import check_type
+from kineme._util.arrays import Floats
+from kineme._util.checks import check_type
 from kineme.cycles.phases import is_phase, phase_differences
 from kineme.cycles.table import CONFIDENCE, Columns, Cycles
 from kineme.errors import ParameterError

@@ -12,8 +12,8 @@ import re
 
 import numpy as np
 
-from kineme._arrays import Floats
-from kineme._checks import check_flag, check_type
+from kineme._util.arrays import Floats
+from kineme._util.checks import check_flag, check_type
 from kineme.cycles.phases import is_phase, mean_phase, phase_differences
 from kineme.cycles.table import CONFIDENCE, Columns, Cycles
 
@@ -67,7 +67,7 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
                     cycles.columns[f"{name}.{measure}"][rows] for name in (left, right)
                 )
                 indexed = is_stance or measure == "range"
-                compared = _compared(of_left, of_right, measure, indexed=indexed)
+                compared = _compare_values(of_left, of_right, measure, indexed=indexed)
                 lines.append((group, left, right, measure, *compared))
     names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
              "difference", "low", "high", "symmetry_index")  # fmt: skip
@@ -87,7 +87,9 @@ def right_of(name: str) -> str:
     return turned if turned != name else re.sub("_l$", "_r", name)
 
 
-def _compared(left: Floats, right: Floats, measure: str, *, indexed: bool) -> tuple[float, ...]:
+def _compare_values(
+    left: Floats, right: Floats, measure: str, *, indexed: bool
+) -> tuple[float, ...]:
     """Number, means, difference with bounds, symmetry index."""
     from scipy.special import stdtrit
 

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._checks import as_indices, check_flag, is_number
-from kineme._counts import counted
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_indices, check_flag, format_count, is_number
 from kineme.cycles.phases import CYCLE, is_phase, mean_phase, phase_differences
 from kineme.errors import MissingDependencyError, ParameterError
 
@@ -75,8 +74,8 @@ class Cycles:
         return len(self.curves)
 
     def __repr__(self) -> str:
-        of = counted(len(self.groups), "group")
-        return f"<Cycles: {len(self)} of {of}, {counted(len(self.channels), 'channel')}>"
+        of = format_count(len(self.groups), "group")
+        return f"<Cycles: {len(self)} of {of}, {format_count(len(self.channels), 'channel')}>"
 
     @property
     def groups(self) -> list[str]:
@@ -260,7 +259,11 @@ class Cycles:
             for name in STATISTICS
         }
         lines = [
-            (group, measure, *_described(values[used & (self.columns["group"] == group)], measure))
+            (
+                group,
+                measure,
+                *_describe_values(values[used & (self.columns["group"] == group)], measure),
+            )
             for group in self.groups
             for measure, values in measures.items()
         ]
@@ -416,7 +419,7 @@ def count_confidence(confidence: Floats, borders: Floats) -> float:
     return float(np.nanmin(confidence))
 
 
-def _described(values: Floats, measure: str) -> tuple[float, ...]:
+def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
     """Number, mean, deviation, its share of the mean, median and quartiles; nan where too few."""
     values = values[np.isfinite(values)]
     n = len(values)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.datasets.figure import ANGLES, LIMBS, SIDES
 
 STANDING = dict.fromkeys(ANGLES, 0.0) | {
@@ -71,7 +71,7 @@ class Cycle:
         return found
 
 
-def mirrored(angles: Mapping[str, Floats]) -> dict[str, Floats]:
+def mirror_posture(angles: Mapping[str, Floats]) -> dict[str, Floats]:
     """Return the same posture with left and right exchanged."""
     found = {}
     for name, values in angles.items():

@@ -28,8 +28,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.recordings import Skeleton
 
 MIDDLE = ("tilt", "list", "yaw", "bend", "lean", "twist", "nod", "look")

@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import world_rotations
 

@@ -14,15 +14,15 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
 from kineme.recordings.operations import move, turn
 
 
-def joined(
+def join_recordings(
     motions: Sequence[Motion], join: float = 0.4
 ) -> tuple[Motion, NDArray[np.int64], list[int]]:
     """One motion of all, the first frame of each and the end, and half of each join in frames.

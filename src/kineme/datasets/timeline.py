@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.datasets.actions import ACTIONS
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme._json import decoded
+from kineme._util.json import decode_json
 from kineme.datasets.annotated_trials import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.truth import Truth, round_half_up
@@ -58,7 +58,7 @@ def is_annotations(path: Path) -> bool:
         text = path.read_text(encoding="utf-8-sig")
         if suffix == ".txt":
             return re.match(r"\s*\S*\b\d+_\d+\b", text) is not None
-        content = decoded(text, path)
+        content = decode_json(text, path)
     except (OSError, ValueError, ReadError):
         return False
     return isinstance(content, dict) and "trials" in content

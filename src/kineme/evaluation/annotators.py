@@ -25,7 +25,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Ints
+from kineme._util.arrays import Ints
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.evaluation.borders import border_score
@@ -308,7 +308,7 @@ class _Sides:
             compared = self._compared(first, who)
             mappings[who] = self._mapping(compared) if compared else {}
         return {
-            name: np.array([_mapped(row, mappings.get(who, {})) for who, row in sides.items()])
+            name: np.array([_map_classes(row, mappings.get(who, {})) for who, row in sides.items()])
             for name, sides in self._classes.items()
         }
 
@@ -368,7 +368,7 @@ def _have_names_in_common(labelled: Labelled, truths: Truths) -> bool:
     return all(len(a & b) >= SHARED * min(len(a), len(b)) for a, b in pairs)
 
 
-def _mapped(classes: Ints, mapping: Mapping[int, int]) -> Ints:
+def _map_classes(classes: Ints, mapping: Mapping[int, int]) -> Ints:
     """Return the classes that a mapping knows as it says, the others as they are."""
     numbers, where = np.unique(classes, return_inverse=True)
     return np.array([mapping.get(int(n), int(n)) for n in numbers], np.int64)[where]

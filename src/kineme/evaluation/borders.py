@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats, Ints
+from kineme._util.arrays import Floats, Ints
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.score import Ratio, Score, one_of
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling

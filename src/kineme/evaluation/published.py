@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Ints
+from kineme._util.arrays import Ints
 from kineme.evaluation.comparison import Comparison, contingency
 from kineme.evaluation.score import Score, one_of
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth

@@ -16,7 +16,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
-from kineme._processes import interrupted_later, pool_of
+from kineme._util.parallel import defer_interrupt, make_process_pool
 from kineme.errors import KinemeError, KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, compare
 from kineme.labels.collections import LabelSource
@@ -100,7 +100,7 @@ def segment_by(
     >>> len(segment_by("voegele2014", motion, n_classes=4).activities)
     13
     """
-    from kineme.segmentation.segmenter import segment
+    from kineme.methods.segmenter import segment
 
     check_method(name)
     if getattr(PRESETS[name], NUMBER_OF_CLASSES, 0) is None:
@@ -160,13 +160,16 @@ def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answe
         for job in jobs:
             yield job, _answer(job)
         return
-    pool = pool_of(processes)
+    pool = make_process_pool(processes)
     try:
-        with interrupted_later():
+        with defer_interrupt():
             waiting: dict[Future[Answer], Job] = {pool.submit(_answer, job): job for job in jobs}
         for future in as_completed(waiting):
             failure = future.exception()
-            yield waiting[future], future.result() if failure is None else _failed(failure)
+            yield (
+                waiting[future],
+                future.result() if failure is None else _describe_failure(failure),
+            )
     finally:
         pool.shutdown(cancel_futures=True)  # none is left, or nobody asks any more
 
@@ -177,7 +180,7 @@ def _answer(job: Job) -> Answer:
             warnings.simplefilter("ignore", KinemeWarning)
             return worked_out(job)
     except (KinemeError, ValueError, ArithmeticError, MemoryError) as error:
-        return _failed(error)
+        return _describe_failure(error)
 
 
 def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
@@ -201,7 +204,7 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     return Answer(compared, sides, classes, seconds, recording.duration, notes)
 
 
-def _failed(error: BaseException) -> Answer:
+def _describe_failure(error: BaseException) -> Answer:
     text = " ".join(str(error).split())
     return Answer(
         error=text if isinstance(error, KinemeError) else f"{type(error).__name__}: {text}"

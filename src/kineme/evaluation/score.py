@@ -20,8 +20,7 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._checks import check_one_of
-from kineme._registry import Registry
+from kineme._util.checks import Registry, check_one_of
 from kineme.errors import KinemeError, KinemeWarning
 from kineme.evaluation.comparison import Comparison, labelling_of
 from kineme.evaluation.truth import Labelling, Truth
@@ -279,12 +278,12 @@ def value_of(result: Value) -> float:
     return result.value if isinstance(result, Ratio) else float(result)
 
 
-def over_all(results: Iterable[Value]) -> float:
+def pool_scores(results: Iterable[Value]) -> float:
     """One number for many recordings: of ratios the sums' ratio, of numbers the mean.
 
     Examples
     --------
-    >>> over_all([Ratio(1, 10), Ratio(9, 10)]), over_all([0.2, 0.4])
+    >>> over_all([Ratio(1, 10), Ratio(9, 10)]), pool_scores([0.2, 0.4])
     (0.5, 0.30000000000000004)
     """
     kept = list(results)

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._arrays import Ints
-from kineme._checks import as_texts
+from kineme._util.arrays import Ints
+from kineme._util.checks import as_texts
 from kineme.errors import ParameterError
 
 Texts = NDArray[np.object_]

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.distance import cdist
 
-from kineme._arrays import Floats, Ints
+from kineme._util.arrays import Floats, Ints
 from kineme.errors import ParameterError
 from kineme.evaluation._kernels import warped_cost
 from kineme.evaluation.comparison import Comparison

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme._compiled import OPTIONS
+from kineme._util.parallel import OPTIONS
 
 PRECISION = 1e-10  # of the neighbours' mean distance; a shorter step is the last
 MOST_STEPS = 1000

@@ -18,8 +18,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.errors import MotionError
 from kineme.features.effectors import EndEffectors, end_effectors
 from kineme.recordings import Motion, Skeleton

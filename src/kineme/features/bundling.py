@@ -28,9 +28,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import convolve1d
 from scipy.spatial import cKDTree
 
-from kineme._arrays import Floats
-from kineme._checks import as_features, is_number
-from kineme._threads import even_slices, map_threads, n_threads
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_features, is_number
+from kineme._util.parallel import count_threads, make_even_slices, map_threads
 from kineme.errors import ParameterError
 from kineme.features import _kernels
 
@@ -92,7 +92,7 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
     def move(part: slice) -> None:
         _kernels.move_to_medians(reduced, directions, nearest, part.start, part.stop, moved)
 
-    map_threads(move, even_slices(len(reduced)))
+    map_threads(move, make_even_slices(len(reduced)))
     return cast(Floats, moved @ axes.T + center)
 
 
@@ -109,7 +109,7 @@ def _nearest_others(points: Floats, count: int) -> NDArray[np.int64]:
     """(frames, count): each frame's nearest without itself; fewer where there are not as many."""
     n = len(points)
     count = min(count, n - 1)
-    _, found = cKDTree(points).query(points, np.arange(1, count + 2), workers=n_threads())
+    _, found = cKDTree(points).query(points, np.arange(1, count + 2), workers=count_threads())
     others = found != np.arange(n)[:, None]
     others[others.all(axis=1), -1] = False  # among its equals a frame may not find itself
     return cast(NDArray[np.int64], found[others].reshape(n, count))

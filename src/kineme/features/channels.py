@@ -15,9 +15,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats, Ints
-from kineme._checks import check_rates
-from kineme._interpolation import at_frames
+from kineme._util.arrays import Floats, Ints, interpolate_frames
+from kineme._util.checks import check_rates
 
 NYQUIST = 0.45
 """Share of the rate up to which a band of frequency can be told."""
@@ -97,7 +96,9 @@ def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> F
     half = max(smoothing, 1 / fps, 1 / new) / 2
     starts = np.clip((times - half) * fps + 0.5, 0, len(array))
     stops = np.clip((times + half) * fps + 0.5, 0, len(array))
-    means = (at_frames(sums, stops) - at_frames(sums, starts)) / (stops - starts)[:, None]
+    means = (interpolate_frames(sums, stops) - interpolate_frames(sums, starts)) / (stops - starts)[
+        :, None
+    ]
     return np.asarray(means + middle, np.float64)
 
 

@@ -18,7 +18,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.errors import MotionError
 
 Indices = NDArray[np.intp]

@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import check_type, is_one_of
+from kineme._util.checks import check_type, is_one_of
 from kineme.errors import EndEffectorError
 from kineme.features.naming import find_by_name, words_of
 from kineme.features.topology import find_by_shape

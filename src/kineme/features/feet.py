@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 
 LOWEST = 5.0
 """Per cent of the frames in which a point is as low as its lowest place."""

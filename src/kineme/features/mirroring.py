@@ -17,8 +17,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats
-from kineme._checks import as_floats
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_floats
 from kineme.errors import MotionError, ParameterError
 from kineme.features.effectors import PARTS
 from kineme.recordings import Motion, Skeleton

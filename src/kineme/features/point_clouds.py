@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 
 Complex = NDArray[np.complex128]
 

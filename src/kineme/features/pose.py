@@ -13,8 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats
-from kineme._checks import as_floats, as_indices
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_floats, as_indices
 from kineme.errors import ParameterError
 from kineme.features.body_frame import body_frame
 from kineme.features.effectors import EndEffectors, Names, end_effectors

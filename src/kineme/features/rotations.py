@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.errors import MotionError
 from kineme.recordings import Motion
 

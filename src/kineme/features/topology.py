@@ -17,7 +17,7 @@ from itertools import combinations
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 
 _SAME_LENGTH = 0.15  # relative difference at which two branches still make a pair
 _MOST_BRANCHES = 32  # of one joint, the longest; a hand has five, and pairs grow with the square

@@ -24,8 +24,8 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats
-from kineme._counts import counted
+from kineme._util.arrays import Floats
+from kineme._util.checks import format_count
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
 from kineme.formats.options import ReadOptions
@@ -71,7 +71,7 @@ def columns_to_motion(
     timing = table_timing(content, columns, options.fps)
     notes = list(timing.notes)
     if unsure := int((confidence < limit).sum()):
-        notes.append(f"{counted(unsure, 'position')} less sure than {limit:g} not used")
+        notes.append(f"{format_count(unsure, 'position')} less sure than {limit:g} not used")
     unit, stated, up = options.unit, None, options.up
     if unit is None:
         stated, remarks = _in_one_unit(content, joints, positions)
@@ -133,7 +133,7 @@ def _in_one_unit(
         if not (units and silent):
             return (units[0] if units else None), []
         unit = _unit_like(positions, [joint in silent for joint in joints], units[0])
-        remark = f"columns of {counted(len(silent), 'point')} tell no unit, and are taken in"
+        remark = f"columns of {format_count(len(silent), 'point')} tell no unit, and are taken in"
         if unit == units[0]:
             return unit, [Note(f"{remark} that of the others, {unit}", "warning")]
         told = [j for j, joint in enumerate(joints) if joint not in silent]

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from kineme._registry import Registry
+from kineme._util.checks import Registry
 from kineme.formats.columns import joint_names
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.options import ReadOptions

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from kineme._files import HEAD
+from kineme._util.files import HEAD
 from kineme.formats.files import FileContent
 
 _ELAN_HEADER = re.compile(r"(?:begin|end) time - (?:hh:mm:ss\.ms|ss\.msec|msec|\S+)", re.IGNORECASE)

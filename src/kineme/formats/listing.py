@@ -22,8 +22,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from kineme._counts import counted
-from kineme._files import head_of, tail_of
+from kineme._util.checks import format_count
+from kineme._util.files import read_head, read_tail
 from kineme.errors import ReadError
 from kineme.formats.columns import joint_names
 from kineme.formats.devices import find_table
@@ -83,7 +83,7 @@ def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
             frames = []
         if frames and recordings:
             reason = (
-                f"{counted(len(frames), 'frame')} of OpenPose beside other recordings: give "
+                f"{format_count(len(frames), 'frame')} of OpenPose beside other recordings: give "
                 "them a folder of their own"
             )
             found.passed_over.append((frames[0][1], reason))
@@ -129,13 +129,13 @@ def _is_recording(path: Path) -> bool:
     if not formats or suffix in _SKELETONS:
         return False
     if suffix in _ANYTHING:
-        ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
+        ends = read_head(path) + (read_tail(path) if suffix == ".json" else b"")
         is_known = any(speaks(each.name, each.recognises, ends) for each in formats)
         return is_known or (suffix != ".json" and _is_text_table(path))
     if suffix in (".csv", ".tsv"):
         return not _names_spans(path)
     if suffix == ".parquet":
-        tail = tail_of(path)
+        tail = read_tail(path)
         return not any(name in tail for name in SPANS[:2])
     return suffix != ".npz" or _names_motion(path)
 
@@ -144,7 +144,7 @@ def _is_text_table(path: Path) -> bool:
     """Return whether a text has named columns of numbers, and is no list of labels."""
     if _names_spans(path):
         return False
-    head = head_of(path)
+    head = read_head(path)
     try:
         table = find_table(FileContent(path, head[: head.rfind(b"\n") + 1]))
         rows, columns = table.numbers().shape
@@ -155,10 +155,10 @@ def _is_text_table(path: Path) -> bool:
 
 
 def _names_spans(path: Path) -> bool:
-    if program_of_labels(head_of(path).decode(errors="replace")):
+    if program_of_labels(read_head(path).decode(errors="replace")):
         return True
     try:
-        names = find_table(FileContent(path, head_of(path))).names
+        names = find_table(FileContent(path, read_head(path))).names
     except ReadError:  # not a line: an error for who reads it
         return False
     return any(name.lower().encode() in SPANS for name in names)

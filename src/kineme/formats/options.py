@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 
-from kineme._checks import as_texts, check_path, is_number, is_one_of
+from kineme._util.checks import as_texts, check_path, is_number, is_one_of
 from kineme.errors import ParameterError
 from kineme.formats.units import AXES, UNITS
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
-from kineme._counts import listed
+from kineme._util.checks import join_names
 from kineme.errors import SeveralPeopleError
 
 
@@ -29,4 +29,4 @@ def chosen_person(
         if person is None
         else f"there is no person {person!r}: choose from"
     )
-    raise SeveralPeopleError(path, f"{question} {listed(shown or [*people])}", people)
+    raise SeveralPeopleError(path, f"{question} {join_names(shown or [*people])}", people)

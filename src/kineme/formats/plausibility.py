@@ -14,8 +14,8 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._counts import counted, listed
+from kineme._util.arrays import Floats
+from kineme._util.checks import format_count, join_names
 from kineme.formats.gaps import LONGEST_S
 from kineme.formats.units import blocks, lying_axis
 from kineme.recordings import Motion, Note
@@ -45,13 +45,15 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
     if empty.any() and not empty.all():
         points[empty] = np.nan
         at_origin[empty] = False
-        remark = f"{counted(int(empty.sum()), 'frame')} with nothing but zeros: taken as not seen"
+        remark = (
+            f"{format_count(int(empty.sum()), 'frame')} with nothing but zeros: taken as not seen"
+        )
         notes.append(Note(remark, "warning"))
     # A point that never leaves the origin is what the others are measured from.
     lost = at_origin.any(axis=0) & ~(at_origin | empty[:, None]).all(axis=0)
     if lost.any():
         points[at_origin & lost] = np.nan
-        named = listed([names[i] for i in np.flatnonzero(lost).tolist()])
+        named = join_names([names[i] for i in np.flatnonzero(lost).tolist()])
         remark = f"exactly at the origin in some frames, taken as not seen there: {named}"
         notes.append(Note(remark, "warning"))
     jumps, others = _find_jumps(points, fps)
@@ -59,14 +61,14 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
         points[start:stop, point] = np.nan
     if jumps:
         parts = [f"{names[point]} (frames {a} to {b - 1})" for point, a, b in jumps]
-        remark = f"points that jump away and back, taken as not seen there: {listed(parts)}"
+        remark = f"points that jump away and back, taken as not seen there: {join_names(parts)}"
         notes.append(Note(remark, "warning"))
     if others:
         first: dict[int, int] = {}
         for point, frame in others:
             first.setdefault(point, frame)
         parts = [f"{names[point]} (first in frame {frame})" for point, frame in first.items()]
-        notes.append(Note(f"points that jump: {listed(parts)}", "warning"))
+        notes.append(Note(f"points that jump: {join_names(parts)}", "warning"))
     return notes
 
 
@@ -82,7 +84,7 @@ def doubt_rigid(points: Floats, names: Sequence[str], made_of: Sequence[int]) ->
             moved.append(f"{names[one]} and {names[other]} (by {(high - low) / middle:.0%})")
     if not moved:
         return []
-    return [Note(f"points on one bone change their distance: {listed(moved)}", "warning")]
+    return [Note(f"points on one bone change their distance: {join_names(moved)}", "warning")]
 
 
 def doubt_posture(motion: Motion) -> Motion:

@@ -19,11 +19,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._arrays import Floats
-from kineme._counts import counted, listed
+from kineme._util.arrays import Floats
+from kineme._util.checks import format_count, join_names
 from kineme.errors import ReadError
 from kineme.formats.files import unique
-from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
+from kineme.formats.gaps import LONGEST_S, Gaps, bridge, fill_gaps, mark_spans
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
 from kineme.formats.persons import chosen_person
 from kineme.formats.plausibility import doubt_rigid, drop_implausible
@@ -95,11 +95,11 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     used = _used(body)
     kept = [i for i in range(len(names)) if i not in gaps.open or i in used]
     missing = bridge(positions, gaps, used, points.fps)
-    is_visible = ~covered(missing, len(positions))
+    is_visible = ~mark_spans(missing, len(positions))
     if not kept:
         raise ReadError(path, f"no marker is seen throughout: each has a gap above {LONGEST_S} s")
     if not is_visible.any():
-        hidden = listed([names[i] for i in sorted(used & gaps.open.keys())])
+        hidden = join_names([names[i] for i in sorted(used & gaps.open.keys())])
         raise ReadError(path, f"the body is whole in no frame: {hidden} are never seen together")
     kept = sorted([*kept, *_missing_with_the_body(positions, gaps, used, is_visible, points.fps)])
     notes = [*doubts, *_gaps_notes(names, gaps, kept, len(positions))]
@@ -137,7 +137,7 @@ def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:
 
     Points with open gaps are taken where a joint cannot be made without.
     """
-    hidden = {point: covered(spans.tolist(), n_frames) for point, spans in gaps.open.items()}
+    hidden = {point: mark_spans(spans.tolist(), n_frames) for point, spans in gaps.open.items()}
     usable = {i for i in range(len(names)) if i not in hidden or not hidden[i].all()}
     body = find_body(names, usable)
     if "pelvis" not in body:
@@ -160,7 +160,7 @@ def _missing_with_the_body(
     found = [
         point
         for point, spans in gaps.open.items()
-        if point not in used and not (is_visible & covered(spans.tolist(), n)).any()
+        if point not in used and not (is_visible & mark_spans(spans.tolist(), n)).any()
     ]
     bridge(positions, gaps, found, fps)
     return found
@@ -184,8 +184,8 @@ def _splits_note(
     spans = [f"frames {a} to {b - 1} ({(b - a) / fps:.2f} s)" for a, b in missing]
     hidden = [names[point] for point in sorted(used & gaps.open.keys())]
     note = (
-        f"the body is not seen whole in {listed(spans)}, for gaps above {LONGEST_S} s in "
-        f"{listed(hidden)}: the recording is split there"
+        f"the body is not seen whole in {join_names(spans)}, for gaps above {LONGEST_S} s in "
+        f"{join_names(hidden)}: the recording is split there"
     )
     return [Note(note, "warning")]
 
@@ -195,19 +195,19 @@ def _gaps_notes(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) ->
     if gaps.filled:
         most = max(gaps.filled, key=lambda point: gaps.filled[point])
         notes.append(
-            f"gaps up to {LONGEST_S} s filled in {counted(len(gaps.filled), 'point')}, "
-            f"{counted(sum(gaps.filled.values()), 'position')} in all, most in {names[most]} "
-            f"({gaps.filled[most]} of {counted(n_frames, 'frame')})"
+            f"gaps up to {LONGEST_S} s filled in {format_count(len(gaps.filled), 'point')}, "
+            f"{format_count(sum(gaps.filled.values()), 'position')} in all, most in {names[most]} "
+            f"({gaps.filled[most]} of {format_count(n_frames, 'frame')})"
         )
     never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
     if never:
-        notes.append(f"never seen, left out: {listed([names[p] for p in never])}")
+        notes.append(f"never seen, left out: {join_names([names[p] for p in never])}")
     broken = [p for p in gaps.open if p not in never and p not in kept]
     if broken:
         parts = [
             f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken
         ]
-        left_out = f"left out for gaps above {LONGEST_S} s: {listed(parts)}"
+        left_out = f"left out for gaps above {LONGEST_S} s: {join_names(parts)}"
         notes.append(Note(left_out, "warning"))
     return notes
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import check_path, check_type
-from kineme._files import reading
+from kineme._util.checks import check_path, check_type
+from kineme._util.files import translate_read_errors
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
 from kineme.formats.files import FileContent, load, warn
 from kineme.formats.options import AnyPath, ReadOptions
@@ -115,7 +115,7 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
     """
     check_path(path, "read")
     options = options or ReadOptions()
-    with reading(path):
+    with translate_read_errors(path):
         if Path(path).is_dir():
             return _read_folder(Path(path), options)
         return _read_file(load(path), options)
@@ -160,7 +160,7 @@ def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
     >>> read_analog(kineme.bundled_recording(), ReadOptions()) is None
     True
     """
-    with reading(path):
+    with translate_read_errors(path):
         if Path(path).is_dir():
             return None
         content = load(path)
@@ -197,7 +197,7 @@ def sketch(path: AnyPath, options: ReadOptions, most: int) -> Sketch | None:
     >>> shown.motion.n_frames, shown.n_frames
     (10, 2898)
     """
-    with reading(path):
+    with translate_read_errors(path):
         if Path(path).is_dir():
             return None
         content = load(path)

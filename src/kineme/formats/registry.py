@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import check_suffixes
-from kineme._files import HEAD
-from kineme._registry import Registry
+from kineme._util.checks import Registry, check_suffixes
+from kineme._util.files import HEAD
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, warn
 from kineme.formats.options import ReadOptions

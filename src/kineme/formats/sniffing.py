@@ -16,7 +16,7 @@ import re
 from collections.abc import Sequence
 from itertools import islice
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.formats.delimited import (
     EMPTY,
     DelimitedText,
@@ -93,7 +93,7 @@ def sniff(content: FileContent) -> DelimitedText:
     notes = []
     if first:
         what = "rows" if headless else "names"
-        notes.append(f"{counted(first, 'line')} above the {what} passed over")
+        notes.append(f"{format_count(first, 'line')} above the {what} passed over")
     notes += [f"line {i + 1} holds no numbers and is passed over: {lines[i]:.60}" for i in passed]
     return DelimitedText(
         content,

@@ -27,13 +27,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._arrays import Floats
-from kineme._clock import Clock
-from kineme._counts import counted, listed
+from kineme._util.arrays import Floats
+from kineme._util.checks import format_count, join_names
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S
 from kineme.recordings import Note
 from kineme.recordings.arrays import spans_of
+from kineme.recordings.clock import Clock
 
 UNEVEN = 0.1
 """Share of a period by which times may differ from even ones."""
@@ -159,7 +159,7 @@ def table_timing(
         if timing.fps <= _SLOWEST and not unit:
             raise content.error(_hardly_seconds(timing.fps))
         if stopped:
-            remark = f"no time in {listed(stopped)}: {column} taken"
+            remark = f"no time in {join_names(stopped)}: {column} taken"
             return timing._replace(notes=(Note(remark, "warning"), *timing.notes))
         return timing
     raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
@@ -214,7 +214,7 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
     fps = _rounded(len(steps) / duration if even else 1 / period, max(1e-6, float(doubt)))
     notes = [] if even else [_unevenness(steps, jumps, period, fps)]
     if not finite.all():
-        untimed = counted(int((~finite).sum()), "row")
+        untimed = format_count(int((~finite).sum()), "row")
         notes.append(f"{untimed} without a time counted as frames")
     gaps = tuple((start, stop) for start, stop in spans_of(jumps).tolist())
     return Timing(fps, gaps, tuple(notes), Clock.of(times, fps))
@@ -406,12 +406,12 @@ def _unevenness(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: flo
         (int((steps < 0).sum()), "step", "back in time"),
         (int((steps > 1.5 * period).sum()), "step", "longer than a frame and a half"),
     ]
-    parts = [f"{counted(n, one)} {what}" for n, one, what in counts if n]
+    parts = [f"{format_count(n, one)} {what}" for n, one, what in counts if n]
     sentence = f"times are uneven ({', '.join(parts) or 'jitter'}): rows are frames, at {fps:g} Hz"
     if not jumps.any():
         return sentence
     at = np.flatnonzero(jumps)
-    shown = listed([f"{steps[i]:.4g} s after frame {i}" for i in at.tolist()], most=4)
+    shown = join_names([f"{steps[i]:.4g} s after frame {i}" for i in at.tolist()], most=4)
     return f"{sentence}; times jump {shown}: the recording is split there, and seconds count frames"
 
 

@@ -14,10 +14,10 @@ from math import ceil, floor
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.recordings import Note, Skeleton
-from kineme.recordings.kinematics import at_rest
+from kineme.recordings.kinematics import place_at_rest
 
 Body = Mapping[str, tuple[int, ...]]
 
@@ -132,7 +132,7 @@ def infer_up(skeleton: Skeleton, positions: Floats) -> str:
     feet, head = ends_of_body(skeleton)
     if not head or not feet:
         return "y"
-    axis = _axis_of(at_rest(skeleton)[None], feet, head, 0.9)
+    axis = _axis_of(place_at_rest(skeleton)[None], feet, head, 0.9)
     return axis if axis and axis == _axis_of(positions, feet, head, 0.7) else "y"
 
 

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import needed
+from kineme._util.checks import require_extra
 from kineme.errors import ParameterError
 from kineme.labels.spans import meaning, one_line, text_of
 from kineme.segments.segmentation import Segmentation
@@ -111,7 +111,7 @@ def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.Da
     >>> to_sktime(truth)["labels"][0]
     'walk'
     """
-    with needed("pandas", "tables"):
+    with require_extra("pandas", "tables"):
         import pandas as pd
     rows = segmentation.level(level)
     spans = pd.IntervalIndex.from_arrays(rows.start_frame, rows.stop_frame, closed="left")

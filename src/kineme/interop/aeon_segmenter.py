@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import needed
+from kineme._util.checks import require_extra
 from kineme.interop.adapters import to_aeon
+from kineme.methods.estimator import Segmenter
 from kineme.methods.presets import DEFAULT
-from kineme.segmentation.estimator import Segmenter
 from kineme.segments.table import Level
 
-with needed("aeon", "segmenters"):
+with require_extra("aeon", "segmenters"):
     from aeon.segmentation.base import BaseSegmenter
 
 

@@ -18,13 +18,13 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
-from kineme._checks import needed
-from kineme._colors import cluster_color
-from kineme._files import atomic_write
+from kineme._util.checks import require_extra
+from kineme._util.files import atomic_write
 from kineme.errors import ParameterError
-from kineme.formats.gaps import covered
+from kineme.formats.gaps import mark_spans
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion
+from kineme.segments.colors import cluster_color
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def write_rerun(
     >>> motion = kineme.read(kineme.bundled_recording())
     >>> write_rerun(motion, kineme.segment(motion), "walk.rrd")  # doctest: +SKIP
     """
-    with needed("rerun-sdk", "rerun"):
+    with require_extra("rerun-sdk", "rerun"):
         import rerun as rr
     if segmentation is not None and segmentation.n_frames != motion.n_frames:
         raise ParameterError(
@@ -90,7 +90,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
     )
     recording.log("body/joints", names, static=True)
     recording.log("body/bones", rr.LineStrips3D.from_fields(radii=BONE_RADIUS), static=True)
-    frames = np.flatnonzero(~covered(motion.gaps, motion.n_frames))
+    frames = np.flatnonzero(~mark_spans(motion.gaps, motion.n_frames))
     positions = motion.positions[frames].astype(np.float32)
     joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
     times = _times(frames, motion.fps)

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from kineme._checks import needed
+from kineme._util.checks import require_extra
 from kineme.interop.adapters import to_sktime
+from kineme.methods.estimator import Segmenter
 from kineme.methods.presets import DEFAULT
-from kineme.segmentation.estimator import Segmenter
 from kineme.segments.table import Level
 
-with needed("sktime", "segmenters"):
+with require_extra("sktime", "segmenters"):
     from sktime.detection.base import BaseDetector
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.delimited import number
 from kineme.labels.heads import head

@@ -21,9 +21,9 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from kineme._counts import counted
-from kineme._files import atomic_write
-from kineme._json import loaded
+from kineme._util.checks import format_count
+from kineme._util.files import atomic_write
+from kineme._util.json import load_json
 from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
@@ -61,7 +61,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 def read(path: Path) -> Labels:
     """Return the labels of the one recording at ``path``."""
-    content = loaded(path)
+    content = load_json(path)
     if isinstance(content, dict) and "dur" not in content:
         if len(content) > 1:
             raise ReadError(
@@ -90,7 +90,7 @@ def labels_of(recording: Mapping[str, Any], path: Path) -> Labels:
         for label in labels
     ]
     apart, shared = _apart(spans, path)
-    note = f"labels overlap; with the texts of several: {counted(shared, 'segment')}"
+    note = f"labels overlap; with the texts of several: {format_count(shared, 'segment')}"
     return Labels(apart, "seconds", None, length, (note,) if shared else ())
 
 

@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
-from kineme._checks import as_floats, as_texts, check_path
-from kineme._files import atomic_write, reading
+from kineme._util.checks import as_floats, as_texts, check_path
+from kineme._util.files import atomic_write, translate_read_errors
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, as_segmentation
@@ -112,7 +112,7 @@ def write_events(
     """
     from kineme.formats.files import load
     from kineme.formats.markers.c3d_file import parse_c3d
-    from kineme.formats.markers.c3d_writer import C3DEvent, with_events
+    from kineme.formats.markers.c3d_writer import C3DEvent, add_events
 
     check_path(path, "write_events")
     seconds = as_floats(times, "times").ravel().tolist()
@@ -126,7 +126,7 @@ def write_events(
         raise ReadError(source, "is no C3D file, of which a copy could take the events")
     if target.suffix.lower() != ".c3d":
         raise WriteError(target, "must end in .c3d")
-    with reading(source):
+    with translate_read_errors(source):
         content = load(source)
         present = [(at, " ".join(name.lower().split())) for at, name in parse_c3d(content).events]
         events = [C3DEvent(at, *_side_and_label(name))
@@ -140,7 +140,7 @@ def write_events(
                 for at, name in present
             )
         ]
-        data = with_events(content, added)
+        data = add_events(content, added)
     with atomic_write(target) as draft:
         draft.write_bytes(data)
     return len(added)

@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.csv_table import roundest_rate
 from kineme.labels.delimited import integer, number, read_rows, write_rows

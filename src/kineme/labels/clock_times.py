@@ -15,21 +15,21 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats
-from kineme._clock import Clock
+from kineme._util.arrays import Floats
 from kineme.labels.spans import Labels, Span
+from kineme.recordings.clock import Clock
 
 NAMED = 4
 """Labels that a note names before it only counts."""
 
 
-def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
+def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
     """Return the labels in seconds of the recording, and notes on how they were taken.
 
     Examples
     --------
     >>> labels = Labels([Span(50, 60, "walk"), Span(100, 130, "rest"), Span(660, 700, "run")])
-    >>> found = by_clock(labels, Clock([0, 60], [0, 660]), length_s=120)
+    >>> found = convert_clock_times(labels, Clock([0, 60], [0, 660]), length_s=120)
     >>> [span[:3] for span in found.spans]
     [(50.0, 60.0, 'walk'), (60.0, 100.0, 'run')]
     >>> found.notes

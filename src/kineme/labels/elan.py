@@ -26,8 +26,7 @@ from pathlib import Path
 from typing import get_args
 from xml.etree import ElementTree as ET
 
-from kineme._files import atomic_write, video_beside
-from kineme._xml import NoEntities
+from kineme._util.files import NoEntities, atomic_write, find_video
 from kineme.errors import ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
@@ -78,7 +77,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         holder = ET.SubElement(tiers[row.level], "ANNOTATION")
         span = ET.SubElement(holder, "ALIGNABLE_ANNOTATION", ANNOTATION_ID=f"a{number}")
         span.attrib |= {"TIME_SLOT_REF1": start, "TIME_SLOT_REF2": stop}
-        ET.SubElement(span, "ANNOTATION_VALUE").text = _allowed(text_of(row))
+        ET.SubElement(span, "ANNOTATION_VALUE").text = _drop_forbidden(text_of(row))
     ET.SubElement(
         root,
         "LINGUISTIC_TYPE",
@@ -93,7 +92,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 def read(path: Path) -> Labels:
     """Return the annotations at ``path``."""
-    root = _parsed(path)
+    root = _parse(path)
     if root.tag != "ANNOTATION_DOCUMENT":
         raise ReadError(path, f"is not an ELAN document but a {root.tag!r:.60}")
     slots = {slot.get("TIME_SLOT_ID"): slot.get("TIME_VALUE") for slot in root.iter("TIME_SLOT")}
@@ -116,7 +115,7 @@ def _name_medium(header: ET.Element, segmentation: Segmentation) -> None:
     """Say which video the annotations are of, where one is known."""
     source, video = (segmentation.provenance.get(name) or {} for name in ("input", "video"))
     given = Path(video.get("path") or "")
-    place = given if given.is_file() else video_beside(Path(source.get("path") or ""))
+    place = given if given.is_file() else find_video(Path(source.get("path") or ""))
     if place is None:
         return
     medium = ET.SubElement(header, "MEDIA_DESCRIPTOR", MEDIA_URL=place.absolute().as_uri())
@@ -144,7 +143,7 @@ class _Builder(NoEntities, ET.TreeBuilder):
     """Elements of a document that defines no entities."""
 
 
-def _parsed(path: Path) -> ET.Element:
+def _parse(path: Path) -> ET.Element:
     parser = ET.XMLParser(target=_Builder())  # noqa: S314 (see NoEntities)
     try:
         with path.open("rb") as file:
@@ -187,7 +186,7 @@ def _milliseconds(row: Segment) -> tuple[int, int]:
     return round(row.start_s * PER_SECOND), round(row.stop_s * PER_SECOND)
 
 
-def _allowed(text: str) -> str:
+def _drop_forbidden(text: str) -> str:
     """Return the text without the two characters that XML cannot hold and labels can."""
     return text.replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
 

@@ -6,13 +6,13 @@ import csv
 from codecs import BOM_UTF8
 from pathlib import Path
 
-from kineme._files import head_of, tail_of
+from kineme._util.files import read_head, read_tail
 
 
 def head(path: Path) -> bytes:
     """Return the first bytes of a file; none if it cannot be read."""
     try:
-        return head_of(path).removeprefix(BOM_UTF8)
+        return read_head(path).removeprefix(BOM_UTF8)
     except OSError:
         return b""
 
@@ -20,7 +20,7 @@ def head(path: Path) -> bytes:
 def tail(path: Path) -> bytes:
     """Return the last bytes of a file, where Parquet keeps what it knows of itself."""
     try:
-        return tail_of(path)
+        return read_tail(path)
     except OSError:
         return b""
 

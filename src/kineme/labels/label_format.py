@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, get_args
 
-from kineme._checks import check_one_of, check_suffixes
+from kineme._util.checks import check_one_of, check_suffixes
 from kineme.labels.spans import Labels
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment

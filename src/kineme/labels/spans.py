@@ -23,7 +23,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.errors import ParameterError, ReadError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment, kind_of
@@ -132,7 +132,9 @@ def as_segmentation(
         n_frames = max(last, _frame(labels.length, per_unit, path))
     elif n_frames is None:
         n_frames = last
-        notes.append(f"length of {counted(last, 'frame')} taken from the end of the last label")
+        notes.append(
+            f"length of {format_count(last, 'frame')} taken from the end of the last label"
+        )
     elif last > n_frames + 1:  # 1: some programs close with the frame after the last
         raise ReadError(
             path,
@@ -144,7 +146,9 @@ def as_segmentation(
     unusual = list(labels.notes)
     full = _as_long_as_a_frame(rows, n_frames)
     if len(full) < len(rows):
-        unusual.append(f"shorter than a frame, left out: {counted(len(rows) - len(full), 'label')}")
+        unusual.append(
+            f"shorter than a frame, left out: {format_count(len(rows) - len(full), 'label')}"
+        )
     tiled = _both_levels(full, n_frames, path)
     source: dict[str, Any] = {"path": str(path), "format": name}
     level = "activity" if any(row[0] == "activity" for row in full) else "primitive"
@@ -209,13 +213,13 @@ def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
             for row in full
         ]
     inner = [row for row in full if row[0] == "primitive"]
-    tiled = list(_tiled([row for row in full if row[0] == "activity"], n_frames, [], path))
+    tiled = list(_fill_between([row for row in full if row[0] == "activity"], n_frames, [], path))
     if inner:
-        tiled += _tiled(inner, n_frames, [row[2] for row in tiled], path)
+        tiled += _fill_between(inner, n_frames, [row[2] for row in tiled], path)
     return tiled
 
 
-def _tiled(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
+def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
     """Yield the rows of one level in time order, and transitions where there are none."""
     at = 0
     level = rows[0][0] if rows else "activity"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme._compiled import OPTIONS
+from kineme._util.parallel import OPTIONS
 
 MOST = np.int32(np.iinfo(np.int32).max)
 

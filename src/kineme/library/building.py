@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import check_type, is_number
-from kineme._files import OwnedFolder, is_draft
+from kineme._util.checks import check_type, is_number
+from kineme._util.files import OwnedFolder, is_draft
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.library.edits import read_edits

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Ints
+from kineme._util.arrays import Ints
 from kineme.library.executors import Executor, Progress
 from kineme.library.planning import Entry
 from kineme.library.settings import VOCABULARY

@@ -17,8 +17,8 @@ from hashlib import sha256
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Float32s, Floats
-from kineme._counts import counted
+from kineme._util.arrays import Float32s, Floats
+from kineme._util.checks import format_count
 from kineme.errors import MotionError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.features.channels import at_rate, channel_statistics, standardized
@@ -27,9 +27,9 @@ from kineme.features.emg import emg_envelope
 from kineme.library.settings import Settings
 from kineme.library.storage.analyses import LARGEST_SAMPLE, Analysis
 from kineme.library.storage.layout import BODIES, EMBEDDED
-from kineme.matching.embeddings import course, embedding
 from kineme.methods.kineme.preset import SENSORS
 from kineme.recordings import Motion, Signals
+from kineme.transfer.embeddings import course, embedding
 
 UNIT = 0.5
 """Of the root mean square over channels; a distance of 0.85 then is where right matches end."""
@@ -94,7 +94,7 @@ def describe(
     if isinstance(recording, Signals):
         vocabulary = sha256("\0".join(recording.names).encode()).hexdigest()[:8]
         features = signal_features(recording, emg=emg)
-        named = f"{counted(recording.n_channels, 'channel')}, {vocabulary}"
+        named = f"{format_count(recording.n_channels, 'channel')}, {vocabulary}"
         return Description(named, features, SENSORS.rate)
     try:
         features, poses = features_and_poses(recording, effectors=effectors)
@@ -139,7 +139,7 @@ def analysis_of(
 
     These are of signals only: a row each of second, means and deviations.
     """
-    from kineme.segmentation.segmenter import segment
+    from kineme.methods.segmenter import segment
 
     emg = settings.options().emg
     found = segment(

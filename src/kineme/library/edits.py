@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Ints
+from kineme._util.arrays import Ints
 from kineme.errors import ParameterError, ReadError
 from kineme.library.storage.layout import (
     EDITS,

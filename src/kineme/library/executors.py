@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from itertools import islice
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
-from kineme._processes import context, interrupted_later, pool_of
+from kineme._util.parallel import defer_interrupt, make_process_context, make_process_pool
 from kineme._version import __version__
 from kineme.errors import KinemeError, MissingDependencyError, ParameterError
 
@@ -27,7 +27,7 @@ Outcome = TypeVar("Outcome")
 PRELOADED = (
     "kineme.library.gathering",
     "kineme.library.descriptions",
-    "kineme.segmentation.segmenter",
+    "kineme.methods.segmenter",
     "kineme.transfer.channel_samples",
     "kineme.library.vocabulary.joining",
     "kineme.formats.skeletons._amc_kernels",
@@ -138,12 +138,12 @@ class Processes:
     ) -> Generator[tuple[Task, Outcome], None, list[Task]]:
         """Work on tasks from the end of the list; those in work when one died are returned."""
         if self._pool is None:
-            self._pool = pool_of(self._jobs, PRELOADED)
+            self._pool = make_process_pool(self._jobs, PRELOADED)
         running: dict[Future[Outcome], Task] = {}
         try:
             while waiting or running:
                 while waiting and len(running) < most:
-                    with interrupted_later():
+                    with defer_interrupt():
                         running[self._pool.submit(work, waiting[-1])] = waiting[-1]
                     waiting.pop()
                 for future in wait(running, return_when=FIRST_COMPLETED).done:
@@ -176,7 +176,7 @@ def processes(jobs: int) -> Iterator[Executor]:
 def start_soon() -> None:
     """Start the server that processes are forked from: that takes a second beside this one."""
     if sys.platform == "linux":
-        context(PRELOADED)
+        make_process_context(PRELOADED)
         _SOON.set()
 
 

@@ -8,9 +8,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from kineme._colors import cluster_color
-from kineme._counts import counted
-from kineme._files import atomic_write
+from kineme._util.checks import format_count
+from kineme._util.files import atomic_write
 from kineme.errors import KinemeError, MissingDependencyError, ParameterError, WriteError
 from kineme.labels.delimited import write_rows
 from kineme.library.open_library import Cluster, OpenTables, cluster_table, clusters_of
@@ -18,6 +17,7 @@ from kineme.library.searching import Hit
 from kineme.library.storage.layout import EXTRA, arrow
 from kineme.library.storage.tables import DESCRIBED
 from kineme.recordings import Motion, Signals
+from kineme.segments.colors import cluster_color
 from kineme.segments.table import Segment
 
 CLUSTERS = "clusters"
@@ -168,7 +168,7 @@ def _title(cluster: Cluster) -> str:
     times = cluster.repetitions or cluster.activities
     n = cluster.recordings
     return (
-        f"{named}   {times} × {cluster.typical_s:.2f} s in {counted(n, 'recording')}; "
+        f"{named}   {times} × {cluster.typical_s:.2f} s in {format_count(n, 'recording')}; "
         f"here {cluster.example}"
     )
 

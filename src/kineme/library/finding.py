@@ -7,8 +7,8 @@ from os import PathLike
 
 import numpy as np
 
-from kineme._arrays import Float32s
-from kineme._checks import is_number
+from kineme._util.arrays import Float32s
+from kineme._util.checks import is_number
 from kineme.errors import ParameterError, ReadError
 from kineme.features.canonical import mirrored_features
 from kineme.formats.files import warn

@@ -21,9 +21,9 @@ from typing import NamedTuple
 
 from threadpoolctl import threadpool_limits
 
-from kineme._checks import is_text
-from kineme._files import refuse_pipe
-from kineme._threads import map_threads
+from kineme._util.checks import is_text
+from kineme._util.files import refuse_pipe
+from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.formats import read_quietly
 from kineme.formats.options import AnyPath

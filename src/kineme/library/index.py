@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from kineme._arrays import Float32s, Ints
-from kineme._threads import map_threads
+from kineme._util.arrays import Float32s, Ints
+from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError
 from kineme.library._kernels import least_squares
 from kineme.library.executors import Executor
@@ -26,7 +26,7 @@ from kineme.library.searching import spans_like
 from kineme.library.storage.analyses import read_parts
 from kineme.library.storage.index import Windows
 from kineme.library.windows import FINER, parts_at_speeds, step
-from kineme.matching import Matches
+from kineme.transfer.subsequences import Matches
 
 SHARE = 0.01
 """Of the windows, that are searched sample by sample."""

@@ -10,8 +10,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from kineme._checks import check_flag, check_path
-from kineme._counts import counted
+from kineme._util.checks import check_flag, check_path, format_count
 from kineme.errors import ParameterError
 from kineme.library.executors import connected
 from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
@@ -21,8 +20,8 @@ from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
 from kineme.library.storage.layout import arrow
 from kineme.library.storage.places import place, reaching
-from kineme.matching import THRESHOLD
 from kineme.recordings import Motion, Signals
+from kineme.transfer.subsequences import THRESHOLD
 
 AnyPath = str | PathLike[str]
 
@@ -270,5 +269,8 @@ class Library:
 
     def __repr__(self) -> str:
         words = self._tables.columns("words")["cluster"].tolist()
-        recordings, clusters = counted(len(self), "recording"), counted(len(set(words)), "cluster")
+        recordings, clusters = (
+            format_count(len(self), "recording"),
+            format_count(len(set(words)), "cluster"),
+        )
         return f"<Library of {recordings} ({self.hours:.2g} h), {clusters}>"

@@ -9,7 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from kineme._files import OwnedFolder
+from kineme._util.files import OwnedFolder
 from kineme.errors import ParameterError, WriteError
 from kineme.library.settings import Settings
 from kineme.library.storage.layout import ANALYSES, HEAD, TABLES, read_head, read_json

@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kineme._arrays import Float32s, Ints
-from kineme._checks import is_number
+from kineme._util.arrays import Float32s, Ints
+from kineme._util.checks import is_number
 from kineme.errors import ParameterError
-from kineme.matching import Matches, search
 from kineme.recordings import Motion, Signals
+from kineme.transfer.subsequences import Matches, search
 
 REFUSED = 0.5
 """Share of a match that one of a counter-example covers where it takes its place."""

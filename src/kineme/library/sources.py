@@ -11,7 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from kineme._files import refuse_pipe
+from kineme._util.files import refuse_pipe
 from kineme.errors import FileError, ReadError
 from kineme.formats import read
 from kineme.formats.keypoints.openpose import frame_files

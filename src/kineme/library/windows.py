@@ -13,8 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Float32s, Ints
-from kineme._interpolation import at_frames
+from kineme._util.arrays import Float32s, Ints, interpolate_frames
 
 Bytes = NDArray[np.int8]
 
@@ -99,4 +98,4 @@ def _numbers(windows: Float32s) -> Float32s:
 
 def _of_length(features: Float32s, length: int) -> Float32s:
     at = np.linspace(0, len(features) - 1, length)
-    return at_frames(features.astype(np.float64), at).astype(np.float32)
+    return interpolate_frames(features.astype(np.float64), at).astype(np.float32)

@@ -32,7 +32,7 @@ from kineme.methods.constants import (
 )
 
 if TYPE_CHECKING:
-    from kineme.graph import NeighborGraph
+    from kineme.methods.region_growing.neighbors import NeighborGraph
     from kineme.methods.stages import Progress
 
 Columns = dict[str, NDArray[Any]]

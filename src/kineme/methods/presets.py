@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-from kineme._registry import Registry
+from kineme._util.checks import Registry
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.constants import unknown

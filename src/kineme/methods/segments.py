@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats, Ints
+from kineme._util.arrays import Floats, Ints
 from kineme.methods.base import Columns
 
 
-def columns_of(
+def make_columns(
     activities: Ints,
     primitives: Ints,
     *,
@@ -56,13 +56,13 @@ def columns_of(
     return columns
 
 
-def by_first_appearance(labels: NDArray[np.integer]) -> Ints:
+def number_by_appearance(labels: NDArray[np.integer]) -> Ints:
     """Return the same labels counted from 0 in order of appearance; -1 stays.
 
     Examples
     --------
     >>> import numpy as np
-    >>> by_first_appearance(np.array([7, 7, -1, 2, 7]))
+    >>> number_by_appearance(np.array([7, 7, -1, 2, 7]))
     array([ 0,  0, -1,  1,  0])
     """
     in_cluster = labels >= 0

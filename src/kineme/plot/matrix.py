@@ -13,6 +13,8 @@ Source: Vögele, Krüger and Klein 2014, figure 2, and figure 1 of its supplemen
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from math import ceil, floor
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,18 +28,18 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from kineme._checks import check_path, check_type
-from kineme._colors import NO_CLUSTER, cluster_color, label_colors
-from kineme._files import as_display_name, atomic_write
+from kineme._util.checks import check_path, check_type
+from kineme._util.files import as_display_name, atomic_write
 from kineme.errors import WriteError
-from kineme.segmentation.spans import in_time
+from kineme.plot.timeline import new_axes
+from kineme.segments.colors import NO_CLUSTER, cluster_color, label_colors
+from kineme.segments.html import segment_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
-from kineme.segments.timeline import new_axes, segment_color
 
 if TYPE_CHECKING:
-    from kineme.graph import NeighborGraph
     from kineme.methods.base import Found
+    from kineme.methods.region_growing.neighbors import NeighborGraph
 
 SUFFIXES = (".png", ".pdf", ".svg")
 PIXELS = 1600
@@ -91,7 +93,7 @@ def plot_matrix(
     bar = 0.022 * seconds
     gaps = segmentation.provenance.get("gaps", ())
     axes.imshow(
-        similarity_image(in_time(graph, gaps, segmentation.n_frames) if gaps else graph),
+        similarity_image(insert_gaps(graph, gaps, segmentation.n_frames) if gaps else graph),
         cmap=SHADES,
         vmin=0,
         vmax=1,
@@ -278,7 +280,7 @@ def _legend(segmentation: Segmentation) -> list[Patch]:
 
 def _graph_of(graph: Any, caller: str) -> NeighborGraph:
     """Return the neighbour graph given, or that of what a method found; else ParameterError."""
-    from kineme.graph import NeighborGraph  # compiled code
+    from kineme.methods.region_growing.neighbors import NeighborGraph  # compiled code
 
     given = getattr(graph, "graph", graph)
     check_type(given, NeighborGraph, caller, "kineme.neighbor_graph gives one")
@@ -295,3 +297,35 @@ def _title(segmentation: Segmentation) -> str:
         *([preset] if preset else []),
     ]
     return "  ·  ".join(parts)
+
+
+def insert_gaps(
+    graph: NeighborGraph, gaps: Sequence[Sequence[int]], n_frames: int
+) -> NeighborGraph:
+    """Return the graph with empty rows and columns in gaps, so that it shows all of the time.
+
+    Parameters
+    ----------
+    graph : NeighborGraph
+        Of the spans without gaps, at any rate.
+    gaps : sequence of pairs of int
+        Frames [start, stop).
+    n_frames : int
+        Of the recording.
+    """
+    from kineme.methods.region_growing.neighbors import NeighborGraph
+
+    n_present = n_frames - sum(stop - start for start, stop in gaps)
+    per_frame = len(graph) / max(n_present, 1)
+    place = np.arange(len(graph))
+    before = 0
+    for start, stop in gaps:
+        at = floor((start - before) * per_frame + 0.5)
+        before += stop - start
+        place[at:] = np.arange(at, len(graph)) + ceil(before * per_frame)
+    n = max(floor(n_frames * per_frame + 0.5), int(place[-1]) + 1)
+    counts = np.zeros(n, np.int64)
+    counts[place] = graph.counts
+    indptr = np.concatenate([[0], np.cumsum(counts)])
+    indices = place[graph.indices].astype(np.int32)
+    return NeighborGraph(indptr, indices, graph.distances, n, graph.radius)

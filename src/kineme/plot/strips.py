@@ -12,12 +12,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from kineme._arrays import Floats
-from kineme._checks import check_type, is_number
-from kineme._colors import cluster_color
+from kineme._util.arrays import Floats
+from kineme._util.checks import check_type, is_number
 from kineme.errors import ParameterError
+from kineme.plot.timeline import new_axes
 from kineme.recordings import Motion, Signals
-from kineme.segments.timeline import new_axes
+from kineme.segments.colors import cluster_color
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

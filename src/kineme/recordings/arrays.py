@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import as_floats, is_number
+from kineme._util.checks import as_floats, is_number
 from kineme.errors import MotionError, ParameterError
 
 SLOWEST, FASTEST = 1e-9, 1e9

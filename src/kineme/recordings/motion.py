@@ -13,9 +13,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats
-from kineme._checks import check_type
-from kineme._counts import counted
+from kineme._util.arrays import Floats
+from kineme._util.checks import check_type, format_count
 from kineme.errors import MotionError
 from kineme.recordings.arrays import as_rate, assign, frozen
 from kineme.recordings.kinematics import forward_kinematics
@@ -120,8 +119,8 @@ class Motion(Recording):
     def __repr__(self) -> str:
         ends = len(self.skeleton.end_sites)
         return (
-            f"<Motion of {counted(self.n_frames, 'frame')} ({self.duration:.1f} s) at "
-            f"{self.fps:g} Hz: {counted(self.skeleton.n_joints, 'joint')}"
+            f"<Motion of {format_count(self.n_frames, 'frame')} ({self.duration:.1f} s) at "
+            f"{self.fps:g} Hz: {format_count(self.skeleton.n_joints, 'joint')}"
             f"{f', {ends} of them end sites' if ends else ''}>"
         )
 

@@ -7,7 +7,7 @@ from html import escape
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.recordings.provenance import Provenance
 from kineme.recordings.skeleton import Skeleton
 

@@ -13,10 +13,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
-from kineme._checks import check_rates, is_number
-from kineme._interpolation import at_frames
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats, interpolate_frames
+from kineme._util.checks import check_rates, is_number
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.kinematics import forward_kinematics, local_translations
 from kineme.recordings.motion import Motion, check_motion
@@ -78,9 +77,11 @@ def resample(motion: Motion, fps: float) -> Motion:
     provenance = motion.provenance.noted(note)
     gaps = _gaps(motion, 0, ratio, n)
     if motion.rotations is None:
-        return Motion(motion.skeleton, at_frames(motion.positions, at), fps, None, provenance, gaps)
+        return Motion(
+            motion.skeleton, interpolate_frames(motion.positions, at), fps, None, provenance, gaps
+        )
     rotations = _slerp(motion.rotations, at)
-    translations = at_frames(
+    translations = interpolate_frames(
         local_translations(motion.skeleton, motion.positions, motion.rotations), at
     )
     positions = forward_kinematics(motion.skeleton, rotations, translations=translations)

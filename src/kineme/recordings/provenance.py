@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Literal, Self
 
-from kineme._clock import Clock
+from kineme.recordings.clock import Clock
 
 Severity = Literal["info", "warning"]
 

@@ -17,7 +17,7 @@ from typing import Any, ClassVar, Protocol, Self, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import as_spans, is_number
+from kineme._util.checks import as_spans, is_number
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.provenance import Note, Provenance
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from kineme._arrays import Floats
-from kineme._checks import as_floats, as_texts
-from kineme._counts import counted
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_floats, as_texts, format_count
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, assign, frozen
 from kineme.recordings.notebook import channels_svg
@@ -79,8 +78,8 @@ class Signals(Recording):
 
     def __repr__(self) -> str:
         return (
-            f"<Signals of {counted(self.n_frames, 'frame')} ({self.duration:.1f} s) at "
-            f"{self.fps:g} Hz: {counted(self.n_channels, 'channel')}>"
+            f"<Signals of {format_count(self.n_frames, 'frame')} ({self.duration:.1f} s) at "
+            f"{self.fps:g} Hz: {format_count(self.n_channels, 'channel')}>"
         )
 
     @property

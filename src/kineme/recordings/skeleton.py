@@ -17,9 +17,8 @@ from difflib import get_close_matches
 from functools import cached_property
 from operator import index
 
-from kineme._arrays import Floats
-from kineme._checks import as_texts
-from kineme._counts import counted
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_texts, format_count
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.arrays import assign, frozen
 
@@ -93,7 +92,7 @@ class Skeleton:
 
     def __repr__(self) -> str:
         ends = f", {len(self.end_sites)} of them end sites" if self.end_sites else ""
-        return f"<Skeleton of {counted(self.n_joints, 'joint')}{ends}>"
+        return f"<Skeleton of {format_count(self.n_joints, 'joint')}{ends}>"
 
     def joint(self, name: str) -> int:
         """The index of the joint of this name; a ParameterError names those closest to it."""
@@ -102,7 +101,7 @@ class Skeleton:
         except (KeyError, TypeError):
             close = get_close_matches(str(name), self.names, n=3) or self.names[:5]
             raise ParameterError(
-                f"no joint is called {name!r}; did you mean {_listed(close)}?"
+                f"no joint is called {name!r}; did you mean {_list_names(close)}?"
             ) from None
 
     @property
@@ -163,5 +162,5 @@ class Skeleton:
         return {name: i for i, name in enumerate(self.names)}
 
 
-def _listed(names: Iterable[str]) -> str:
+def _list_names(names: Iterable[str]) -> str:
     return ", ".join(map(repr, names))

@@ -15,12 +15,12 @@ from importlib.resources import files
 from os import PathLike
 from pathlib import Path
 
-from kineme._checks import check_path, check_type
-from kineme._files import atomic_write
+from kineme._util.checks import check_path, check_type
+from kineme._util.files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
 from kineme.segments.segmentation import Segmentation
-from kineme.web.curves import curves_of, recorded
+from kineme.web.curves import as_recording, curves_of
 from kineme.web.cycle_curves import CycleCurves
 from kineme.web.encoding import to_json
 from kineme.web.messages import Recording, ReportCurves
@@ -77,10 +77,10 @@ def write_report(
     message = recording_message(
         data, segmentation, name=name or _name(segmentation), band=band, levels=True
     )
-    source = recorded(recording, data.fps)
+    source = as_recording(recording, data.fps)
     others = [segmentation.at_detail(level.detail) for level in message.levels]
     with atomic_write(path) as draft:
-        page = filled(
+        page = fill_template(
             _template(),
             message,
             data.binary,
@@ -91,7 +91,7 @@ def write_report(
         draft.write_text(page, encoding="utf-8")
 
 
-def filled(
+def fill_template(
     template: str,
     message: Recording,
     binary: bytes,

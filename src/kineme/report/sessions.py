@@ -19,14 +19,13 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme._checks import check_path
-from kineme._counts import counted
-from kineme._files import atomic_write
+from kineme._util.checks import check_path, format_count
+from kineme._util.files import atomic_write
 from kineme._version import __version__
-from kineme.cycles import Cycles, compare_curves, compare_sessions, compare_sides, plot_sessions
-from kineme.cycles.picture import FIRST, SECOND
+from kineme.cycles import Cycles, compare_curves, compare_sessions, compare_sides
 from kineme.cycles.table import Columns
 from kineme.errors import WriteError
+from kineme.plot.curves import FIRST, SECOND, plot_sessions
 from kineme.report.page import SUFFIXES
 
 MOST_GROUPS = 4
@@ -135,7 +134,7 @@ def write_sessions(
 
 def _name(cycles: Cycles) -> str:
     names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
-    return names[0] if len(names) == 1 else counted(len(names), "recording")
+    return names[0] if len(names) == 1 else format_count(len(names), "recording")
 
 
 def _page(sheet: Sheet) -> str:
@@ -338,9 +337,9 @@ def _rest(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
     channels = len(sheet.sessions[0].channels)
     omitted = []
     if len(groups) > MOST_GROUPS:
-        omitted.append(f"{counted(len(groups) - MOST_GROUPS, 'group')} with fewer repetitions")
+        omitted.append(f"{format_count(len(groups) - MOST_GROUPS, 'group')} with fewer repetitions")
     if channels > n_channels:
-        omitted.append(f"{counted(channels - n_channels, 'channel')} that changed less surely")
+        omitted.append(f"{format_count(channels - n_channels, 'channel')} that changed less surely")
     more = (
         f"Not shown: {', '.join(omitted)}; a table has them (--compare NAME.csv). "
         if omitted

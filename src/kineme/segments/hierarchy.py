@@ -13,8 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import is_number
-from kineme._counts import counted
+from kineme._util.checks import format_count, is_number
 from kineme.errors import ParameterError
 from kineme.segments.table import Level, SegmentTable
 
@@ -137,7 +136,7 @@ class Hierarchy:
 
     def __repr__(self) -> str:
         n = len(self.details)
-        of = f"{counted(n, 'detail')} from {self.details[0]:g} to {self.details[-1]:g}"
+        of = f"{format_count(n, 'detail')} from {self.details[0]:g} to {self.details[-1]:g}"
         return f"<Hierarchy of {of}, {self.detail:g} is looked at>"
 
 

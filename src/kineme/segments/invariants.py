@@ -8,8 +8,8 @@ from typing import Any, TypedDict
 
 import numpy as np
 
-from kineme._checks import is_number
-from kineme._json import converted, fault_of
+from kineme._util.checks import is_number
+from kineme._util.json import convert_json, fault_of
 from kineme.errors import ParameterError
 from kineme.segments.table import Level, SegmentTable
 
@@ -111,7 +111,7 @@ def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(provenance.get("input"), str):
         provenance["input"] = {"path": provenance["input"]}
     try:
-        converted(provenance, Provenance)
+        convert_json(provenance, Provenance)
     except ValueError as error:
         raise ParameterError(f"the provenance is not as kineme writes it: {error}") from error
     return provenance

@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import check_type, is_one_of
-from kineme._clock import Clock
-from kineme._counts import counted
+from kineme._util.checks import check_type, format_count, is_one_of
 from kineme.errors import ParameterError
+from kineme.recordings.clock import Clock
 from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.invariants import (
@@ -37,7 +36,6 @@ from kineme.segments.table import (
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, repr=False)
@@ -266,7 +264,7 @@ class Segmentation:
             "primitive": self.primitives.kind.tolist().count("primitive"),
             "cluster": len(clusters - {-1}),
         }
-        return ", ".join(counted(n, name) for name, n in counts.items())
+        return ", ".join(format_count(n, name) for name, n in counts.items())
 
     @property
     def clock(self) -> Clock | None:
@@ -303,32 +301,6 @@ class Segmentation:
             frame[START_TIME] = times
         return frame
 
-    def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Activities, and primitives below them, along the seconds of the recording.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Where to draw; Axes of a new figure of pyplot by default.
-
-        Returns
-        -------
-        Axes
-
-        Examples
-        --------
-        >>> import kineme
-        >>> from kineme.datasets import bundled_truth
-        >>> from matplotlib.figure import Figure
-        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
-        >>> axes = segments.plot(ax=Figure().add_subplot())
-        """
-        from kineme.segments.timeline import draw_timeline
-
-        rows = {"activities": self.activities, "primitives": self.primitives}
-        shown = {name: table for name, table in rows.items() if len(table)}
-        return draw_timeline(shown, self.n_frames / self.fps, ax=ax)
-
     def __len__(self) -> int:
         return len(self.table)
 
@@ -337,10 +309,10 @@ class Segmentation:
 
     def __repr__(self) -> str:
         seconds = self.n_frames / self.fps
-        length = f"{counted(self.n_frames, 'frame')} ({seconds:.1f} s)"
+        length = f"{format_count(self.n_frames, 'frame')} ({seconds:.1f} s)"
         return f"<Segmentation of {length}: {self.describe()}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.timeline import page
+        from kineme.segments.html import page
 
         return page(repr(self).strip("<>"), [self.activities, self.primitives], self.activities)

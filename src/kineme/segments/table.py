@@ -32,8 +32,7 @@ from typing import (
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import needed
-from kineme._counts import counted
+from kineme._util.checks import format_count, require_extra
 from kineme.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -136,7 +135,7 @@ class Segment:
         return self.stop_s - self.start_s
 
 
-def _declared() -> Iterator[tuple[str, Column]]:
+def _list_columns() -> Iterator[tuple[str, Column]]:
     """Name and column of each field of a segment."""
     hints = get_type_hints(Segment, include_extras=True)
     for field in fields(Segment):
@@ -153,7 +152,7 @@ def _declared() -> Iterator[tuple[str, Column]]:
         )
 
 
-COLUMNS: Mapping[str, Column] = MappingProxyType(dict(_declared()))
+COLUMNS: Mapping[str, Column] = MappingProxyType(dict(_list_columns()))
 """The columns by name, in the documented order."""
 START_TIME = "start_time"
 """One more column of files and data frames, where the recording has a clock: what it shows."""
@@ -175,13 +174,13 @@ def kind_of(level: Level, *, transition: bool) -> Kind:
     return "transition" if transition else level
 
 
-def _of_columns(table: type[Values]) -> type[Values]:
+def _make_columns_class(table: type[Values]) -> type[Values]:
     """Return the class as a dataclass of one array for each column."""
     table.__annotations__ = dict.fromkeys(COLUMNS, NDArray[Any])
     return dataclass(frozen=True, eq=False, repr=False)(table)
 
 
-@_of_columns
+@_make_columns_class
 class SegmentTable:
     """Segments as columns: one numpy array for each field of a `Segment`, all of the same length.
 
@@ -233,7 +232,7 @@ class SegmentTable:
         >>> float(frame.groupby("label").duration_s.sum().round(2)["walk"])
         9.78
         """
-        with needed("pandas", "tables"):
+        with require_extra("pandas", "tables"):
             import pandas as pd
         frame = pd.DataFrame(self.columns())
         frame.insert([*COLUMNS].index("stop_s") + 1, "duration_s", self.duration_s)
@@ -258,7 +257,7 @@ class SegmentTable:
         ParameterError
             It picks no rows.
         """
-        picked = rows if isinstance(rows, slice) else _picked(rows, len(self))
+        picked = rows if isinstance(rows, slice) else _check_selection(rows, len(self))
         try:
             columns = {name: column[picked] for name, column in self.columns().items()}
         except (TypeError, ValueError):  # a slice that is none of whole numbers
@@ -304,12 +303,12 @@ class SegmentTable:
 
     def __repr__(self) -> str:
         n = len(self)
-        of = f"{counted(n, 'segment')}"
+        of = f"{format_count(n, 'segment')}"
         span = f", {self.start_s.min():.2f} to {self.stop_s.max():.2f} s" if n else ""
         return f"<SegmentTable of {of}{span}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.timeline import page
+        from kineme.segments.html import page
 
         levels = [self[self.level == level] for level in get_args(Level)]
         return page(repr(self).strip("<>"), levels, self)
@@ -323,15 +322,15 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
             raise ParameterError(f"a segment table needs the column {name!r}")
     n = np.size(columns["level"])
     arrays = {
-        name: _checked(columns.get(name, np.full(n, column.default)), name)
+        name: _check_column(columns.get(name, np.full(n, column.default)), name)
         for name, column in needed.items()
     }
     if "activity" in columns:
-        arrays["activity"] = _checked(columns["activity"], "activity")
+        arrays["activity"] = _check_column(columns["activity"], "activity")
     for name, array in arrays.items():
         if array.shape != (n,):
             raise ParameterError(f"column {name!r} has shape {array.shape}, 'level' has ({n},)")
-    arrays = _derived(arrays, fps) | arrays
+    arrays = _compute_derived(arrays, fps) | arrays
     arrays["kind"] = kinds_of(arrays["level"], arrays["kind"])
     order = np.lexsort((arrays["stop_frame"], arrays["start_frame"], arrays["level"]))
     return SegmentTable(**{name: arrays[name][order] for name in COLUMNS})
@@ -346,7 +345,7 @@ def kinds_of(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.st
     return np.where(kinds == "transition", kinds, levels)
 
 
-def _derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArray[Any]]:
+def _compute_derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArray[Any]]:
     """Return the columns that follow from others."""
     start = arrays["start_frame"]
     activities = np.flatnonzero(arrays["level"] == "activity")
@@ -361,7 +360,7 @@ def _derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArra
     }
 
 
-def _checked(values: ArrayLike, name: str) -> NDArray[Any]:
+def _check_column(values: ArrayLike, name: str) -> NDArray[Any]:
     """The values of a column as an array of its type; ParameterError where it cannot hold them."""
     column = COLUMNS[name]
     try:
@@ -398,7 +397,7 @@ def _texts(array: NDArray[Any], name: str, allowed: tuple[str, ...]) -> NDArray[
     return array.astype(np.str_)
 
 
-def _picked(rows: ArrayLike, n: int) -> NDArray[Any]:
+def _check_selection(rows: ArrayLike, n: int) -> NDArray[Any]:
     """Return a mask or row numbers of a table of n rows, checked."""
     try:
         picked = np.asarray(rows)

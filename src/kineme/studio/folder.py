@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from kineme._files import CORRECTED
+from kineme._util.files import CORRECTED
 from kineme.formats.listing import files_in, holds_recording
 from kineme.labels import holds_labels
 from kineme.segments.segmentation import Segmentation

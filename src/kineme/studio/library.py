@@ -20,8 +20,8 @@ from typing import Literal, TypeVar
 from msgspec import UNSET, structs
 from threadpoolctl import threadpool_limits
 
-from kineme._counts import counted
-from kineme._threads import map_threads
+from kineme._util.checks import format_count
+from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, ParameterError
 from kineme.labels import read_segments
 from kineme.library import Example, Library
@@ -33,7 +33,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 from kineme.studio.folder import Folder, progress
 from kineme.studio.library_history import LibraryHistory
-from kineme.studio.library_tables import LibraryTables, as_in_library, in_library
+from kineme.studio.library_tables import LibraryTables, as_in_library, select_library_clusters
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.reading import ReadingOptions, stamp_of
@@ -143,7 +143,7 @@ class ShownLibrary:
                 self._history.undo()
                 self._library = Library(self._folder)
             else:
-                self._history.add(_made(library, edit), before)
+                self._history.add(_make_edit(library, edit), before)
             self._stamp, self._tables = self._changed(), None
         return self.state()
 
@@ -176,7 +176,11 @@ class ShownLibrary:
         """Name the cluster of the library that one of a recording is, there and in all tables."""
         opened = recordings.get(sent.recording)
         of_library = self.table_of(opened.path)
-        place = in_library(opened.table, of_library).get(sent.cluster) if of_library else None
+        place = (
+            select_library_clusters(opened.table, of_library).get(sent.cluster)
+            if of_library
+            else None
+        )
         if place is None:
             raise ParameterError(f"cluster {sent.cluster} is none of the library")
         self.edit(CallCluster(cluster=place, name=sent.label))
@@ -208,7 +212,7 @@ class ShownLibrary:
 
     def _changed(self) -> tuple[int, ...]:
         """Return what is another one when somebody has written the library."""
-        return tuple(_modified(self._folder / name) for name in (HEAD, EDITS))
+        return tuple(_read_modified(self._folder / name) for name in (HEAD, EDITS))
 
 
 class LibraryFolder(Folder):
@@ -217,7 +221,7 @@ class LibraryFolder(Folder):
     of_library = True
 
     def __init__(self, shown: ShownLibrary):
-        super().__init__(_above(shown.files()), [])
+        super().__init__(_find_common_folder(shown.files()), [])
         self._shown = shown
 
     def first_table(self, path: Path) -> Segmentation | None:
@@ -330,19 +334,19 @@ def name_hits(
     return NamedHits(named=named, left=failures)
 
 
-def _made(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> str:
+def _make_edit(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> str:
     """Make an edit of the clusters of a library; what it was, in words."""
     if isinstance(edit, CallCluster):
         library.name(edit.cluster, edit.name.strip())
         return f"cluster {edit.cluster} is called “{edit.name.strip()}”"
     if isinstance(edit, JoinClusters):
         library.merge(edit.cluster, *edit.others)
-        return f"{counted(len(edit.others), 'cluster')} merged into {edit.cluster}"
+        return f"{format_count(len(edit.others), 'cluster')} merged into {edit.cluster}"
     into = library.split(edit.cluster, edit.recordings)
     return f"cluster {into} split from {edit.cluster}"
 
 
-def _above(files: list[Path]) -> Path:
+def _find_common_folder(files: list[Path]) -> Path:
     """Return the folder that holds all files; that of the first where there is none."""
     folders = [str(path.absolute().parent) for path in files] or [str(Path.cwd())]
     with suppress(ValueError):  # several drives
@@ -350,7 +354,7 @@ def _above(files: list[Path]) -> Path:
     return Path(folders[0])
 
 
-def _modified(path: Path) -> int:
+def _read_modified(path: Path) -> int:
     try:
         return path.stat().st_mtime_ns
     except OSError:

@@ -12,8 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from kineme._compiled import telling_of_compiling
-from kineme._threads import asking
+from kineme._util.parallel import announce_compilation, cancellable
 from kineme.errors import MotionError, ParameterError, ReadError
 from kineme.methods.presets import DEFAULT
 from kineme.recordings import Motion, Skeleton
@@ -92,7 +91,7 @@ class LoadedRecording:
 
         with self._lock:
             if self._page_data is None:
-                shown = without_others(self.recording)
+                shown = drop_others(self.recording)
                 self._page_data = page_data(shown, effectors=self.effectors)
             return self._page_data
 
@@ -140,7 +139,7 @@ class LoadedRecording:
         Those found last are kept: what was looked at is often taken, or looked at in another
         detail. CancelledError where ``run`` was cancelled, or all of them (`runs`).
         """
-        from kineme.segmentation.segmenter import segment
+        from kineme.methods.segmenter import segment
 
         changed = dict[str, Any](parameters or {})
         check_offered(preset, changed, signals=not self.is_motion)
@@ -152,8 +151,8 @@ class LoadedRecording:
             found = self.recording
             with (
                 self.runs.one(run or Run(preset)) as present,
-                asking(present.go_on),
-                telling_of_compiling(present.stage),
+                cancellable(present.go_on),
+                announce_compilation(present.stage),
             ):
                 segments = segment(
                     found,
@@ -218,7 +217,7 @@ class LoadedRecording:
         return one_segment(kind, self.n_frames, self.fps, provenance)
 
 
-def without_others(recording: Motion | Signals) -> Motion | Signals:
+def drop_others(recording: Motion | Signals) -> Motion | Signals:
     """Return the recording without the markers of the other people in its file."""
     provenance = recording.provenance
     others = {*provenance.people} - {provenance.person}

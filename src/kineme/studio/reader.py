@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.errors import KinemeError, SeveralPeopleError
 from kineme.studio.folder import Folder
 from kineme.studio.reading import RecordingCache
 from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import (
     Reading,
-    given,
+    keep_given,
     keep_reading,
     options_of,
     read_options,
@@ -37,7 +37,7 @@ class Reader:
             return
         people = self._cache.read(listed).provenance.people
         if len(people) > 1:
-            reason = f"{counted(len(people), 'person')} are in it: choose one of them, or all"
+            reason = f"{format_count(len(people), 'person')} are in it: choose one of them, or all"
             raise SeveralPeopleError(listed.path, reason, people)
 
     def change_options(
@@ -48,7 +48,7 @@ class Reader:
         Return the options that differ from those before, and which of several people was read.
         """
         before = reading_of(listed.path)
-        after, person = self._read(listed, Reading(given(options), before.people), everybody)
+        after, person = self._read(listed, Reading(keep_given(options), before.people), everybody)
         keep_reading(listed.path, after)
         return after.differs_from(before), person
 

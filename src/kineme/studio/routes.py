@@ -16,7 +16,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 from starlette.routing import Route
 
-from kineme._files import video_beside
+from kineme._util.files import find_video
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
@@ -313,7 +313,7 @@ class Api:
         from kineme.studio import downloads
 
         kind, level = request.path_params["format"], _level(request)
-        return file_response(*downloads.exported(self._opened(request), kind, level))
+        return file_response(*downloads.export_download(self._opened(request), kind, level))
 
     def clips(self, request: Request, sent: ClipsRequest) -> Response:
         from kineme.studio import downloads
@@ -324,15 +324,15 @@ class Api:
     def loops(self, request: Request) -> Loops:
         from kineme.studio import loops
 
-        return loops.ranked(self._opened(request))
+        return loops.rank_loops(self._opened(request))
 
     def loop(self, request: Request) -> PlayedLoop:
         from kineme.studio import loops
 
-        return loops.played(self._opened(request), *_numbers(request, "number"))
+        return loops.play_loop(self._opened(request), *_numbers(request, "number"))
 
     def video(self, request: Request) -> Response:
-        found = video_beside(self._opened(request).path)
+        found = find_video(self._opened(request).path)
         if found is None:
             raise UnknownError("there is no video of that name beside the recording")
         return FileResponse(found)

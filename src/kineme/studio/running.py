@@ -3,7 +3,7 @@
 Methods say when a stage begins (`kineme.methods.stages`). How far one is follows from the shares of
 time that the stages took on recordings of an hour, and from the pace so far; of methods that are
 not listed nobody knows. A segmentation that is cancelled ends when its next stage would begin, or
-its work asks whether to go on (`kineme._threads.go_on`), which it does several times a second.
+its work asks whether to go on (`kineme._util.parallel.check_cancelled`), several times a second.
 """
 
 from __future__ import annotations

@@ -160,7 +160,7 @@ def load_code(ended: threading.Event) -> None:
     from kineme.datasets import bundled_recording
     from kineme.formats import read_motion
     from kineme.methods.presets import DEFAULT, PUBLISHED
-    from kineme.segmentation.segmenter import segment
+    from kineme.methods.segmenter import segment
     from kineme.web.page_data import page_data
 
     motion = read_motion(bundled_recording())

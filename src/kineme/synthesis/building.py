@@ -16,11 +16,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from kineme._checks import check_type, is_number
+from kineme._util.checks import check_type, is_number
 from kineme.errors import ParameterError
+from kineme.methods.segmenter import segment
 from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
-from kineme.segmentation.segmenter import segment
 from kineme.segments.segmentation import Segmentation
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 from kineme.synthesis.jumps import jumps

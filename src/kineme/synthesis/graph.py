@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._arrays import Ints
+from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
 
 

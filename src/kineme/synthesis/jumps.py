@@ -12,13 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Ints
+from kineme._util.arrays import Ints
 from kineme.features.point_clouds import fit_clouds
-from kineme.graph import neighbor_graph
 from kineme.methods.kineme.preset import KINEME
+from kineme.methods.prepare import compute_motion_features
+from kineme.methods.region_growing.neighbors import neighbor_graph
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample
-from kineme.segmentation.bodies import motion_features
 from kineme.synthesis.graph import Edge, Node
 
 RADIUS = 0.25
@@ -47,7 +47,7 @@ def jumps(
     slow = [resample(motion, rate) for motion in motions]
     firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
     points = np.concatenate([motion.positions[:, motion.skeleton.body] for motion in slow])
-    features = np.concatenate([motion_features(motion, POSES) for motion in motions])
+    features = np.concatenate([compute_motion_features(motion, POSES) for motion in motions])
     half = round(window * rate / 2)
     ratio = motions[0].fps / rate
     ends, starts = (_ends_of(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0))
@@ -68,8 +68,8 @@ def jumps(
     for i in below[_nearest(key, distances[below], 1)].tolist():
         tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
         at = (
-            _at_source(ends.frames[leave[i]] - firsts[nodes[tail].source], ratio),
-            _at_source(starts.frames[enter[i]] - firsts[nodes[head].source], ratio),
+            _convert_to_source(ends.frames[leave[i]] - firsts[nodes[tail].source], ratio),
+            _convert_to_source(starts.frames[enter[i]] - firsts[nodes[head].source], ratio),
         )
         shift = (float(shifts[i, 0]), float(shifts[i, 1]))
         edges.append(Edge(tail, head, *at, float(distances[i]), float(angles[i]), shift))
@@ -106,5 +106,5 @@ def _nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
     return kept
 
 
-def _at_source(frame: int, ratio: float) -> int:
+def _convert_to_source(frame: int, ratio: float) -> int:
     return round(float(frame) * ratio)

@@ -13,7 +13,7 @@ from hashlib import sha256
 
 import numpy as np
 
-from kineme._arrays import Float32s, Floats, Ints
+from kineme._util.arrays import Float32s, Floats, Ints
 from kineme.errors import ParameterError
 from kineme.recordings import Signals
 

@@ -18,9 +18,8 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import check_type
-from kineme._counts import counted
-from kineme._files import reading
+from kineme._util.checks import check_type, format_count
+from kineme._util.files import translate_read_errors
 from kineme.errors import ParameterError
 from kineme.features.canonical.matching import DIMS
 from kineme.features.effectors import Names
@@ -176,7 +175,7 @@ class KnowledgeBase:
         ReadError
             Missing, damaged, no knowledge base, or of another version.
         """
-        with reading(path):
+        with translate_read_errors(path):
             return cls(**knowledge_file.read(path, SETTINGS))
 
     def save(self, path: str | PathLike[str]) -> None:
@@ -216,7 +215,7 @@ class KnowledgeBase:
 
     def __repr__(self) -> str:
         labels = ", ".join(f"{label} {count}" for label, count in self.counts().items())
-        return f"<KnowledgeBase of {counted(len(self), 'primitive')}: {labels}>"
+        return f"<KnowledgeBase of {format_count(len(self), 'primitive')}: {labels}>"
 
 
 def _labelled(segments: Segmentation) -> SegmentTable:

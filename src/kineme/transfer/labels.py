@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._arrays import Floats
-from kineme._checks import as_floats, check_flag, check_type, is_number
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable

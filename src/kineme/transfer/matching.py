@@ -9,7 +9,7 @@ A *run* is of primitives that touch and are of one kind. Cyclic movements may be
 phase, so a warping may lead from one primitive to the next of its run, but never into another.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1; the backward match is our own, the warping that
-of `kineme.matching`.
+of `kineme.transfer.subsequences`.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from kineme._arrays import Floats, Ints
-from kineme._threads import map_threads
-from kineme.matching.subsequences import warped
+from kineme._util.arrays import Floats, Ints
+from kineme._util.parallel import map_threads
+from kineme.transfer.subsequences import warped
 
 # Which primitive, in which run of the other side, at what cost.
 Matches = tuple[Ints, Ints, Floats]

@@ -1,8 +1,9 @@
 """Labels for a recording in which nothing repeats itself, by a search for every known primitive.
 
 A recording that is too short has no activities, so there is nothing to name. Its features are
-searched for each labelled primitive (see `kineme.matching.search`); of matches that overlap, the
-nearest stays. Matches of one label that follow each other are the primitives of one activity.
+searched for each labelled primitive (see `kineme.transfer.subsequences.search`); of matches that
+overlap, the nearest stays. Matches of one label that follow each other are the primitives of one
+activity.
 """
 
 from __future__ import annotations
@@ -12,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.matching import search
-from kineme.segments.editing.rows import with_rows
+from kineme.segments.editing.rows import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, kind_of
 from kineme.transfer.features import FPS
 from kineme.transfer.knowledge import KnowledgeBase
+from kineme.transfer.subsequences import search
 
 Row = tuple[int, int, str]
 
@@ -85,7 +86,7 @@ def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmen
         for level, spans in levels
         for start, stop, label in _tiled(spans, segmentation.n_frames)
     ]
-    return with_rows(segmentation, rows, [])
+    return replace_rows(segmentation, rows, [])
 
 
 def _tiled(rows: list[Row], n_frames: int) -> list[Row]:

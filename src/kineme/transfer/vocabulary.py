@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial.distance import cdist
 from threadpoolctl import threadpool_limits
 
-from kineme._arrays import Float32s, Floats
+from kineme._util.arrays import Float32s, Floats
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.channel_samples import ChannelSamples, by_content, in_common_units
 

@@ -17,7 +17,7 @@ import numpy as np
 from msgspec import structs
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.recordings import Motion, Signals
 from kineme.segments.annotation import NO_ANNOTATION
 from kineme.segments.segmentation import Segmentation
@@ -115,7 +115,7 @@ class CycleCurves:
             group = measured.select(rows)
             name = channel or _liveliest(group, measured)[0]
             ends = _only_ends(group)
-            return _drawn(group, name, MOST, _means(group, ends=ends)[name], ends=ends)
+            return _make_message(group, name, MOST, _means(group, ends=ends)[name], ends=ends)
 
     def beside(
         self,
@@ -142,15 +142,15 @@ class CycleCurves:
         name, ends = alone.channel, _only_ends(group) or _only_ends(others)
         first, second = self._measured(group, [name]), other._measured(others, [name])
         compared = compare_curves(first, second, ends=ends)
-        drawn = _drawn(first, name, MOST, _means(first, ends=ends)[name], ends=ends)
+        drawn = _make_message(first, name, MOST, _means(first, ends=ends)[name], ends=ends)
         digits = _digits(_extent(first.curves)) + 1
         return structs.replace(
             drawn,
             beside=OtherSession(
                 n=int(compared["second_n"][0]),
                 total=len(others),
-                mean=_rounded(compared["second_mean"], digits),
-                sd=_rounded(compared["second_sd"], digits),
+                mean=_round_values(compared["second_mean"], digits),
+                sd=_round_values(compared["second_sd"], digits),
                 differs=((compared["low"] > 0) | (compared["high"] < 0)).tolist(),
             ),
         )
@@ -178,7 +178,7 @@ class CycleCurves:
             room = MOST_NUMBERS // (shown.curves.shape[2] * len(names))
             most = _most([len(group) for group in found.values()], room)
             return ReportCurves(
-                channels=[_with_opposite_in(heads[name], names) for name in names],
+                channels=[_add_opposite(heads[name], names) for name in names],
                 curves=[self._of_report(group, names, most, shown) for group in found.values()],
                 tables=tables,
             )
@@ -204,36 +204,36 @@ class CycleCurves:
         ends = _only_ends(measured)
         means = _means(measured, ends=ends)
         return {
-            name: _drawn(measured, name, most, means[name], ends=ends)
+            name: _make_message(measured, name, most, means[name], ends=ends)
             for name in _liveliest(measured, every)
             if name in names
         }
 
     def _of_table(self, table: Segmentation) -> Cycles:
         """Its cycles, without channels; measured once for all that people say of its segments."""
-        from kineme.cycles.measure import cycles, with_left_out
+        from kineme.cycles.measure import cycles, drop_left_out
 
         if self._cycles is None or not _same_segments([self._table], [table]):
             recording = self._read()
-            found = cycles(recording, _timed(table, recording), channels=[])
-            self._table, self._cycles = table, _with_frames(found, table)
-        return with_left_out(self._cycles, [table])
+            found = cycles(recording, _rescale_table(table, recording), channels=[])
+            self._table, self._cycles = table, _add_frames(found, table)
+        return drop_left_out(self._cycles, [table])
 
     def _together(
         self, table: Segmentation, other: CycleCurves, other_table: Segmentation
     ) -> tuple[Cycles, Cycles]:
         """Return the cycles of both, without channels; movements of one name begin at one phase."""
-        from kineme.cycles.measure import cycles, with_left_out
+        from kineme.cycles.measure import cycles, drop_left_out
 
         tables = table, other_table
         with self._lock:
             if self._both is None or not _same_segments(self._both[0], tables):
                 recordings = self._read(), other._read()
-                timed = [_timed(*each) for each in zip(tables, recordings, strict=True)]
+                timed = [_rescale_table(*each) for each in zip(tables, recordings, strict=True)]
                 self._both = tables, cycles(recordings, timed, channels=[])
-            found = with_left_out(self._both[1], tables)
+            found = drop_left_out(self._both[1], tables)
         first = found.columns["recording"] == found.columns["recording"][0]
-        return _with_frames(found.select(first), table), found.select(~first)
+        return _add_frames(found.select(first), table), found.select(~first)
 
     def _measured(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
         """Return the cycles with these channels."""
@@ -253,7 +253,7 @@ class CycleCurves:
             beside = self._beside() if needed else None
             for each in channels_of(recording, ["*"], beside=[] if beside is None else [beside]):
                 if each.name in missing:
-                    self._values[each.name] = _in_memory(each)
+                    self._values[each.name] = _copy_numbers(each)
         channels = [self._values[name] for name in names]
         for name in names:
             self._values.move_to_end(name)
@@ -262,13 +262,13 @@ class CycleCurves:
         return measured_anew(cycles, channels)
 
 
-def _in_memory(channel: Channel) -> Channel:
+def _copy_numbers(channel: Channel) -> Channel:
     """Return the same channel with its numbers, without the recording that they come from."""
     values = channel.values()
     return replace(channel, compute=lambda: values, gaps=())
 
 
-def _timed(table: Segmentation, recording: Motion | Signals) -> Segmentation:
+def _rescale_table(table: Segmentation, recording: Motion | Signals) -> Segmentation:
     """Return the table at the rate of its recording, without what people say of its segments."""
     return replace(table, fps=recording.fps, annotation=NO_ANNOTATION)
 
@@ -281,7 +281,7 @@ def _same_segments(before: Sequence[Segmentation | None], now: Sequence[Segmenta
     )
 
 
-def _with_frames(cycles: Cycles, table: Segmentation) -> Cycles:
+def _add_frames(cycles: Cycles, table: Segmentation) -> Cycles:
     """Return the cycles of a table with the first frames of their segments."""
     frames = [row.start_frame for row in table.primitives if row.kind == "primitive"]
     columns = {**cycles.columns, "segment_frame": np.array(frames, np.int64)}
@@ -295,7 +295,7 @@ def _clusters(cycles: Cycles) -> list[int]:
 def _spans(cycles: Cycles) -> tuple[object, ...]:
     """Return all that curves of these cycles depend on."""
     names = ("start_s", "stop_s", "place", "excluded")
-    return _turned(cycles), *(tuple(cycles.columns[name].tolist()) for name in names)
+    return _count_turned(cycles), *(tuple(cycles.columns[name].tolist()) for name in names)
 
 
 def _most(sizes: Sequence[int], room: int) -> int:
@@ -306,7 +306,7 @@ def _most(sizes: Sequence[int], room: int) -> int:
     return most
 
 
-def _with_opposite_in(head: CycleChannel, names: Sequence[str]) -> CycleChannel:
+def _add_opposite(head: CycleChannel, names: Sequence[str]) -> CycleChannel:
     opposite = head.opposite if head.opposite in names else ""
     return CycleChannel(name=head.name, unit=head.unit, group=head.group, opposite=opposite)
 
@@ -353,7 +353,9 @@ def _only_ends(group: Cycles) -> bool:
     return not group.used().any()
 
 
-def _drawn(group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool) -> ClusterCurves:
+def _make_message(
+    group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool
+) -> ClusterCurves:
     """Return the message for the cycles of a group."""
     from kineme.cycles.table import BY_HAND
 
@@ -378,7 +380,7 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool)
             counts=bool(counts[i]),
             note="" if counts[i] else OUT if i in by_hand else _note(columns, i),
             distance=None if np.isnan(distance[i]) else round(float(distance[i]), digits),
-            values=_rounded(curves[i], digits),
+            values=_round_values(curves[i], digits),
         )
         for i in _some(order, most, by_hand)
     ]
@@ -389,21 +391,21 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool)
         total=len(group),
         ends=ends,
         left_out=len(by_hand),
-        turned=_turned(group),
-        mean=_rounded(mean["mean"], digits + 1),
-        sd=_rounded(mean["sd"], digits + 1),
+        turned=_count_turned(group),
+        mean=_round_values(mean["mean"], digits + 1),
+        sd=_round_values(mean["sd"], digits + 1),
         cycles=drawn,
         beside=None,
     )
 
 
-def _turned(group: Cycles) -> int:
+def _count_turned(group: Cycles) -> int:
     """Return how many of its activities began at another phase than the others."""
     place = group.columns["recording"][0], group.columns["group"][0]
     return sum((each["recording"], each["group"]) == place for each in group.provenance["turned"])
 
 
-def _rounded(values: Floats, digits: int) -> list[float | None]:
+def _round_values(values: Floats, digits: int) -> list[float | None]:
     return [value if np.isfinite(value) else None for value in values.round(digits).tolist()]
 
 

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from kineme._json import sentence
+from kineme._util.json import sentence
 from kineme.errors import ParameterError
 
 Message = TypeVar("Message")

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.errors import MotionError, ParameterError
 from kineme.features import Names, body_size, distance_features, end_effectors, pose_features
 from kineme.features.distances import SIZE
@@ -72,7 +72,7 @@ def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
     starts = np.arange(0, len(signal), averaged)
     lengths = np.diff(starts, append=len(signal))
     means = np.add.reduceat(signal, starts, axis=0) / lengths[:, None]
-    return pyramid(_standardised(means), fps / averaged, len(signal) / fps)
+    return pyramid(_standardise(means), fps / averaged, len(signal) / fps)
 
 
 def _distances(motion: Motion) -> Floats:
@@ -88,7 +88,7 @@ def _distances(motion: Motion) -> Floats:
     return values
 
 
-def _standardised(values: Floats) -> Floats:
+def _standardise(values: Floats) -> Floats:
     """The channels over their deviation, the main ones of many, 1 apart where ``d`` is to be 1."""
     visible = np.asarray(np.isfinite(values).all(axis=1))
     if not visible.any():

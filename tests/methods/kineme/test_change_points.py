@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import naive
 from kineme.methods.kineme import _tree_kernels as kernels
-from kineme.methods.segments import by_first_appearance
+from kineme.methods.segments import number_by_appearance
 
 seconds = settings(max_examples=60)
 
@@ -40,6 +40,6 @@ def test_no_division_is_cheaper(similarity, width, penalty) -> None:
 @given(st.lists(st.integers(-1, 4), max_size=20))
 @seconds
 def test_labels_are_counted_by_first_appearance(labels) -> None:
-    found = by_first_appearance(np.array(labels, np.int64)).tolist()
+    found = number_by_appearance(np.array(labels, np.int64)).tolist()
     known = [label for label in dict.fromkeys(labels) if label >= 0]
     assert found == [known.index(label) if label >= 0 else -1 for label in labels]

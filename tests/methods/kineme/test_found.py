@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets import bundled_recording, bundled_truth, random_recording
 from kineme.evaluation import evaluate_segmentation
+from kineme.methods.segmenter import segment
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample, scale
-from kineme.segmentation.segmenter import segment
 from kineme.segments.segmentation import Segmentation
 from kineme_reproduction.benchmark import mean
 from kineme_reproduction.trials import find_folder, load_trials

@@ -18,8 +18,8 @@ from kineme.errors import ParameterError
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
+from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import resolve_preset
-from kineme.segmentation.bodies import motion_features
 from loops import swing
 
 few = settings(max_examples=8)
@@ -27,7 +27,7 @@ few = settings(max_examples=8)
 
 @cache
 def recorded(seed: int) -> np.ndarray:
-    return motion_features(random_recording(seed).motion, KINEME)
+    return compute_motion_features(random_recording(seed).motion, KINEME)
 
 
 @cache
@@ -136,8 +136,8 @@ import hashlib, numpy as np
 from kineme.datasets import random_recording
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME, SENSORS
-from kineme.segmentation.bodies import motion_features
-rows = motion_features(random_recording(2).motion, KINEME)
+from kineme.methods.prepare import compute_motion_features
+rows = compute_motion_features(random_recording(2).motion, KINEME)
 for _ in range(2):
     digest = hashlib.sha256()
     for preset in (KINEME, KINEME.replace(part=15.0), SENSORS.replace(working_fps=30.0)):

@@ -17,12 +17,12 @@ from scipy.stats import ortho_group
 from graphs import features
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
-from kineme.graph import BASIC_STEPS
+from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import PUBLISHED, resolve_preset
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.preset import RegionGrowingPreset
-from kineme.segmentation.bodies import motion_features
+from kineme.methods.region_growing.warping import BASIC_STEPS
 
 presets = pytest.mark.parametrize("preset", PUBLISHED.values(), ids=PUBLISHED.keys())
 few = settings(max_examples=10)
@@ -30,7 +30,7 @@ few = settings(max_examples=10)
 
 @cache
 def recorded(seed: int, preset: RegionGrowingPreset) -> np.ndarray:
-    return motion_features(random_recording(seed).motion, preset)
+    return compute_motion_features(random_recording(seed).motion, preset)
 
 
 @cache
@@ -103,11 +103,11 @@ import hashlib, numpy as np
 from kineme.datasets import random_recording
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.presets import PUBLISHED
-from kineme.segmentation.bodies import motion_features
+from kineme.methods.prepare import compute_motion_features
 digest = hashlib.sha256()
 for preset in PUBLISHED.values():
     for _ in range(2):
-        found = analyze_regions(motion_features(random_recording(2).motion, preset), preset)
+        found = analyze_regions(compute_motion_features(random_recording(2).motion, preset), preset)
         for part in (found.graph.indices, found.graph.distances, found.borders, found.repetition,
                      found.primitives, found.clustering.labels, found.clustering.scores):
             digest.update(np.ascontiguousarray(part).tobytes())

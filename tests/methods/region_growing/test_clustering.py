@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 import naive
 from graphs import as_lists, flat, sparse_graphs, staircases
-from kineme.graph import BASIC_STEPS, neighbor_graph, warping_paths
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.clustering import cluster_segments
+from kineme.methods.region_growing.neighbors import neighbor_graph
+from kineme.methods.region_growing.warping import BASIC_STEPS, warping_paths
 
 seconds = settings(max_examples=60)
 CONSTANTS = {"steps": BASIC_STEPS, "skip_penalty": 0.0, "zero_cost": 1e-6, "separation": None}

@@ -13,12 +13,12 @@ import naive
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
 from kineme.features import mirror, mirror_features
+from kineme.methods.prepare import compute_motion_features
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.mirroring import merged_cuts
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
-from kineme.segmentation.bodies import motion_features
-from kineme.segmentation.segmenter import segment_and_found
+from kineme.methods.segmenter import segment_and_found
 
 MIRRORING = {
     "voegele2014": VOEGELE2014.replace(mirror=True),
@@ -82,7 +82,7 @@ def test_features_without_sides_are_refused() -> None:
 
 def test_stages_are_named() -> None:
     motion = synthesize([Action("walk", 3)], fps=30).motion
-    features = motion_features(motion, KRUEGER2017)
+    features = compute_motion_features(motion, KRUEGER2017)
     found = analyze_regions(features, MIRRORING["krueger2017"], mirror=mirror_features)
     assert [*found.timings] == [
         "bundling", "neighbors", "activities", "primitives", "mirroring", "clusters",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from kineme.cli.help import on_demand
+from kineme.cli.help import make_lazy_group
 
 HOMES = {
     "build": "kineme.cli.library.build",
@@ -16,7 +16,7 @@ HOMES = {
 
 library = typer.Typer(
     name="library",
-    cls=on_demand(HOMES),
+    cls=make_lazy_group(HOMES),
     help="Build and search collections of recordings.",
     no_args_is_help=True,
     add_completion=False,

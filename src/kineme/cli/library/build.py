@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme._counts import counted
-from kineme._threads import n_threads
+from kineme._util.checks import format_count
+from kineme._util.parallel import count_threads
 from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
 from kineme.cli.library.commands import Scheduler, path_or_url
 from kineme.cli.messages import Failures, one_line, progress, say_skipped
@@ -75,7 +75,7 @@ def build(
     segmented stays as it was; where an option says otherwise, all are segmented anew.
     """
     failures = Failures()
-    processes = jobs or n_threads()
+    processes = jobs or count_threads()
     with failures.caught(into):
         if processes > 1 and scheduler is None and _is_much(files or (), into):
             from kineme.library.executors import start_soon
@@ -146,7 +146,7 @@ def _exit(built: Built, batch: Batch) -> None:
 
 def _summary(built: Built) -> str:
     n = len(built.paths)
-    parts = [f"{counted(n, 'recording')} in {built.folder}", f"{built.new} new"]
+    parts = [f"{format_count(n, 'recording')} in {built.folder}", f"{built.new} new"]
     parts += [f"{built.removed} taken out"] * bool(built.removed)
     parts += [f"{len(built.failed)} failed"] * bool(built.failed)
     return ", ".join(parts)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures, one_line
 
@@ -57,7 +57,7 @@ Cluster = Annotated[str, typer.Argument(help="A cluster by its number or name.")
 
 
 @contextmanager
-def opened(folder: Path) -> Iterator[Library]:
+def open_library(folder: Path) -> Iterator[Library]:
     """The library; what goes wrong with it in the block is said, and ends the command with 1."""
     failures = Failures()
     with failures.caught(folder):
@@ -80,7 +80,7 @@ def show(
     json: Json = False,
 ) -> None:
     """Show recordings, hours, clusters and unsure names."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         if pictures is not None:
             library.pictures(pictures)
         if json:
@@ -101,7 +101,7 @@ def query(
     json: Json = False,
 ) -> None:
     """Ask a library in SQL, by DuckDB."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         answer = library.query(sql)
         if json:
             for row in answer.to_pylist():
@@ -121,7 +121,7 @@ def export(
     ] = "segments",
 ) -> None:
     """Write the segments of all recordings as one table."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         library.export(output, table)
 
 
@@ -131,7 +131,7 @@ def name(
     label: Annotated[str, typer.Argument(help="Its name in all recordings; '' takes it away.")],
 ) -> None:
     """Name a cluster, once for all recordings."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         library.name(cluster, label)
 
 
@@ -141,7 +141,7 @@ def merge(
     others: Annotated[list[str], typer.Argument(help="Clusters that are the same.")],
 ) -> None:
     """Merge clusters into the first, which keeps number and name."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         library.merge(cluster, *others)
 
 
@@ -156,7 +156,7 @@ def split(
 
     Its number is printed.
     """
-    with opened(folder) as library:
+    with open_library(folder) as library:
         typer.echo(library.split(cluster, recordings))
 
 
@@ -181,7 +181,7 @@ def _show_library(library: Library) -> None:
     console = Console(highlight=False)
     console.print(Text(str(library.folder), style="bold"))
     n = len(library)
-    console.print(f"{counted(n, 'recording')}, {library.hours:.2f} h")
+    console.print(f"{format_count(n, 'recording')}, {library.hours:.2f} h")
     table = new_table(
         "cluster", "label", "recordings", "activities", "repetitions", "minutes", "typical s",
         "example",
@@ -223,7 +223,7 @@ def _show_answer(answer: Any) -> None:
         table.add_row(*(Text(_cell(value)) for value in row.values()))
     console.print(table)
     if len(answer) > SHOWN:
-        console.print(f"and {counted(len(answer) - SHOWN, 'row')} more: --json prints all")
+        console.print(f"and {format_count(len(answer) - SHOWN, 'row')} more: --json prints all")
 
 
 def _cell(value: object) -> str:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.library.commands import Folder, Json, Scheduler, opened
+from kineme.cli.library.commands import Folder, Json, Scheduler, open_library
 from kineme.cli.options.reading import Quiet
 from kineme.cli.options.targets import make_folder_of
 
@@ -97,8 +97,8 @@ def search(
         examples = [_example_of(like[0] if like else "", start, stop)]
     if not examples and cluster is None:
         raise typer.BadParameter("nothing to search for: give --like or --cluster")
-    with opened(folder) as library:
-        from kineme.matching import THRESHOLD
+    with open_library(folder) as library:
+        from kineme.transfer.subsequences import THRESHOLD
 
         if export is not None:
             make_folder_of(export)
@@ -119,7 +119,7 @@ def search(
         elif not quiet:
             _show(hits)
             if export is not None:
-                typer.echo(f"{counted(len(clips), 'clip')} in {export}")
+                typer.echo(f"{format_count(len(clips), 'clip')} in {export}")
 
 
 def _example(text: str) -> Example:
@@ -160,7 +160,7 @@ def _show(hits: list[Hit]) -> None:
     if hits:
         console.print(table)
     console.print(
-        f"{counted(n, 'hit')} in {counted(recordings, 'recording')}"
+        f"{format_count(n, 'hit')} in {format_count(recordings, 'recording')}"
         if hits
         else "nothing found: a higher --threshold finds more"
     )

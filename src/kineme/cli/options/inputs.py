@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme._files import of_person
+from kineme._util.files import add_person
 from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
 from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for
@@ -133,7 +133,7 @@ class Batch:
             failures = []
             for person, asked in request.of_each_person(path):
                 table = self.table(path, *tables, asked.person)
-                places = [each and of_person(each, person) for each in targets]
+                places = [each and add_person(each, person) for each in targets]
                 try:
                     work(path, asked, table, *places)
                 except ReadError as error:

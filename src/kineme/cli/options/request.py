@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from kineme._compiled import telling_of_compiling
+from kineme._util.parallel import announce_compilation
 from kineme.cli.options.method import Constants, Detail, PresetName, constants_of
 from kineme.cli.options.reading import Effectors, Emg, effector_names, keywords_of
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
-from kineme.segmentation.options import SegmentOptions
+from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def asks(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable
     return with_options
 
 
-def of_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
+def split_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
     """Return whether all the people in a file are asked for, and how it is read otherwise."""
     if reading.get("person") != EVERYBODY:
         return False, reading
@@ -131,7 +131,7 @@ class Request:
 
         A single one, or the one who was named, goes without a name.
         """
-        everybody, others = of_everybody(self.reading)
+        everybody, others = split_everybody(self.reading)
         if not everybody:
             return [("", self)]
         from kineme.formats import ReadOptions, people_in
@@ -149,10 +149,10 @@ class Request:
 
     def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
         """Return the segments at the detail asked for, and what was found on the way to them."""
-        from kineme.segmentation.segmenter import segmented
+        from kineme.methods.segmenter import segment_with_options
 
-        with telling_of_compiling(stage):
-            result, found = segmented(recording, self.options, progress=stage)
+        with announce_compilation(stage):
+            result, found = segment_with_options(recording, self.options, progress=stage)
         return result.at_detail(self.detail), found
 
     def segments(

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import typer
 
-from kineme._files import CORRECTED, ending_of
+from kineme._util.files import CORRECTED, make_person_suffix
 from kineme.errors import ReadError, WriteError
 from kineme.labels.heads import columns
 
@@ -64,10 +64,13 @@ def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -
     if not given.exists() and not _FIELD.search(str(given)):
         raise ReadError(given, "there is no such file or folder")
     recordings, paths = set(inputs), _one_each(option, given / NAME, inputs)
-    usual = [_kept(path, recordings) for path in paths]
+    usual = [_find_kept(path, recordings) for path in paths]
     if not person:
         return usual
-    named = [_kept(path.with_name(f"{path.name}{ending_of(person)}"), recordings) for path in paths]
+    named = [
+        _find_kept(path.with_name(f"{path.name}{make_person_suffix(person)}"), recordings)
+        for path in paths
+    ]
     return [
         one if one.exists() or not other.exists() else other
         for one, other in zip(named, usual, strict=True)
@@ -132,7 +135,7 @@ def _one_each(option: str, pattern: Path, inputs: list[Path]) -> list[Path]:
     depths = [0] * len(inputs)
     while True:
         paths = [
-            _filled(pattern, name, folder, depth)
+            _fill_pattern(pattern, name, folder, depth)
             for name, folder, depth in zip(names, folders, depths, strict=True)
         ]
         count = Counter(paths)
@@ -161,7 +164,7 @@ def _names(inputs: list[Path]) -> list[str]:
     ]
 
 
-def _filled(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> Path:
+def _fill_pattern(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> Path:
     """Return the pattern with a recording's name and folder, and more of its folders the deeper."""
     if PARENT in str(pattern):
         parent = "_".join(folders[-1 - depth :])
@@ -171,7 +174,7 @@ def _filled(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> P
     return Path(_FIELD.sub(lambda field: values[field[1]], str(pattern)))
 
 
-def _kept(path: Path, recordings: set[Path]) -> Path:
+def _find_kept(path: Path, recordings: set[Path]) -> Path:
     """Return the first file of a name, with one of the suffixes of tables, that is no recording."""
     from kineme.labels import written_suffixes
 

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.features.mirroring import EXCHANGED, FLIP
 
 Joints = Mapping[str, Floats]

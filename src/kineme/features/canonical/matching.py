@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.features.canonical.body import canonical_poses, mirror_poses
 from kineme.features.canonical.joints import canonical_joints
 from kineme.features.effectors import Names

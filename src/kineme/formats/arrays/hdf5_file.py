@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from kineme._checks import needed
-from kineme._files import short
+from kineme._util.checks import require_extra
+from kineme._util.files import shorten_error
 from kineme.formats.files import FileContent
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -29,13 +29,13 @@ _DAMAGE = (
 
 def parse_hdf5(content: FileContent) -> dict[str, Any]:
     """Return the contents of an HDF5 file by name; ReadError where it is none or damaged."""
-    with needed("h5py", "hdf5"):
+    with require_extra("h5py", "hdf5"):
         import h5py
     try:
         with h5py.File(io.BytesIO(content.data), "r") as file:
             return _Reader(content, file).group(file, 0)
     except _DAMAGE as error:
-        raise content.error(f"is no whole HDF5 file: {short(error)}") from error
+        raise content.error(f"is no whole HDF5 file: {shorten_error(error)}") from error
 
 
 class _Reader:

@@ -17,7 +17,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from kineme._arrays import Array
+from kineme._util.arrays import Array
 from kineme.formats.arrays.amass import poses_to_motion, rate_in
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import FileContent, unique

@@ -22,11 +22,11 @@ from warnings import catch_warnings
 import numpy as np
 from numpy.lib import format as npy_format
 
-from kineme._arrays import Array
-from kineme._files import atomic_write, short
+from kineme._util.arrays import Array
+from kineme._util.files import atomic_write, shorten_error
 from kineme.formats.arrays.named_arrays import arrays_to_motion, positions_to_motion
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import FileContent, spelled
+from kineme.formats.files import FileContent, spell_names
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
@@ -59,7 +59,7 @@ def write_npz(motion: Motion, path: Path) -> None:
     arrays: dict[str, Any] = {
         "positions": motion.positions,
         "fps": motion.fps,
-        "names": np.array(spelled(path, skeleton.names, str)),
+        "names": np.array(spell_names(path, skeleton.names, str)),
         "parents": np.array(skeleton.parents),
         "offsets": skeleton.offsets,
         "end_sites": np.array(sorted(skeleton.end_sites), np.int64),
@@ -118,7 +118,7 @@ def _array(content: FileContent, data: bytes, name: str) -> Array:
             return np.empty(0)
         flat = np.frombuffer(data, kind, count, file.tell())
     except _HEADER_DAMAGE as error:
-        raise content.error(f"{name} is no npy array: {short(error)}") from error
+        raise content.error(f"{name} is no npy array: {shorten_error(error)}") from error
     return flat.reshape(shape, order="F" if fortran else "C")
 
 

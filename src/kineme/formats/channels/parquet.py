@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from kineme._checks import needed
-from kineme._files import short
+from kineme._util.checks import require_extra
+from kineme._util.files import shorten_error
 from kineme.errors import ReadError
 from kineme.formats.channels.reading import (
     ChannelTable,
@@ -23,7 +23,7 @@ from kineme.formats.timing import is_timing
 
 def parquet_file(content: FileContent) -> Any:
     """A `pyarrow.parquet.ParquetFile`, opened but not read; ReadError where it is damaged."""
-    with needed("pyarrow", "tables"):
+    with require_extra("pyarrow", "tables"):
         import pyarrow as pa
         from pyarrow import parquet
     try:
@@ -59,7 +59,7 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
         ]
         return table.cast(pa.schema(plain, table.schema.metadata))
     except (pa.ArrowException, OSError, LookupError) as error:
-        reason = f"is damaged, its columns cannot be read: {short(error)}"
+        reason = f"is damaged, its columns cannot be read: {shorten_error(error)}"
         raise content.error(reason) from error
 
 
@@ -89,7 +89,7 @@ def parquet_channels(
             for name, column in zip(chosen, table.columns, strict=True)
         }
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
-        reason = f"its columns cannot be read as numbers: {short(error)}"
+        reason = f"its columns cannot be read as numbers: {shorten_error(error)}"
         raise content.error(reason) from error
     return channel_table(content, names, values, columns, times)
 

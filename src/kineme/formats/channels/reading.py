@@ -27,12 +27,11 @@ from itertools import islice
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._arrays import Floats
-from kineme._counts import counted
-from kineme._interpolation import bridge_line
+from kineme._util.arrays import Floats, bridge_line
+from kineme._util.checks import format_count
 from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import FileContent
-from kineme.formats.gaps import LONGEST_S, covered
+from kineme.formats.gaps import LONGEST_S, mark_spans
 from kineme.formats.timing import NO_TIMES, Timing, clock_name, table_timing
 from kineme.recordings import Signals
 from kineme.recordings.arrays import spans_of
@@ -213,17 +212,17 @@ def without_gaps(
         for start, stop in spans_of(missing[:, channel]).tolist():
             if stop - start > LONGEST_S * timing.fps + 1e-9:
                 long[start:stop] = True
-    jumps = covered(timing.gaps, len(values))
+    jumps = mark_spans(timing.gaps, len(values))
     if (long | jumps).all():
         raise content.error("in every frame some channel is missing for long: choose columns")
     holes = spans_of(long)
     gaps = [(start, stop) for start, stop in spans_of(long | jumps).tolist()]
     short = int((missing & ~long[:, None]).sum())
-    notes = [f"{counted(short, 'missing value')} filled in a straight line"] if short else []
+    notes = [f"{format_count(short, 'missing value')} filled in a straight line"] if short else []
     if len(holes):
         notes.append(
-            f"{counted(len(holes), 'gap')} of more than {LONGEST_S:g} s, "
-            f"{counted(int(long.sum()), 'frame')}"
+            f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, "
+            f"{format_count(int(long.sum()), 'frame')}"
         )
     return filled, gaps, notes
 

@@ -23,15 +23,15 @@ from typing import Any
 
 import numpy as np
 
-from kineme._checks import needed
-from kineme._files import atomic_write
+from kineme._util.checks import require_extra
+from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.reading import ChannelTable, text_channels
 from kineme.formats.delimited import as_text, dotted, named
 from kineme.formats.devices import find_table
 from kineme.formats.files import FileContent, load
-from kineme.formats.gaps import covered
+from kineme.formats.gaps import mark_spans
 from kineme.formats.timing import RATE, is_rate, is_timing
 from kineme.recordings import Signals
 
@@ -163,9 +163,9 @@ class _ParquetRows:
     @classmethod
     def of_values(cls, signals: Signals) -> _ParquetRows:
         """Times and channels, null in gaps."""
-        with needed("pyarrow", "tables"):
+        with require_extra("pyarrow", "tables"):
             import pyarrow as pa
-        missing = covered(signals.gaps, signals.n_frames)
+        missing = mark_spans(signals.gaps, signals.n_frames)
         rate = {RATE: pa.array([signals.fps])} if signals.n_frames < 2 else {}
         columns = {**rate, "time": pa.array(signals.times)} | {
             name: pa.array(values, mask=missing)
@@ -228,7 +228,7 @@ def _at_rate(rows: _TextRows, fps: float) -> _TextRows:
 
 def _of_values(signals: Signals) -> _TextRows:
     """Times and channels as a CSV that reads back to the same numbers."""
-    missing = covered(signals.gaps, signals.n_frames)
+    missing = mark_spans(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels
     rows = (
         [repr(i / signals.fps), *(empty if gap else map(repr, row))]

@@ -25,16 +25,16 @@ from typing import Any
 
 import numpy as np
 
-from kineme._files import head_of
+from kineme._util.files import read_head
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, load
 from kineme.formats.keypoints.coco import LAYOUTS
 from kineme.formats.keypoints.video import (
     Person,
     Video,
-    by_number,
-    in_groups,
+    order_by_number,
     parsed_json,
+    split_groups,
     video_to_motion,
 )
 from kineme.formats.options import ReadOptions
@@ -115,7 +115,7 @@ def frame_files(folder: Path) -> list[tuple[int, Path]]:
 
 def _begins_a_frame(file: Path) -> bool:
     try:
-        head = head_of(file)
+        head = read_head(file)
     except OSError:
         return False
     return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") and b'"people"' in head
@@ -127,7 +127,7 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
         return [(0, data)]
     if isinstance(data, list):
         return list(enumerate(data))
-    return by_number(data) if isinstance(data, Mapping) else []
+    return order_by_number(data) if isinstance(data, Mapping) else []
 
 
 def _people(content: FileContent, number: int, frame: Any) -> list[Person]:
@@ -142,7 +142,7 @@ def _person(content: FileContent, number: int, person: Any) -> Person:
         raise content.error(f"frame {number} has a person without keypoints")
     for key, width in _KEYS.items():
         if person.get(key):
-            groups = in_groups(content, person[key], width)
+            groups = split_groups(content, person[key], width)
             return Person(number, groups[:, :-1], groups[:, -1], _id(person.get("person_id")))
     raise content.error(f"frame {number} has a person without {', '.join(_KEYS)}")
 

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._counts import counted
+from kineme._util.arrays import Floats
+from kineme._util.checks import format_count
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.people import Detections, rows_of_person
 from kineme.formats.options import ReadOptions
@@ -62,10 +62,10 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     people = sorted(video.people, key=lambda person: person.frame)
     if not people:
         raise content.error("nobody is found in any frame")
-    frames, n_frames = _numbered(content, video, [person.frame for person in people])
+    frames, n_frames = _number_frames(content, video, [person.frame for person in people])
     size = 8 * 4 * len(video.names) * max(n_frames, len(people))
     content.claim(size, f"{len(video.names)} keypoints in {n_frames} frames")
-    points, confidence = _stacked(content, people, len(video.names))
+    points, confidence = _stack_people(content, people, len(video.names))
     limit = video.limit if options.confidence is None else options.confidence
     unsure = ~(confidence >= limit)
     points[unsure] = np.nan
@@ -76,7 +76,7 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     positions[frames[rows]] = points[rows]
     if unsure[rows].any():
         notes.append(
-            f"{counted(int(unsure[rows].sum()), 'position')} less sure than {limit:g} not used"
+            f"{format_count(int(unsure[rows].sum()), 'position')} less sure than {limit:g} not used"
         )
     notes += [*video.notes, *_flatness(points, video.unit)]
     unit, up = options.unit or video.unit, options.up or video.up
@@ -95,14 +95,14 @@ def parsed_json(content: FileContent) -> Any:
         raise content.error(f"is no whole JSON file: {str(error).split(';')[0]}") from None
 
 
-def by_number(frames: Mapping[Any, Any]) -> list[tuple[int, Any]]:
+def order_by_number(frames: Mapping[Any, Any]) -> list[tuple[int, Any]]:
     """Frames that JSON holds by their numbers, in this order; empty where it holds others."""
     if not all(isinstance(key, str) and key.isdecimal() and len(key) < 19 for key in frames):
         return []
     return sorted(((int(key), frame) for key, frame in frames.items()), key=itemgetter(0))
 
 
-def in_groups(content: FileContent, values: Any, width: int) -> Floats:
+def split_groups(content: FileContent, values: Any, width: int) -> Floats:
     """(keypoints, width): a flat list of numbers, as OpenPose and COCO store them."""
     try:
         flat = np.asarray(values, np.float64).ravel()
@@ -120,7 +120,9 @@ def frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
     return np.rint(frames).astype(np.int64)
 
 
-def _numbered(content: FileContent, video: Video, found: list[int]) -> tuple[NDArray[np.intp], int]:
+def _number_frames(
+    content: FileContent, video: Video, found: list[int]
+) -> tuple[NDArray[np.intp], int]:
     """Frames counted from 0, and how many there are."""
     numbers = {*found, *video.frames}
     first, last = min(numbers), max(numbers)
@@ -132,7 +134,7 @@ def _numbered(content: FileContent, video: Video, found: list[int]) -> tuple[NDA
     return np.array([frame - first for frame in found], np.intp), last - first + 1
 
 
-def _stacked(content: FileContent, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:
+def _stack_people(content: FileContent, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:
     """(people, keypoints, 3) and (people, keypoints); z is 0 where there is none."""
     points, confidence = [], []
     for person in people:

@@ -35,7 +35,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
 
 Stored = NDArray[Any]
@@ -78,7 +78,7 @@ def parse_c3d(content: FileContent) -> C3D:
         first_frame=file.first_frame,
         analog=analog,
         analog_labels=_labels(parameters, "ANALOG", analog.shape[1], "channel"),
-        analog_units=_padded(parameters.strings("ANALOG", "UNITS"), analog.shape[1]),
+        analog_units=_pad(parameters.strings("ANALOG", "UNITS"), analog.shape[1]),
         analog_rate=file.rate * len(analog) / len(raw),
         events=_events(file),
         parameters=parameters,
@@ -95,13 +95,13 @@ def _analog(file: Layout, raw: Stored) -> Floats:
     values = raw.reshape(-1, channels)
     if "UNSIGNED" in file.parameters.strings("ANALOG", "FORMAT") and values.dtype.kind == "i":
         values = values.view(values.dtype.str.replace("i", "u"))
-    scale = _per_channel(file.parameters, "SCALE", channels, 1.0)
+    scale = _repeat_per_channel(file.parameters, "SCALE", channels, 1.0)
     scale *= file.parameters.number("ANALOG", "GEN_SCALE", 1.0)
-    scaled = (values - _per_channel(file.parameters, "OFFSET", channels, 0.0)) * scale
+    scaled = (values - _repeat_per_channel(file.parameters, "OFFSET", channels, 0.0)) * scale
     return np.asarray(scaled, np.float64)
 
 
-def _per_channel(parameters: Parameters, name: str, channels: int, usual: float) -> Floats:
+def _repeat_per_channel(parameters: Parameters, name: str, channels: int, usual: float) -> Floats:
     values = parameters.numbers("ANALOG", name, signed=True)[:channels]
     return np.array(values + [usual] * (channels - len(values)))
 
@@ -119,7 +119,7 @@ def _group_events(parameters: Parameters) -> list[tuple[float, str]]:
     used = int(parameters.number("EVENT", "USED", 0))
     times = parameters.numbers("EVENT", "TIMES")
     labels = parameters.strings("EVENT", "LABELS")
-    contexts = _padded(parameters.strings("EVENT", "CONTEXTS"), len(labels))
+    contexts = _pad(parameters.strings("EVENT", "CONTEXTS"), len(labels))
     names = [f"{who} {label}".strip() for who, label in zip(contexts, labels, strict=False)]
     minutes = zip(times[::2], times[1::2], strict=False)
     return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
@@ -153,10 +153,10 @@ def _labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]
         if not more or len(labels) >= n:
             break
         labels += more
-    return [label or f"{usual}{i}" for i, label in enumerate(_padded(labels, n), 1)]
+    return [label or f"{usual}{i}" for i, label in enumerate(_pad(labels, n), 1)]
 
 
-def _padded(labels: list[str], n: int) -> list[str]:
+def _pad(labels: list[str], n: int) -> list[str]:
     return labels[:n] + [""] * (n - len(labels))
 
 

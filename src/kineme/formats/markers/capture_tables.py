@@ -25,7 +25,7 @@ from functools import partial
 
 import numpy as np
 
-from kineme._counts import counted
+from kineme._util.checks import format_count
 from kineme.formats.delimited import DelimitedText, cells_of, is_number, separator_of
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
@@ -92,7 +92,7 @@ def read_capture(
         values[(values == 0).all(axis=2)] = np.nan
     notes = list(rows.remarks)
     if left := len(columns) - len(names):
-        notes.append(f"{counted(left, 'point')} without a name left out")
+        notes.append(f"{format_count(left, 'point')} without a name left out")
     points = Points(
         names,
         values,

@@ -15,7 +15,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from kineme._counts import listed
+from kineme._util.checks import join_names
 from kineme.formats.files import FileContent, unique
 from kineme.formats.persons import chosen_person
 from kineme.recordings import Note
@@ -88,7 +88,7 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
     name = chosen_person(content.path, people, name, "characters", shown)
     notes = [f"person {name} of {len(people)}"] if len(people) > 1 else []
     if props := _props(nodes, list(people.values())):
-        notes.append(f"left out as props: {listed(props)}")
+        notes.append(f"left out as props: {join_names(props)}")
     return Character(people[name], notes, name, [*people])
 
 
@@ -113,9 +113,9 @@ def choose_take(
     Where none is wanted, it is the first of the lively ones, which move a skeleton.
     """
     if name is not None:
-        number = _numbered(names, name)
+        number = _find_take(names, name)
         if number is None:
-            shown = listed(names) or "none"
+            shown = join_names(names) or "none"
             raise content.error(f"there is no take {name!r}: choose from {shown}")
         return number, [f"take {names[number]} of {len(names)}"]
     if not lively:
@@ -125,7 +125,7 @@ def choose_take(
     first = lively[0]
     if len(lively) == 1:
         return first, [f"take {names[first]}"]
-    others = listed([names[number] for number in lively[1:]])
+    others = join_names([names[number] for number in lively[1:]])
     remark = (
         f"{len(lively)} takes are in it and {names[first]!r} is read: take= (--take) reads "
         f"another, of {others}"
@@ -133,7 +133,7 @@ def choose_take(
     return first, [Note(remark, "warning")]
 
 
-def _numbered(names: Sequence[str], name: str) -> int | None:
+def _find_take(names: Sequence[str], name: str) -> int | None:
     """The number of a take, by its name, what follows the armature's in it, or its number."""
     if name in names:
         return names.index(name)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format

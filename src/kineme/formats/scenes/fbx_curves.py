@@ -20,10 +20,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.fbx_nodes import FBXNode
-from kineme.formats.scenes.sampling import between
+from kineme.formats.scenes.sampling import find_keys
 
 TICKS = 46_186_158_000
 """In a second."""
@@ -189,7 +189,7 @@ class Sampler:
         if len(times) == len(self._times) and np.array_equal(times, self._times):
             return
         self._times = times
-        self._index, self._share = between(times, self.at, SLACK)
+        self._index, self._share = find_keys(times, self.at, SLACK)
 
 
 def _bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:

@@ -30,8 +30,8 @@ from math import isfinite
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.assembly import Inheritance, Transform
 from kineme.formats.scenes.characters import SceneNode, is_end
@@ -247,7 +247,7 @@ class Pose:
         if after.any():
             turn = rot.multiply(turn, rot.conjugate(_euler(after, "zyx")))
         scale, shift = self._values(model, SCALING, 1.0), self._values(model, TRANSLATION, 0.0)
-        shift = _pivoted(properties, shift, turn, scale)
+        shift = _add_pivots(properties, shift, turn, scale)
         inheritance = _INHERITANCE[_choice(properties, "InheritType", len(_INHERITANCE))]
         return Transform(shift, turn, scale, inheritance)
 
@@ -291,12 +291,12 @@ class Pose:
         for layer, part in self.tracks.get((model.number, what), ()):
             table = self.layers[layer]
             if layer == base:
-                yield self._sampled(part, usual), None, table
+                yield self._sample_curve(part, usual), None, table
             elif not _number(table, "Mute", 0):
                 rest = np.full(3, 1.0 if what == SCALING else 0.0)
                 overrides = _choice(table, "BlendMode", 3) == _OVERRIDE
                 yield (
-                    self._sampled(part, rest),
+                    self._sample_curve(part, rest),
                     None if overrides else self._weight(layer),
                     table,
                 )
@@ -310,7 +310,7 @@ class Pose:
                 return sampled[:, None] if sampled.ndim else float(sampled)
         return min(max(_number(table, "Weight", 100.0) / 100, 0.0), 1.0)
 
-    def _sampled(self, part: int, usual: Floats) -> Floats:
+    def _sample_curve(self, part: int, usual: Floats) -> Floats:
         """(3,) or (frames, 3): what a curve node has for the three axes."""
         curves, table = self.scene.curves(part), self.scene.properties(part)
         axes = []
@@ -347,7 +347,7 @@ def _angles(turn: Floats, axes: str) -> Floats:
     return np.asarray(columns[..., [axes.index(axis) for axis in "xyz"]], np.float64)
 
 
-def _pivoted(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
+def _add_pivots(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
     """Return the translation with what pivots and their offsets add to it."""
     shift = shift + _vector(properties, "RotationOffset")
     pivot, center = _vector(properties, "RotationPivot"), _vector(properties, "ScalingPivot")

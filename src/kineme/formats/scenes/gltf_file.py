@@ -21,8 +21,8 @@ import numpy as np
 from msgspec import Struct, field
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._json import decoded
+from kineme._util.arrays import Floats
+from kineme._util.json import decode_json
 from kineme.formats.files import FileContent, find_beside, load
 
 Part = TypeVar("Part")
@@ -167,10 +167,10 @@ class GLTFFile:
         text, self._chunk = content.data, b""
         if text.startswith(MAGIC):
             text, self._chunk = _chunks(content)
-        version = str(decoded(text, content.path, Head).asset.version)
+        version = str(decode_json(text, content.path, Head).asset.version)
         if not version.startswith("2"):
             raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
-        self.tree = decoded(text, content.path, Tree)
+        self.tree = decode_json(text, content.path, Tree)
         self.beside = 0
         """Bytes of files beside it."""
         self._buffers: dict[int, bytes] = {}

@@ -24,10 +24,10 @@ from typing import Any
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
-from kineme._checks import needed
-from kineme._files import reading
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme._util.checks import require_extra
+from kineme._util.files import translate_read_errors
 from kineme.errors import KinemeError, ReadError
 from kineme.formats.files import FileContent, load, unique
 from kineme.formats.options import ReadOptions
@@ -66,7 +66,7 @@ _MESSAGE = re.compile(r"^Warning: in .* -- (.*)", re.MULTILINE)
 
 def read_usd(content: FileContent, options: ReadOptions) -> Motion:
     """Read the motion of a skeleton in a USD file."""
-    with needed("usd-core", "usd"):
+    with require_extra("usd-core", "usd"):
         import pxr  # noqa: F401
     request = pickle.dumps(sys.path) + pickle.dumps((content.path, options))
     try:
@@ -108,7 +108,7 @@ def _answer(path: Path, options: ReadOptions) -> Motion | KinemeError:
     from pxr import Tf
 
     try:
-        with reading(path):
+        with translate_read_errors(path):
             content = load(path)
             try:
                 return _read(content, options)
@@ -210,7 +210,7 @@ class _Skeleton:
             shift, turn, scale = (part[0] for part in rest[:3])
             if (at := places.get(joint)) is not None:
                 shift = shift if shifts is None else shifts[:, at]
-                turn = turn if turns is None else rot.normalized(turns[:, at])
+                turn = turn if turns is None else rot.normalize(turns[:, at])
                 scale = scale if scales is None else scales[:, at]
             found.append(Transform(shift, turn, scale))
         return found

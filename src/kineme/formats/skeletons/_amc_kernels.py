@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme._compiled import OPTIONS
+from kineme._util.parallel import OPTIONS
 
 TENS = 10.0 ** np.arange(23)  # each of them exact
 EXACT = 1 << 53

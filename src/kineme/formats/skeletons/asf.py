@@ -24,8 +24,8 @@ from math import radians
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.units import INCH
 from kineme.recordings import Skeleton

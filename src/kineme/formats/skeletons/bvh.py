@@ -29,9 +29,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
-from kineme._counts import counted
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme._util.checks import format_count
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.options import ReadOptions
@@ -65,7 +65,7 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     content.let_go()
     turned = _local(head.joints, values)
     del values  # before as much again is made of it
-    return _placed(head.joints, turned, head.fps, options, provenance)
+    return _place_joints(head.joints, turned, head.fps, options, provenance)
 
 
 def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch | None:
@@ -76,7 +76,7 @@ def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch 
     if values is None or len(values) != -(-head.declared // every):
         return None
     turned, provenance = _local(head.joints, values), Provenance(str(content.path), "BVH")
-    motion = _placed(head.joints, turned, head.fps / every, options, provenance)
+    motion = _place_joints(head.joints, turned, head.fps / every, options, provenance)
     return Sketch(motion, head.declared, head.fps)
 
 
@@ -112,7 +112,7 @@ def _head(content: FileContent, options: ReadOptions) -> _Head:
     return _Head(joints, int(header.group(1)), fps, notes, line, header.end())
 
 
-def _placed(
+def _place_joints(
     joints: list[Joint],
     turned: tuple[Floats, dict[int, Floats]],
     fps: float,
@@ -324,7 +324,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
     if joined:
         content.warn(
-            f"blanks before minus signs are missing in {counted(joined, 'frame')}: put there"
+            f"blanks before minus signs are missing in {format_count(joined, 'frame')}: put there"
         )
     return np.frombuffer(values).reshape(-1, width)
 

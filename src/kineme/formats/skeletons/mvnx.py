@@ -18,9 +18,9 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
-from kineme._xml import NoEntities
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme._util.files import NoEntities
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.persons import chosen_person
@@ -68,7 +68,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         raise content.error("none of its segments is a 'Pelvis'")
     n, chosen = len(subject.segments), [subject.segments.index(name) for name in names]
     parents = [_parent(name, names) for name in names]
-    positions = _stacked(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
+    positions = _stack_frames(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
     if not np.isfinite(positions).all():
         raise content.error("positions are not all numbers")
     fps = options.fps or subject.rate
@@ -85,7 +85,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         offsets = tallest - np.where(np.array(parents)[:, None] < 0, tallest, tallest[parents])
         skeleton = Skeleton(tuple(names), tuple(parents), offsets)
         return Motion(skeleton, positions, fps, None, provenance)
-    world = _stacked(content, subject, "orientation", 4 * n).reshape(-1, n, 4)[:, chosen]
+    world = _stack_frames(content, subject, "orientation", 4 * n).reshape(-1, n, 4)[:, chosen]
     if len(positions) != len(world):
         raise content.error("some frames have orientations and others none: export all with them")
     lengths = np.linalg.norm(world, axis=2, keepdims=True)
@@ -158,7 +158,7 @@ def _subjects(content: FileContent) -> list[Subject]:
     return found.people
 
 
-def _stacked(content: FileContent, subject: Subject, what: str, width: int) -> Floats:
+def _stack_frames(content: FileContent, subject: Subject, what: str, width: int) -> Floats:
     frames = subject.values[what]
     if not frames:
         raise content.error(f"no frame has a {what} of segments: export it with them")

@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from kineme import _rotations as rot
-from kineme._arrays import Floats
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.formats.units import (
     BODIES,
     blocks,

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from kineme._arrays import Ints
+from kineme._util.arrays import Ints
 from kineme.errors import ReadError
 from kineme.library.storage.analyses import read_windows
 from kineme.library.storage.layout import ANALYSES, BODIES, TABLES

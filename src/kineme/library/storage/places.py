@@ -14,8 +14,8 @@ from typing import Any, cast
 from urllib.parse import urlparse
 from urllib.request import url2pathname
 
-from kineme._checks import check_path
-from kineme._files import atomic_write, refuse_pipe
+from kineme._util.checks import check_path
+from kineme._util.files import atomic_write, refuse_pipe
 from kineme.errors import (
     KinemeError,
     MissingDependencyError,
@@ -84,7 +84,7 @@ def reaching(path: Path) -> Iterator[None]:
 def written(path: Path) -> Iterator[Path]:
     """A path of this machine to write to; what is there when the block ends becomes ``path``.
 
-    Whole or not at all: as `kineme._files.atomic_write` here, and as one object elsewhere.
+    Whole or not at all: as `kineme._util.files.atomic_write` here, and as one object elsewhere.
     """
     if not is_remote(path):
         with atomic_write(path) as draft:

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._files import OwnedFolder, atomic_write, is_draft, reading
+from kineme._util.files import OwnedFolder, atomic_write, is_draft, translate_read_errors
 from kineme.errors import ReadError, WriteError
 from kineme.library.storage.layout import EMBEDDED, TABLES, arrow, as_array, as_column
 from kineme.library.storage.places import is_remote, written
@@ -142,7 +142,7 @@ def read_table(folder: Path, named: str, name: str) -> Any:
     """Return a table of those that the head of the library names, a pyarrow.Table."""
     pa, parquet = arrow()
     path = folder / TABLES / named / f"{name}.parquet"
-    with reading(path):
+    with translate_read_errors(path):
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
         table.validate(full=True)

@@ -36,14 +36,14 @@ from scipy.cluster.hierarchy import fcluster, linkage
 from scipy.spatial.distance import squareform
 from threadpoolctl import threadpool_limits
 
-from kineme._arrays import Float32s, Floats, Ints
-from kineme._threads import map_threads
+from kineme._util.arrays import Float32s, Floats, Ints
+from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError
 from kineme.library.executors import Executor, Outcome, Progress, Task, Watch
 from kineme.library.settings import VocabularyConstants
 
 FARTHEST = 1.0
-"""Of two movements that have nothing in common: see `kineme.matching.subsequences`."""
+"""Of two movements that have nothing in common: see `kineme.transfer.subsequences`."""
 APART = 1e3
 """Value of each feature between two contexts: no match crosses it."""
 BLOCK = 100
@@ -169,7 +169,7 @@ class Contexts:
     """The contexts of several words, to look for examples in."""
 
     def __init__(self, words: Sequence[Word]):
-        from kineme.matching.subsequences import Searched  # half a second, for who compares only
+        from kineme.transfer.subsequences import Searched  # half a second, for who compares only
 
         gap = np.full((1, words[0].example.shape[1]), APART, np.float32)
         parts = [part for word in words for part in (word.context, gap)]

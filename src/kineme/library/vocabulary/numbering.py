@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme._arrays import Floats, Ints
-from kineme._checks import is_number
+from kineme._util.arrays import Floats, Ints
+from kineme._util.checks import is_number
 from kineme.errors import ReadError
 from kineme.library.storage.layout import MOST_CLUSTERS, read_json, write_json
 

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Float32s, Floats
+from kineme._util.arrays import Float32s, Floats
 from kineme.library.executors import Executor
 from kineme.library.storage.analyses import Analysis, read_channel_samples
 from kineme.library.vocabulary.joining import Joined, beside_others, results

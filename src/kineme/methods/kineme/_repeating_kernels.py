@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme._compiled import OPTIONS
+from kineme._util.parallel import OPTIONS
 
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 LEAST = 2
@@ -31,7 +31,7 @@ def center(repetitions):
 
 
 @njit("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, :, ::1])", **SUMS)
-def explained(poses, path, visits, centered):
+def explain_variance(poses, path, visits, centered):
     """The share of the variance of repetitions that the mean of the others explains, in time.
 
     The variance is about the mean of each repetition. The mean of the others is scaled by the

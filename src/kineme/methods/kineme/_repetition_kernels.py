@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme._compiled import OPTIONS
+from kineme._util.parallel import OPTIONS
 
 # Poses of an end that are farther than this share of the largest distance never count in full.
 FARTHEST = 0.9
@@ -106,7 +106,7 @@ def dips(distances, least):
 
 
 @njit("Tuple((float64[:, ::1], float64[::1]))(float32[:, ::1], int64)", **OPTIONS)
-def smoothed(rows, smoothing):
+def smooth_rows(rows, smoothing):
     """Rows averaged over so many before and after, and the mean speed per frame over the same."""
     n, dims = rows.shape
     # Sums up to each row, so that a mean is one difference.
@@ -148,7 +148,7 @@ def poses_at(poses, path, lengths):
 
 
 @njit("float64[::1](float64[:, :, ::1], float64)", **SUMS)
-def unexplained(repetitions, centering):
+def measure_unexplained(repetitions, centering):
     """The share of each repetition that the mean of all others does not explain, 0 to 1.
 
     It is 1 minus the square of their correlation if that is positive, and so does not depend on
@@ -240,7 +240,7 @@ def scatter(repetitions, mean):
 
 
 @njit("Tuple((int64, float64))(float64[:, ::1], float64)", **OPTIONS)
-def matched(gains, full):
+def match_columns(gains, full):
     """Columns up to which the rows follow them, and how many of these count; 0 if no path gains.
 
     They are those of the warping path with the largest gain. Paths begin before the first row and
@@ -306,7 +306,7 @@ def follow_end(poses, path, lengths, mean, near, full):
                 difference = reached[i, d] - mean[j, d]
                 square += difference * difference
             gains[i, j] -= square
-    return matched(gains, near - full)
+    return match_columns(gains, near - full)
 
 
 @njit(
@@ -357,7 +357,7 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
             for d in range(poses.shape[1]):
                 both[0, p, d], both[1, p, d] = inner[0, p, d], reached[p, d]
         inner = both
-    shares = unexplained(inner, centering)[:count]
+    shares = measure_unexplained(inner, centering)[:count]
     inside = max(total_length - outside - lengths.sum(), 0.0)
     total = (shares.sum() / count * inside + outside) / total_length
     for k in range(count):  # a short repetition counts as much as one of mean length

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme._compiled import OPTIONS
+from kineme._util.parallel import OPTIONS
 
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 

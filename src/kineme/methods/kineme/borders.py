@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -103,7 +103,7 @@ def _likelihoods(rows: Floats, side: Floats) -> Floats:
     return likelihoods
 
 
-def in_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frames:
+def convert_to_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frames:
     """The samples nearest to borders in frames, from 0 to n; each segment has one at least."""
     nearest = np.rint(frames / (preset.working_fps / preset.rate)).astype(np.int64)
     order = np.arange(len(frames))

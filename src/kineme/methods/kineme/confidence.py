@@ -22,8 +22,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._threads import map_threads
+from kineme._util.arrays import Floats
+from kineme._util.parallel import map_threads
 from kineme.methods.kineme._repetition_kernels import repetitions_between
 from kineme.methods.kineme.primitives import Segments
 from kineme.methods.kineme.repetitions import PLACES, movement_of

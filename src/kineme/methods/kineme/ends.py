@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._threads import map_threads
+from kineme._util.arrays import Floats
+from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.repetitions import PLACES
 

@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats, Ints
-from kineme._threads import go_on
+from kineme._util.arrays import Floats, Ints
+from kineme._util.parallel import check_cancelled
 from kineme.methods.kineme import _event_kernels as kernels
-from kineme.methods.segments import by_first_appearance
+from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -77,7 +77,7 @@ class Occurrences:
         """Those with their middle in one of the chosen segments that recur in these."""
         kept = chosen[self._segments(borders)]
         kept &= np.bincount(self.clusters[kept], minlength=len(self))[self.clusters] > 1
-        clusters = by_first_appearance(self.clusters[kept])
+        clusters = number_by_appearance(self.clusters[kept])
         return Occurrences(self.starts[kept], self.stops[kept], clusters, self.similarity[kept])
 
     def _segments(self, borders: Ints) -> Ints:
@@ -123,7 +123,7 @@ def occurrences(
     longest = max(shortest, in_samples(preset.max_repetition))
     lengths = np.unique(np.geomspace(shortest, longest, LENGTHS).round().astype(np.int64))
     all_free = np.ones(len(samples.seconds), np.bool_)
-    go_on()
+    check_cancelled()
     spans, scores, ranks = kernels.best_sets(
         lengths, starts, ptr, partners, sums, row_ptr, row_paths, all_free, preset.event_cover
     )
@@ -137,7 +137,7 @@ def occurrences(
     similarity = np.clip(scores[order] / np.maximum(np.diff(spans)[:, 0], 1), 0, 1)
     starts, stops = samples.edges[spans[:, 0], 0], samples.edges[spans[:, 1] - 1, 1]
     stops[:-1] = np.minimum(stops[:-1], starts[1:])
-    return Occurrences(starts, stops, by_first_appearance(ranks), similarity)
+    return Occurrences(starts, stops, number_by_appearance(ranks), similarity)
 
 
 # --- samples at equal steps of movement time ----------------------------------------------------
@@ -244,7 +244,7 @@ def matching_paths(
     )
     starts, partners, sums = [], [np.empty(0)], [np.empty(0)]
     for each in ends:
-        go_on()
+        check_cancelled()
         forth, forth_sums, back, back_sums = warped_path(columns, costs, each, passed, scale)
         starts += [each[0], each[1]]
         partners += [forth, back]
@@ -281,11 +281,11 @@ def warped_path(
         kernels.follow(columns, costs, np.append(start, stop), scale, WORST)
         for stop, start in pairwise(pairs)
     ]
-    forth, forth_sums, back, back_sums = map(_joined, zip(*legs[::-1], strict=True))
+    forth, forth_sums, back, back_sums = map(_join_legs, zip(*legs[::-1], strict=True))
     return forth, forth_sums, back, back_sums
 
 
-def _joined(legs: tuple[Floats, ...]) -> Floats:
+def _join_legs(legs: tuple[Floats, ...]) -> Floats:
     """Values of legs one after the other, each going on from the last value of the one before."""
     shifts = np.cumsum([before[-1] - after[0] for before, after in pairwise(legs)])
     rest = [leg[1:] + shift for leg, shift in zip(legs[1:], shifts, strict=True)]

@@ -18,14 +18,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._threads import map_threads
+from kineme._util.arrays import Floats
+from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repeating_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import repetitions_between
 from kineme.methods.kineme.ends import fitted_ends
 from kineme.methods.kineme.events import Occurrences, occurrences
 from kineme.methods.kineme.repetitions import PLACES, Movement, movement_of, repetitions
-from kineme.methods.segments import by_first_appearance
+from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -89,7 +89,7 @@ class Segments:
         return np.bincount(self.parents[self.repeats], minlength=len(self.labels))
 
 
-def with_repetitions(
+def divide_into_repetitions(
     rows: Rows,
     starts: Frames,
     stops: Frames,
@@ -112,8 +112,8 @@ def with_repetitions(
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
     cuts = map_threads(lambda span: repetitions(rows, *span, preset), spans)
     ends = fitted_ends(rows, starts, stops, labels, cuts, preset)
-    borders, segment = _tiled(len(rows), ends.starts, ends.stops)
-    primitives, repeated = _tiled(len(rows), ends.firsts, ends.lasts, [borders, *cuts])
+    borders, segment = _tile(len(rows), ends.starts, ends.stops)
+    primitives, repeated = _tile(len(rows), ends.firsts, ends.lasts, [borders, *cuts])
     labels, preference = np.append(labels, -1), np.append(preference, np.nan)
     none = np.empty(0, np.int64)
     return Segments(
@@ -121,7 +121,7 @@ def with_repetitions(
     )
 
 
-def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
+def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
     """Segments whose clusters are one movement at any pace; neighbours of one cluster are joined.
 
     Parameters
@@ -134,9 +134,9 @@ def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Se
     """
     means = {}
     for segment in np.flatnonzero(segments.counts > 1).tolist():
-        movement, _, repeated = _repeated(rows, segments, segment, preset)
+        movement, _, repeated = _find_repeated(rows, segments, segment, preset)
         means[segment] = repeated.mean(axis=0) + movement.middle
-    labels = linked(segments.labels, means, preset.min_similarity)
+    labels = link_clusters(segments.labels, means, preset.min_similarity)
     if (labels == segments.labels).all():
         return segments
     activities = np.flatnonzero(labels >= 0)
@@ -145,11 +145,11 @@ def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Se
     stops = segments.borders[1:][activities[np.append(first[1:], len(activities)) - 1]]
     groups = np.split(segments.preference[activities], first[1:])
     preference = np.array([group.mean() for group in groups])
-    labels = by_first_appearance(labels[activities[first]])
-    return with_repetitions(rows, starts, stops, labels, preference, preset)
+    labels = number_by_appearance(labels[activities[first]])
+    return divide_into_repetitions(rows, starts, stops, labels, preference, preset)
 
 
-def linked(labels: Frames, movements: dict[int, Floats], least: float) -> Frames:
+def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) -> Frames:
     """Return the labels of segments; clusters whose movements are similar become one.
 
     The similarity of two movements is, at the phase at which they fit best,
@@ -189,7 +189,7 @@ def linked(labels: Frames, movements: dict[int, Floats], least: float) -> Frames
         labels[labels == names[other]] = names[one]
 
 
-def with_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
+def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
     """Occurrences for primitives, where no segment repeats.
 
     A cluster whose repetitions explain each other keeps them. The others lose theirs where
@@ -203,7 +203,7 @@ def with_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     segments : Segments
     preset : KinemeConstants
     """
-    shares = explained(rows, segments, preset)
+    shares = measure_explained(rows, segments, preset)
     shares = action_means(shares, np.ones_like(segments.labels), segments.labels)
     weak = shares < preset.min_explained
     if weak.any():
@@ -215,24 +215,24 @@ def with_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
         free = weak & ((segments.labels < 0) | (recurring > shares))
         found = found.within(segments.borders, free)
         if len(found):
-            segments = with_occurrences(segments, found, free)
-    return without_still(segments, rows, preset.event_scale / 4)
+            segments = replace_by_occurrences(segments, found, free)
+    return drop_still_clusters(segments, rows, preset.event_scale / 4)
 
 
-def explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
+def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
     """The share of each segment's repetitions that the mean of the others explains; 0 of one."""
     found = np.zeros(len(segments.labels))
 
     def explain(segment: int) -> None:
-        movement, visits, repeated = _repeated(rows, segments, segment, preset)
+        movement, visits, repeated = _find_repeated(rows, segments, segment, preset)
         kernels.center(repeated)
-        found[segment] = kernels.explained(movement.poses, movement.path, visits, repeated)
+        found[segment] = kernels.explain_variance(movement.poses, movement.path, visits, repeated)
 
     map_threads(explain, np.flatnonzero(segments.counts > 1).tolist())
     return found
 
 
-def _repeated(
+def _find_repeated(
     rows: Rows, segments: Segments, segment: int, preset: KinemeConstants
 ) -> tuple[Movement, Frames, Floats]:
     """The span of a segment that repeats, the frames in it at which repetitions begin, and these.
@@ -257,7 +257,7 @@ def action_means(shares: Floats, weights: NDArray[np.integer], labels: Frames) -
     return means
 
 
-def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Segments:
+def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Segments:
     """Return the segments with occurrences for primitives where no activity is periodic.
 
     Parameters
@@ -268,21 +268,21 @@ def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Seg
     free : (activities,) array of bool
         Transitions, and activities of clusters that are not periodic.
     """
-    borders, old = _without_empty(_out_of(found, segments.borders), segments.labels)
+    borders, old = _drop_empty(_out_of(found, segments.borders), segments.labels)
     free = free[old]
     cuts = segments.primitives[:-1]
     cuts = cuts[~free[_segment_at(borders, cuts)]]
     primitives = np.unique(np.concatenate([borders, cuts, found.starts, found.stops]))
     begin = primitives[:-1]
     # Numbers begin with those of activities, by appearance, as some may have vanished.
-    labels = by_first_appearance(segments.labels[old])
+    labels = number_by_appearance(segments.labels[old])
     numbers = np.full(segments.labels.max(initial=-1) + 2, -1)
     numbers[segments.labels[old] + 1] = labels
     actions = int(labels.max(initial=-1)) + 1
     # Repetitions keep the number of their activity, or get one after these.
     clusters = segments.clusters[_segment_at(segments.primitives, begin)]
     clusters[free[_segment_at(borders, begin)]] = -1
-    parts = by_first_appearance(np.where(clusters < len(numbers) - 1, -1, clusters))
+    parts = number_by_appearance(np.where(clusters < len(numbers) - 1, -1, clusters))
     clusters = np.where(parts < 0, numbers[np.where(parts < 0, clusters, -1) + 1], actions + parts)
     # Occurrences are numbered last.
     if len(found):
@@ -294,7 +294,7 @@ def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Seg
     return Segments(borders, labels, segments.preference[old], primitives, clusters, not_periodic)
 
 
-def without_still(segments: Segments, rows: Rows, near: float) -> Segments:
+def drop_still_clusters(segments: Segments, rows: Rows, near: float) -> Segments:
     """Return the segments without primitives in clusters that neither repeat nor move.
 
     Parameters
@@ -308,7 +308,7 @@ def without_still(segments: Segments, rows: Rows, near: float) -> Segments:
     several = segments.counts[segments.parents] > 1
     moves = np.array([_reach(part) > near for part in np.split(rows, segments.primitives[1:-1])])
     still = np.setdiff1d(actions[repeats], actions[repeats & (moves | several)])
-    return without_repetitions(segments, still)
+    return drop_repetitions(segments, still)
 
 
 def _reach(rows: Rows) -> float:
@@ -316,7 +316,7 @@ def _reach(rows: Rows) -> float:
     return float(np.linalg.norm(rows - rows.mean(axis=0), axis=1).max())
 
 
-def without_repetitions(segments: Segments, actions: Frames) -> Segments:
+def drop_repetitions(segments: Segments, actions: Frames) -> Segments:
     """Return the segments without the repetitions of some clusters."""
     if not len(actions):
         return segments
@@ -328,7 +328,7 @@ def without_repetitions(segments: Segments, actions: Frames) -> Segments:
     )
 
 
-def _tiled(
+def _tile(
     n: int, starts: Frames, stops: Frames, cuts: Sequence[Frames] = ()
 ) -> tuple[Frames, Frames]:
     """Borders from 0 to n with these spans and cuts among them, and the span of each segment.
@@ -347,7 +347,7 @@ def _segment_at(borders: Frames, frames: Frames) -> Frames:
     return segments
 
 
-def _without_empty(borders: Frames, labels: Frames) -> tuple[Frames, Frames]:
+def _drop_empty(borders: Frames, labels: Frames) -> tuple[Frames, Frames]:
     """Borders of the segments that have frames, and which they are; equal neighbours are one."""
     kept = np.flatnonzero(np.diff(borders) > 0)
     kept = kept[np.append(True, labels[kept[1:]] != labels[kept[:-1]])]

@@ -108,7 +108,7 @@ class Repeating:
             return 0.0
         repetitions = repetitions_between(movement.poses, movement.path, visits, PLACES)
         kernels.center(repetitions)
-        explained = kernels.explained(movement.poses, movement.path, visits, repetitions)
+        explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
         share *= _beyond(explained, preset.min_explained)
         share = share and share * _beyond(kernels.best_parting(repetitions), preset.two_movements)
         return share and share * _beyond(

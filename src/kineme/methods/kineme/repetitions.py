@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
+from kineme._util.arrays import Floats
 from kineme.methods.kineme import _repetition_kernels as kernels
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ class Candidate:
 
     @property
     def count(self) -> int:
-        return _rounded(self.number)
+        return _round_count(self.number)
 
     def is_chance(self, most: float) -> bool:
         """Return whether the mean of many repetitions would leave more than ``most`` unexplained.
@@ -164,18 +164,18 @@ def repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) 
         if each.cost <= best.cost + preset.same_cost
         and abs(each.number - best.number) <= SAME_COUNT
     ]
-    count = _rounded(float(np.mean([each.number for each in same])))
+    count = _round_count(float(np.mean([each.number for each in same])))
     divisions = [cuts for each in same if (cuts := each.cuts(count)) is not None]
     if not divisions:
         divisions = [cuts for cuts in [best.cuts(best.count)] if cuts is not None]
     lengths = np.diff(np.array(divisions), axis=1, prepend=0, append=len(rows))
     cuts = divisions[lengths.std(axis=1).argmin()]
-    return start + at_rest(cuts, movement.path, preset.frames(REST_AVERAGED))
+    return start + shift_to_rest(cuts, movement.path, preset.frames(REST_AVERAGED))
 
 
 def movement_of(rows: Rows, preset: KinemeConstants) -> Movement:
     """Return a span of a recording as a path of poses."""
-    poses, speeds = kernels.smoothed(rows, preset.frames(SMOOTHED))
+    poses, speeds = kernels.smooth_rows(rows, preset.frames(SMOOTHED))
     path = np.append(0, np.cumsum(speeds))
     shares = speeds / max(path[-1], 1e-12)
     middle = shares @ poses
@@ -239,12 +239,12 @@ def candidate(
     return Candidate(visits, before, after, ends, unexplained, preset)
 
 
-def _rounded(number: float) -> int:
+def _round_count(number: float) -> int:
     """Return a number of repetitions in whole ones, parts of them included."""
     return int(number + 1 - ROUNDED_UP)
 
 
-def at_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
+def shift_to_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     """Return the cuts, all moved by the same phase to where movement is slowest.
 
     They stay where there is no rest, and where the first or the last repetition would be less
@@ -262,7 +262,7 @@ def at_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     Examples
     --------
     >>> path = np.append(0, np.cumsum(np.tile([1.0, 1, 1, 1, 0, 0, 0, 1], 3)))
-    >>> at_rest(np.array([8, 16]), path, 1).tolist()
+    >>> shift_to_rest(np.array([8, 16]), path, 1).tolist()
     [5, 13]
     """
     if not len(cuts):

@@ -32,10 +32,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats
-from kineme._threads import even_slices, map_threads
+from kineme._util.arrays import Floats
+from kineme._util.parallel import make_even_slices, map_threads
 from kineme.methods.kineme import _tree_kernels as kernels
-from kineme.methods.segments import by_first_appearance
+from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -108,10 +108,10 @@ def level_of(features: Rows, preset: KinemeConstants, repeating: Repeating | Non
 
     cost = preset.samples(preset.fine_cost)
     fine = fine_borders(features, unit, width=preset.near, cost=cost)
-    sums = between_segments(features, fine, unit)
+    sums = sum_between_segments(features, fine, unit)
     level = best_level(fine, sums, preset, saved)
     at = np.searchsorted(fine, level.borders[:-1])
-    preference = preferences(summed(sums, at), np.diff(level.borders), level.labels)
+    preference = preferences(sum_runs(sums, at), np.diff(level.borders), level.labels)
     return Level(fine, level.borders, level.labels, preference)
 
 
@@ -175,12 +175,12 @@ def fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Sam
     def fill(rows: slice) -> None:
         kernels.similarity_band(features, unit, rows.start, rows.stop, similarity)
 
-    map_threads(fill, even_slices(len(features)))
+    map_threads(fill, make_even_slices(len(features)))
     borders: Samples = kernels.change_points(similarity, 2 * cost)
     return borders
 
 
-def between_segments(features: Rows, borders: Samples, unit: float) -> Floats:
+def sum_between_segments(features: Rows, borders: Samples, unit: float) -> Floats:
     """Summed distances of the samples of each two segments, (segments, segments), in units."""
     k = len(borders) - 1
     most = max(LEAST, min(MOST, COMPARED // k))
@@ -199,7 +199,7 @@ def mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
     def fill(rows: slice) -> None:
         kernels.mean_distances(features, chosen, ends, rows.start, rows.stop, means)
 
-    map_threads(fill, even_slices(len(groups)))
+    map_threads(fill, make_even_slices(len(groups)))
     return np.triu(means) + np.triu(means, 1).T
 
 
@@ -210,7 +210,7 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
     ----------
     borders : (segments + 1,) array
     sums : (segments, segments) array
-        Of `between_segments`; is used up.
+        Of `sum_between_segments`; is used up.
     """
     lengths = np.diff(borders).astype(np.float64)
     alive = list(range(len(lengths)))
@@ -245,7 +245,7 @@ def best_level(
     borders : (segments + 1,) array
         Of the finest level.
     sums : (segments, segments) array
-        Of `between_segments`.
+        Of `sum_between_segments`.
     preset : KinemeConstants
     saved : callable
         Samples that a segment, from one to another, saves by repeating itself. They are subtracted
@@ -255,7 +255,7 @@ def best_level(
     tried = {*range(min(len(tree), EACH_LEVEL))}
     tried |= {int(at) for at in np.geomspace(1, len(tree), LEVELS).astype(np.int64) - 1}
     chosen = [tree[at] for at in sorted(tried)]
-    found = [grouped(borders[each], summed(sums, each[:-1]), preset) for each in chosen]
+    found = [group_segments(borders[each], sum_runs(sums, each[:-1]), preset) for each in chosen]
     segment_cost = preset.samples(preset.segment_cost)
     savings: dict[tuple[int, int], float] = {}
     best, cheapest = found[0], np.inf
@@ -273,7 +273,7 @@ def best_level(
     return best
 
 
-def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
+def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
     """Segments in clusters, without clusters that are too short, and what that costs.
 
     Parameters
@@ -292,10 +292,10 @@ def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
         sums.copy(), lengths.copy(), most, segment_cost, cluster_cost, share, labels
     )
     shortest = round(preset.samples(preset.min_action))
-    labels = without_short(labels, lengths, sums, shortest)
+    labels = absorb_short_clusters(labels, lengths, sums, shortest)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
-    lengths, sums = np.add.reduceat(lengths, first), summed(sums, first)
-    labels = by_first_appearance(labels[first])
+    lengths, sums = np.add.reduceat(lengths, first), sum_runs(sums, first)
+    labels = number_by_appearance(labels[first])
     members = np.eye(int(labels.max()) + 1)[labels]
     within = np.einsum("sc,st,tc->c", members, sums, members) / (2 * lengths @ members)
     cost = within.sum() + segment_cost * len(labels) + cluster_cost * len(within)
@@ -304,7 +304,9 @@ def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
     )
 
 
-def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: float) -> Samples:
+def absorb_short_clusters(
+    labels: Samples, lengths: Floats, sums: Floats, shortest: float
+) -> Samples:
     """Return the clusters of segments, where segments of short clusters have that of a neighbour.
 
     A cluster is short if no run of its segments is `shortest` samples long. Of short segments
@@ -316,7 +318,7 @@ def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: floa
     >>> places = np.array([0.0, 1.0, 4.0, 5.0])
     >>> lengths = np.array([9.0, 2.0, 2.0, 9.0])
     >>> sums = np.abs(places - places[:, None]) * np.outer(lengths, lengths)
-    >>> without_short(np.arange(4), lengths, sums, 7).tolist()
+    >>> absorb_short_clusters(np.arange(4), lengths, sums, 7).tolist()
     [0, 0, 3, 3]
     """
     first = np.flatnonzero(np.diff(labels, prepend=-1))
@@ -338,7 +340,7 @@ def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: floa
     return kept
 
 
-def summed(sums: Floats, first: Samples) -> Floats:
+def sum_runs(sums: Floats, first: Samples) -> Floats:
     """Sums (segments, segments) added up to those of runs of segments that begin at `first`."""
     return np.asarray(np.add.reduceat(np.add.reduceat(sums, first, 0), first, 1), np.float64)
 
@@ -384,7 +386,7 @@ def part_ends(n: int, longest: int) -> list[int]:
     return [round(n * part / count) for part in range(count + 1)]
 
 
-def linked(
+def link_parts(
     features: Rows, at: Samples, parts: Sequence[Level], *, unit: float, price: float
 ) -> Level:
     """Return the parts one after the other, with clusters that mean the same in all of them.
@@ -417,7 +419,7 @@ def linked(
         means = mean_distances(features, chosen) / unit
         part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
         labels = link(means, sizes, part_of, price)[labels]
-    labels = by_first_appearance(labels)
+    labels = number_by_appearance(labels)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     preference = np.concatenate([part.preference for part in parts])
     return Level(fine, np.append(ends[first], ends[-1]), labels[first], preference[first])

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._arrays import Floats, Ints
+from kineme._util.arrays import Floats, Ints
 from kineme.features.channels import Mixture, Reduction, in_mixtures
 
 if TYPE_CHECKING:
@@ -86,18 +86,18 @@ def views_of(
     if len(scales) > 1:
         halves = slow_and_fast(scaled)
         requested += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
-    found = _in_scales(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
+    found = _make_scales(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
     return Views(found[: len(scales)], found[len(scales) :])
 
 
-def with_velocities(
+def append_velocities(
     view: NDArray[np.float32], channels: int, steps: int, weight: float
 ) -> NDArray[np.float32]:
     """The view and, `weight` times, how its means change from `steps` before to `steps` after.
 
     Examples
     --------
-    >>> with_velocities(np.float32([[0], [1], [5], [5]]), 1, 1, 0.5)[:, 1].tolist()
+    >>> append_velocities(np.float32([[0], [1], [5], [5]]), 1, 1, 0.5)[:, 1].tolist()
     [0.5, 2.5, 2.0, 0.0]
     """
     means, at = view[:, :channels], np.arange(len(view))
@@ -122,7 +122,7 @@ def slow_and_fast(scaled: Floats) -> list[Ints]:
     return [np.sort(order[:middle]), np.sort(order[middle:])]
 
 
-def _in_scales(
+def _make_scales(
     scaled: Floats,
     requested: Sequence[tuple[Ints, Scale]],
     preset: KinemeConstants,
@@ -148,13 +148,13 @@ def _in_scales(
     for channels, scale in requested:
         values = statistics[channels.tobytes(), scale.shared]
         view = (
-            by_restlessness(values, round(preset.samples(scale.restless_over)), scale.weight)
+            divide_by_change(values, round(preset.samples(scale.restless_over)), scale.weight)
             if scale.restless_over
-            else by_deviation(values, len(channels), scale.weight)
+            else divide_by_deviation(values, len(channels), scale.weight)
         )
         steps = max(1, round(preset.samples(VELOCITY_OVER)))
         weight = velocity_weight
-        found.append(with_velocities(view, len(channels), steps, weight) if weight else view)
+        found.append(append_velocities(view, len(channels), steps, weight) if weight else view)
     return found
 
 
@@ -189,7 +189,7 @@ def reduce_shared(scaled: Floats, most: float) -> Reduction | None:
     return Reduction(directions, factors, 1 / np.where(left > TINY, left, 1.0))
 
 
-def by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np.float32]:
+def divide_by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np.float32]:
     """Means, and each band, divided by their whole deviation to the power `weight`.
 
     Parameters
@@ -206,13 +206,13 @@ def by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np
     return np.ascontiguousarray(scaled.reshape(centred.shape), np.float32)
 
 
-def by_restlessness(statistics: Floats, steps: int, weight: float) -> NDArray[np.float32]:
+def divide_by_change(statistics: Floats, steps: int, weight: float) -> NDArray[np.float32]:
     """Return each statistic divided by its mean change over so many samples to the power `weight`.
 
     Examples
     --------
     >>> restless = np.column_stack([np.arange(8) % 2, np.arange(8) // 4])
-    >>> by_restlessness(restless.astype(float), 1, 1.0).std(axis=0).round(2).tolist()
+    >>> divide_by_change(restless.astype(float), 1, 1.0).std(axis=0).round(2).tolist()
     [0.5, 3.5]
     """
     centred = statistics - statistics.mean(axis=0)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme._compiled import OPTIONS
+from kineme._util.parallel import OPTIONS
 
 
 @njit("Tuple((int64[::1], int32[::1]))(int64[::1], int32[::1], boolean)", **OPTIONS)

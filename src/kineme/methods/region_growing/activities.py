@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.graph import NeighborGraph
 from kineme.methods.region_growing import _kernels
+from kineme.methods.region_growing.neighbors import NeighborGraph
 
 Cuts = NDArray[np.int64]
 

@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import as_features
-from kineme._threads import map_threads
+from kineme._util.checks import as_features
+from kineme._util.parallel import map_threads
 from kineme.errors import ParameterError
-from kineme.graph import NeighborGraph, component_labels, neighbor_graph
 from kineme.methods.base import Mirror
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.activities import (
@@ -26,7 +25,9 @@ from kineme.methods.region_growing.activities import (
 from kineme.methods.region_growing.clustering import Clustering, cluster_segments
 from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.mirroring import merged_cuts, symmetry_type
+from kineme.methods.region_growing.neighbors import NeighborGraph, neighbor_graph
 from kineme.methods.region_growing.primitives import PrimitiveCuts, primitive_cuts
+from kineme.methods.region_growing.warping import component_labels
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
@@ -94,7 +95,7 @@ def analyze_regions(
         with stage("mirroring"):
             graph_across = _neighbors(mirror(compared), compared, preset)
             mirrored = _primitives(graph_across, borders, preset)
-            cuts_inside = _merged(divided, mirrored, preset)
+            cuts_inside = _merge_cuts(divided, mirrored, preset)
             symmetry = _symmetry(borders, repeats, divided, mirrored, preset)
     with stage("clusters"):
         primitives = _borders(np.concatenate([borders, *cuts_inside]), len(graph))
@@ -184,7 +185,7 @@ def _primitives(
     return map_threads(cuts_of, range(len(borders) - 1))
 
 
-def _merged(
+def _merge_cuts(
     main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionGrowingConstants
 ) -> list[Frames]:
     gap = preset.min_primitive * preset.working_fps

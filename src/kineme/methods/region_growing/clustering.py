@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from kineme._threads import map_threads
-from kineme.graph import NeighborGraph, warping_paths
-from kineme.graph.warping import Step
+from kineme._util.parallel import map_threads
 from kineme.methods.region_growing import _kernels
-from kineme.methods.segments import by_first_appearance
+from kineme.methods.region_growing.neighbors import NeighborGraph
+from kineme.methods.region_growing.warping import Step, warping_paths
+from kineme.methods.segments import number_by_appearance
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ def cluster_segments(
     borders : ndarray of shape (segments + 1,)
         Ascending frames; segment g is ``borders[g]..borders[g + 1]``, both inclusive.
     steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
-        As in `kineme.graph.warping_paths`.
+        As in `kineme.methods.region_growing.warping.warping_paths`.
     coverage : float
         Share of both segments that a path must cover.
     interpolate : bool
@@ -91,7 +91,7 @@ def cluster_segments(
     targets, shares = zip(*map_threads(links_of, range(n)), strict=True)
     links = _link_matrix(targets, shares)
     _, components = connected_components(links, directed=True, connection=connection)
-    return Clustering(by_first_appearance(components), _best_shares(links, components))
+    return Clustering(number_by_appearance(components), _best_shares(links, components))
 
 
 def _link_matrix(

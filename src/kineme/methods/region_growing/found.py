@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.graph import NeighborGraph
 from kineme.methods.base import Columns
 from kineme.methods.region_growing.activities import ActivityCuts
 from kineme.methods.region_growing.clustering import Clustering
-from kineme.methods.segments import by_first_appearance, columns_of
+from kineme.methods.region_growing.neighbors import NeighborGraph
+from kineme.methods.segments import make_columns, number_by_appearance
 
 Frames = NDArray[np.int64]
 
@@ -62,7 +62,7 @@ class RegionsFound:
         parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
         clusters = _cluster_numbers(self, parents)
         of_activities = _main_clusters(clusters, parents, np.diff(self.primitives))
-        return columns_of(
+        return make_columns(
             self.borders,
             self.primitives,
             is_activity=self.repeats,
@@ -80,7 +80,7 @@ def _cluster_numbers(found: RegionsFound, parents: NDArray[np.intp]) -> Frames:
     labels = found.clustering.labels
     lonely = np.bincount(labels)[labels] == 1
     named = ~(lonely & ~found.repeats[parents])
-    return by_first_appearance(np.where(named, labels, -1))
+    return number_by_appearance(np.where(named, labels, -1))
 
 
 def _main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Frames) -> Frames:

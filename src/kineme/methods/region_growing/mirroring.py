@@ -22,8 +22,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.graph import WarpingPaths
 from kineme.methods.region_growing.primitives import PrimitiveCuts
+from kineme.methods.region_growing.warping import WarpingPaths
 
 HALF = 0.5  # of the frames; more are most of them
 

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.graph import NeighborGraph, WarpingPaths, warping_paths
-from kineme.graph.warping import Step
 from kineme.methods.region_growing import _kernels
+from kineme.methods.region_growing.neighbors import NeighborGraph
+from kineme.methods.region_growing.warping import Step, WarpingPaths, warping_paths
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ def primitive_cuts(
     activity : (int, int)
         (first, last), both inclusive; neighbouring activities share the border frame.
     steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
-        As in `kineme.graph.warping_paths`.
+        As in `kineme.methods.region_growing.warping.warping_paths`.
     symmetry : float
         Share of a path's rows and columns that another path (or itself) must match the other way
         round (symmetry coherence).
@@ -77,7 +77,7 @@ def primitive_cuts(
         separation=separation,
     )
     coherent = _kernels.coherent_paths(paths.ptr, paths.rows, paths.columns, symmetry)
-    paths = paths.select(coherent & paths.within_slope(max_slope))
+    paths = paths.select(coherent & paths.is_within_slope(max_slope))
     return _choose(paths, first + min_length, last - min_length, min_length)
 
 

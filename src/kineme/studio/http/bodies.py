@@ -25,7 +25,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
-from kineme._files import hold, is_held
+from kineme._util.files import hold, is_held
 from kineme.errors import ParameterError, WriteError
 from kineme.formats import supported_formats
 from kineme.labels import label_formats

@@ -25,7 +25,7 @@ from pathlib import Path
 
 import msgspec
 
-from kineme._files import reading
+from kineme._util.files import translate_read_errors
 from kineme.errors import ParameterError, ReadError
 from kineme.labels import json_table
 from kineme.segments.history import History
@@ -198,7 +198,7 @@ class Journal:
         and the edit is known by its name.
         """
         names = (*self._record.names, name)[-MOST_NAMES:]
-        record = pruned(replace(change.record, revision=revision, names=names))
+        record = prune_steps(replace(change.record, revision=revision, names=names))
         try:
             self._write(record)
             save(change.content)
@@ -224,7 +224,7 @@ class Journal:
     def _kept(self, number: int) -> tuple[bytes, Segmentation]:
         """What the file of a table holds; ReadError where it is not there any more, or damaged."""
         path = self._path(number)
-        with reading(path):
+        with translate_read_errors(path):
             content = path.read_bytes()
             return content, json_table.loads(content, path)
 
@@ -268,7 +268,7 @@ def write_record(folder: Path, record: Record) -> None:
     write_file(folder / HISTORY, content)
 
 
-def pruned(record: Record) -> Record:
+def prune_steps(record: Record) -> Record:
     """Return the record without the steps that nothing needs any more."""
     needed = needed_by(record)
     return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})

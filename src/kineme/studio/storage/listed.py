@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from hashlib import blake2b
 from pathlib import Path
 
-from kineme._files import of_person
+from kineme._util.files import add_person
 
 
 def file_id(path: Path) -> str:
@@ -53,7 +53,7 @@ class ListedRecording:
     @property
     def called(self) -> Path:
         """The file that it would be by itself, after which labels and downloads are called."""
-        return of_person(self.path, self.person)
+        return add_person(self.path, self.person)
 
     @property
     def with_table(self) -> Path:

@@ -13,7 +13,7 @@ from hashlib import sha256
 from itertools import count
 from pathlib import Path
 
-from kineme._files import CORRECTED, atomic_write, refuse_pipe
+from kineme._util.files import CORRECTED, atomic_write, refuse_pipe
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.labels import json_table, read_segments
 from kineme.segments.segmentation import Segmentation

@@ -23,7 +23,7 @@ from typing import Any, Literal, get_origin
 from msgspec import Struct, inspect, to_builtins
 from starlette.routing import Route
 
-from kineme._files import atomic_write
+from kineme._util.files import atomic_write
 from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.table import COLUMNS, Kind, Level, Segment
 from kineme.studio.library_routes import LibraryApi
@@ -196,7 +196,7 @@ def _paths(routes: list[Route], method: str) -> str:
     return "".join(f'\n  | "{path}"' for path in paths if ":" not in path)  # but for any other
 
 
-def made() -> dict[Path, str]:
+def make_files() -> dict[Path, str]:
     """Return the files that are made, and what they hold."""
     return {
         SOURCES / "messages.ts": messages_typescript(),
@@ -205,6 +205,6 @@ def made() -> dict[Path, str]:
 
 
 if __name__ == "__main__":
-    for target, text in made().items():
+    for target, text in make_files().items():
         with atomic_write(target) as draft:
             draft.write_text(text, encoding="utf-8")

@@ -1,1 +1,0 @@
-"""Activities, transitions, primitives and clusters of a recording."""

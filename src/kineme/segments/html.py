@@ -1,0 +1,138 @@
+"""A segment table along a line of seconds, as HTML for notebooks.
+
+Each level is a row, each segment a bar in the colour of its cluster, the same
+in every picture; grey is what is in no cluster, lighter grey a transition.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from html import escape
+from typing import Any, Protocol, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.segments.colors import cluster_color, label_colors
+
+TRANSITION = "#F0F0F0"
+NO_LABELS: Mapping[str, str] = {}
+WIDTH, HEIGHT = 720, 16
+"""Pixels of a row in a notebook."""
+FIRST_ROWS = 8
+"""Rows of a table that a notebook shows."""
+HEADER = ("kind", "start s", "stop s", "duration s", "cluster", "label", "confidence")
+
+
+class Row(Protocol):
+    """What pictures need of a `kineme.segments.table.Segment`."""
+
+    @property
+    def kind(self) -> str: ...
+    @property
+    def start_s(self) -> float: ...
+    @property
+    def stop_s(self) -> float: ...
+    @property
+    def duration_s(self) -> float: ...
+    @property
+    def cluster(self) -> int: ...
+    @property
+    def label(self) -> str: ...
+    @property
+    def confidence(self) -> float: ...
+
+
+class Rows(Protocol):
+    """What pictures need of a `kineme.segments.table.SegmentTable`."""
+
+    @property
+    def start_s(self) -> NDArray[np.float64]: ...
+    @property
+    def stop_s(self) -> NDArray[np.float64]: ...
+    @property
+    def duration_s(self) -> NDArray[np.float64]: ...
+    def select(self, rows: Any, /) -> Self: ...
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Row]: ...
+
+
+def segment_color(segment: Row, labels: Mapping[str, str] = NO_LABELS) -> str:
+    """``#RRGGBB`` of a segment's bar: of its cluster, else of its label."""
+    if segment.cluster < 0 and segment.label in labels:
+        return labels[segment.label]
+    if segment.cluster < 0 and segment.kind == "transition":
+        return TRANSITION
+    return cluster_color(segment.cluster)
+
+
+def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
+    """Return rows of segments as an ``<svg>``: never more bars in a row than it has pixels."""
+    height = HEIGHT * len(rows)
+    labels = label_colors(segment for table in rows for segment in table)
+    bars = [
+        f'<rect x="{left}" y="{number * HEIGHT + 1}" width="{right - left}" '
+        f'height="{HEIGHT - 2}" fill="{segment_color(segment, labels)}">'
+        f"<title>{_description(segment)}</title></rect>"
+        for number, table in enumerate(rows)
+        for segment, left, right in _pixels(table, start_s, stop_s)
+    ]
+    return (
+        f'<svg viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
+        f'style="max-width:100%" role="img" aria-label="timeline">{"".join(bars)}</svg>'
+    )
+
+
+def page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
+    """HTML of a title, timelines below each other, and the first rows of a table."""
+    shown = [table for table in timelines if len(table)]
+    picture = ""
+    if shown:
+        start = min(float(table.start_s.min()) for table in shown)
+        stop = max(float(table.stop_s.max()) for table in shown)
+        picture = timeline_svg(shown, start, stop)
+    more = len(rows) - FIRST_ROWS
+    below = f"<p>and {more} more</p>" if more > 0 else ""
+    return f"<div><p>{escape(title)}</p>{picture}{_rows(rows)}{below}</div>"
+
+
+def _rows(table: Rows) -> str:
+    head = "".join(f"<th>{name}</th>" for name in HEADER)
+    body = "".join(f"<tr>{_cells(segment)}</tr>" for segment in table.select(slice(FIRST_ROWS)))
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _cells(segment: Row) -> str:
+    square = f'<span style="color:{segment_color(segment)}">■</span>'
+    cells = (
+        segment.kind,
+        f"{segment.start_s:.2f}",
+        f"{segment.stop_s:.2f}",
+        f"{segment.duration_s:.2f}",
+        f"{square} {segment.cluster}" if segment.cluster >= 0 else "",
+        escape(segment.label),
+        "" if math.isnan(segment.confidence) else f"{segment.confidence:.2f}",
+    )
+    return "".join(f"<td>{cell}</td>" for cell in cells)
+
+
+def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float, float]]:
+    """The segments that begin a pixel of their own, with the pixels where they start and stop."""
+    scale = WIDTH / max(stop_s - start_s, 1e-9)
+    left = (table.start_s - start_s) * scale
+    _, first = np.unique(left.astype(np.int64), return_index=True)
+    right = (table.stop_s - start_s) * scale
+    gap: NDArray[np.float64] = np.minimum(0.8, (right - left) / 2)
+    return [
+        (segment, round(a, 1), round(max(b, a + 0.5), 1))
+        for segment, a, b in zip(
+            table.select(first), left[first].tolist(), (right - gap)[first].tolist(), strict=True
+        )
+    ]
+
+
+def _description(segment: Row) -> str:
+    """Return what a bar says when the pointer is on it."""
+    name = segment.label or (f"cluster {segment.cluster}" if segment.cluster >= 0 else segment.kind)
+    return escape(f"{name}: {segment.start_s:.2f} to {segment.stop_s:.2f} s")

@@ -1,0 +1,76 @@
+"""Compiled loops of the search. Naive twins are in ``tests/helpers/naive.py``."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from kineme._util.parallel import OPTIONS
+
+HALF, NOTHING = np.float32(0.5), np.float32(0)
+
+
+@njit(
+    "void(float32[:, ::1], float32[::1], float32[::1], int64, float32[:, ::1], int32[:, ::1], "
+    "float32[:, ::1], float32[::1], int32[::1])",
+    **OPTIONS,
+)
+def warp_columns(products, squares, example_squares, first, sums, begins, rows, costs, starts):
+    """Cost and start of the cheapest warping of an example that ends at each sample.
+
+    ``products[j, i]`` is -2 times that of sample first + j of a recording and sample i of an
+    example of m, ``squares`` those of the recording, ``example_squares`` of the example: the sum
+    of the three is the square of their distance. ``sums``, ``begins`` (3, m + 1) and ``rows``
+    (2, m) go on from one call to the next: sums of distances up to each sample of the example,
+    for the last three samples of the recording in turn, where their warpings begin, and the
+    distances from the last two of its samples in turn. The first column of ``sums`` is infinite,
+    and before the first call all of it.
+    """
+    n, m = products.shape
+    for j in range(n):
+        now, one, two = (first + j) % 3, (first + j - 1) % 3, (first + j - 2) % 3
+        here, before = rows[(first + j) % 2], rows[(first + j - 1) % 2, 1:]
+        for i in range(m):
+            here[i] = np.sqrt(max(products[j, i] + squares[j] + example_squares[i], NOTHING))
+        next_one = here[1:]
+        quick_sums, quick_begins = sums[one], begins[one]
+        even_sums, even_begins = sums[one, 1:], begins[one, 1:]
+        slow_sums, slow_begins = sums[two, 1:], begins[two, 1:]
+        new_sums, new_begins = sums[now, 2:], begins[now, 2:]
+        for i in range(m - 1):
+            # No branches: these run eight at a time.
+            even = even_sums[i] + next_one[i]
+            slow = slow_sums[i] + HALF * (before[i] + next_one[i])
+            quick = quick_sums[i] + (here[i] + next_one[i])
+            begin_slow, begin_even, begin_quick = slow_begins[i], even_begins[i], quick_begins[i]
+            begin = begin_slow if slow < even else begin_even
+            best = min(even, slow)
+            new_begins[i] = begin_quick if quick < best else begin
+            new_sums[i] = min(best, quick)
+        sums[now, 1] = here[0]
+        begins[now, 1] = first + j
+        costs[j] = sums[now, m] / np.float32(m)
+        starts[j] = begins[now, m]
+
+
+@njit("int64(int64[::1], int32[::1], int64, boolean[::1], int64[::1])", **OPTIONS)
+def apart(ends, starts, most, occupied, chosen):
+    """Ends of matches that do not overlap, the first ones first; how many are ``chosen``.
+
+    ``ends`` are in the order in which they are to be taken, ``starts[end]`` is where each begins.
+    ``occupied`` is false for every sample before the call, and true after it for those in a match.
+    """
+    n = 0
+    for end in ends:
+        if n == most:
+            break
+        free = True
+        for j in range(starts[end], end + 1):
+            if occupied[j]:
+                free = False
+                break
+        if free:
+            occupied[starts[end] : end + 1] = True
+            chosen[n] = end
+            n += 1
+    return n

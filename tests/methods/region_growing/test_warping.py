@@ -1,0 +1,132 @@
+"""Components and cheapest warping paths against their naive twins."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import naive
+from graphs import as_graph, as_lists, as_pairs, sparse_graphs
+from kineme.errors import ParameterError
+from kineme.methods.region_growing.neighbors import neighbor_graph
+from kineme.methods.region_growing.warping import BASIC_STEPS, component_labels, warping_paths
+
+seconds = settings(max_examples=60)
+STEPS = st.sampled_from(
+    [
+        BASIC_STEPS,
+        (*BASIC_STEPS, (2, 1), (1, 2), (2, 2), (5, 5)),
+        ((1, 1),),
+        ((0, 1), (3, 0)),
+        ((2, 2), (2, 1)),
+    ]
+)
+
+
+@st.composite
+def boxes(draw: st.DrawFn, n: int) -> tuple[tuple[int, int], tuple[int, int]]:
+    """Spans of rows and columns, now and then the whole."""
+    rows, columns = (
+        sorted(draw(st.tuples(st.integers(0, n), st.integers(0, n)) | st.just((0, n))))
+        for _ in range(2)
+    )
+    return (rows[0], rows[1]), (columns[0], columns[1])
+
+
+@given(sparse_graphs(), STEPS)
+@seconds
+def test_components_are_those_of_the_naive_version(graph, steps) -> None:
+    pairs = sorted(as_pairs(graph))
+    firsts = naive.components(pairs, steps)
+    labels = component_labels(graph, steps=steps)
+    assert [pairs[label] for label in labels] == [firsts[pair] for pair in pairs]
+
+
+@given(sparse_graphs(distinct=True), STEPS, st.sampled_from([0.0, 0.3]), st.data())
+@seconds
+def test_paths_are_those_of_the_naive_version(graph, steps, penalty, data) -> None:
+    rows, columns = data.draw(boxes(len(graph)))
+    separation = data.draw(st.none() | st.integers(0, 6))
+    options = {"steps": steps, "skip_penalty": penalty, "zero_cost": 1e-4, "separation": separation}
+    paths = warping_paths(graph, rows, columns, min_nodes=1, **options)
+    expected = naive.cheapest_paths(as_pairs(graph), rows, columns, **options)
+    assert sorted(as_lists(paths)) == sorted(path for _, path in expected)
+    np.testing.assert_allclose(sorted(paths.costs), sorted(cost for cost, _ in expected))
+
+
+@given(sparse_graphs(), STEPS, st.sampled_from([0.0, 0.3]), st.data())
+@seconds
+def test_among_equally_cheap_paths_one_is_found(graph, steps, penalty, data) -> None:
+    rows, columns = data.draw(boxes(len(graph)))
+    options = {"steps": steps, "skip_penalty": penalty, "zero_cost": 1e-4}
+    pairs = as_pairs(graph)
+    paths = warping_paths(graph, rows, columns, min_nodes=1, **options)
+    expected = naive.cheapest_paths(pairs, rows, columns, **options)
+    np.testing.assert_allclose(sorted(paths.costs), sorted(cost for cost, _ in expected))
+    for path, cost in zip(as_lists(paths), paths.costs, strict=True):
+        moves = [(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(path)]
+        assert set(moves) <= set(steps)
+        skipped = sum(max(0, a - 1) + max(0, b - 1) for a, b in moves)
+        paid = sum(float(pairs[node]) or 1e-4 for node in path) + penalty * skipped
+        assert paid == pytest.approx(cost)
+
+
+@given(sparse_graphs(), st.integers(1, 8), st.sampled_from([1.0, 1.5, 2.0]))
+@seconds
+def test_short_and_steep_paths_are_dropped(graph, min_nodes, max_slope) -> None:
+    n = len(graph)
+    every = warping_paths(graph, (0, n), (0, n), min_nodes=1)
+    kept = warping_paths(graph, (0, n), (0, n), min_nodes=min_nodes, max_slope=max_slope)
+    wanted = [
+        path
+        for path in as_lists(every)
+        if len(path) >= min_nodes
+        and 1 / max_slope <= (path[-1][1] - path[0][1]) / (path[-1][0] - path[0][0]) <= max_slope
+    ]
+    assert sorted(as_lists(kept)) == sorted(wanted)
+    assert (kept.n_nodes >= min_nodes).all()
+
+
+def test_a_path_ends_where_its_component_ends() -> None:
+    pairs = {(0, 4): 1, (1, 5): 1, (2, 6): 1, (2, 5): 0, (7, 0): 1}
+    graph = as_graph({pair: np.float32(d) for pair, d in pairs.items()}, 8)
+    paths = warping_paths(graph, (0, 8), (0, 8))
+    assert as_lists(paths) == [[(0, 4), (1, 5), (2, 5)]]
+    assert paths.costs[0] == pytest.approx(2 + 1e-6)
+    assert [x.tolist() for x in (*paths.starts, *paths.ends)] == [[0], [4], [2], [5]]
+
+
+def test_two_repetitions_are_matched_frame_by_frame() -> None:
+    steps = np.linspace(0, 2 * np.pi, 25, endpoint=False)
+    circle = np.stack([np.cos(steps), np.sin(steps)], axis=1)
+    slower = np.repeat(circle, 2, axis=0)
+    graph = neighbor_graph(np.concatenate([circle, slower]), radius=0.1)
+    paths = warping_paths(graph, (0, 25), (25, 75))
+    rows, columns = max(paths, key=len)
+    np.testing.assert_array_equal(rows, (np.arange(50) // 2)[1:-1])  # ends are free: the
+    np.testing.assert_array_equal(columns, np.arange(25, 75)[1:-1])  # shortest costs least
+
+
+def test_no_separation_keeps_a_path_to_every_end() -> None:
+    pairs = {(0, 0): 1, (1, 0): 2, (1, 1): 1, (1, 2): 3}
+    graph = as_graph({pair: np.float32(d) for pair, d in pairs.items()}, 3)
+    paths = warping_paths(graph, (0, 3), (0, 3), separation=0)
+    assert [path[-1] for path in as_lists(paths)] == [(1, 1), (1, 0), (1, 2)]
+
+
+def test_an_index_beyond_the_paths_is_an_error() -> None:
+    paths = warping_paths(neighbor_graph(np.zeros((3, 1)), radius=0), (0, 3), (0, 3))
+    assert len(paths) == 1
+    with pytest.raises(IndexError, match="path 1 of 1"):
+        paths[1]
+
+
+@pytest.mark.parametrize("steps", [(), ((0, 0),), ((1, -1),)])
+def test_refuses_steps_that_lead_nowhere(steps) -> None:
+    graph = neighbor_graph(np.zeros((3, 1)), radius=0)
+    with pytest.raises(ParameterError, match="warping steps"):
+        warping_paths(graph, (0, 3), (0, 3), steps=steps)
