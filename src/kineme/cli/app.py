@@ -1,4 +1,4 @@
-"""The application: its commands, and the options of ``kineme`` itself."""
+"""Application: its commands, and the options of ``kineme`` itself."""
 
 from __future__ import annotations
 

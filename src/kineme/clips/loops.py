@@ -170,7 +170,9 @@ def _closed_rotations(
 
 
 def _closed_places(places: Floats, fps: float, carry: Carry, free: NDArray[np.bool_]) -> Floats:
-    """The same for places; those that are ``free`` are carried on, the others hang on a parent.
+    """Return the same for places.
+
+    Those that are ``free`` are carried on, the others hang on a parent.
 
     What is added to the free ones turns with the carry, so that it fits at both ends.
     """

@@ -87,7 +87,7 @@ def loop_quality(
     feet: Sequence[tuple[Sequence[int], Masks]] = (),
     unlike: float = math.nan,
 ) -> LoopQuality:
-    """The quality of a loop, from positions of the clip and of the loop alone, metres with y up.
+    """Return quality of a loop, from positions of the clip and of the loop alone, metres with y up.
 
     ``carry`` takes one round to the next; ``usual`` are the `usual_steps` of the recording;
     ``feet`` has the points of each foot and when it is planted; ``unlike`` is as `distances` has

@@ -50,13 +50,13 @@ class RootMotion:
 
 
 def root_motion(motion: Motion, carry: Carry) -> RootMotion:
-    """The even motion of the body that goes round with this carry, in the axes of the recording."""
+    """Return the even motion of the body with this carry, in the axes of the recording."""
     shift, seconds = _generator(_move_origin(carry, _start(motion))), motion.n_frames / motion.fps
     return RootMotion(shift[0] / seconds, shift[2] / seconds, carry.turn / seconds)
 
 
 def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion]:
-    """The motion in place, at the origin and facing +z, and what was taken out, in its axes."""
+    """Return motion in place, at the origin and facing +z, and what was taken out, in its axes."""
     start = root_motion(motion, carry)
     unmoved = _follow_path(motion, carry, np.zeros(3))
     x, _, z = unmoved.positions[:, motion.skeleton.carrier].mean(axis=0)

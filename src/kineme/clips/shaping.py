@@ -99,7 +99,10 @@ class ShapedClip:
 
 
 def shape_clips(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterator[ShapedClip]:
-    """The segments as clips one by one, in their order; of loops those that were asked for."""
+    """Return the segments as clips one by one, in their order.
+
+    Of loops those that were asked for.
+    """
     feet = planted_feet(motion)
     qualities = loop_qualities(motion, rows, feet) if shape.loops else {}
     places = _places(rows, qualities)

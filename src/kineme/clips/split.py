@@ -211,7 +211,7 @@ def _format(suffix: str | None) -> Format | None:
 
 @dataclass(frozen=True)
 class _Run:
-    """The clips of one recording, numbered from ``first`` in their folder."""
+    """Clips of one recording, numbered from ``first`` in their folder."""
 
     recording: Motion | Signals
     first: int

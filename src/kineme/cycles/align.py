@@ -103,7 +103,7 @@ def _warp_to_mean(curves: Floats) -> Floats:
 
 
 def _warp_cycle(mean: Floats, curves: Floats) -> Floats:
-    """The phase of each cycle at each time of the mean, on the cheapest path within a band."""
+    """Return phase of each cycle at each time of the mean, on the cheapest path within a band."""
     n, band = len(curves), round(BAND * GRID)
     cost = np.full((n, GRID + 1, GRID + 1), np.inf)
     cost[:, 0, 0] = 0

@@ -82,7 +82,10 @@ class Run:
         return (np.diff(self.borders) + self.period) / 2
 
     def at(self, cycles: Floats) -> Floats:
-        """The seconds at which so many cycles are done; beyond its ends at its own period."""
+        """Return the seconds at which so many cycles are done.
+
+        Beyond its ends at its own period.
+        """
         n = len(self.borders) - 1
         inside = np.interp(cycles, np.arange(n + 1), self.borders)
         beyond = np.maximum(cycles - n, 0) + np.minimum(cycles, 0)
@@ -163,7 +166,7 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
 
 
 def _extend_ends(runs: list[Run]) -> list[Run]:
-    """The runs with their ends drawn to where a repetition of usual length would have them."""
+    """Return runs with their ends drawn to where a repetition of usual length would have them."""
     inner = [np.diff(run.borders)[1:-1] for run in runs]
     ratios = np.concatenate(
         [each / np.median(each) for each in inner if len(each) > 1] or [np.empty(0)]

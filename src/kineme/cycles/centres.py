@@ -44,7 +44,7 @@ MOST = 4000
 
 
 def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
-    """The motion with centres of hips and knees as more joints, and the joints by part and side.
+    """Return motion with centres of hips and knees as more joints, and the joints by part and side.
 
     Both are as they were where nothing tells where centres are. Of markers on the skin,
     ``left_thigh`` is the point that tells with hip and knee how a thigh is turned: the marker of

@@ -139,7 +139,7 @@ def cycles(
 
 
 def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
-    """The same without those that people left out, as the annotations of their tables say."""
+    """Return same without those that people left out, as the annotations of their tables say."""
     left_out = [
         table.annotation.excludes(row.start_frame, row.stop_frame)
         for table in tables
@@ -227,7 +227,7 @@ def _check_same(measured: Sequence[Sequence[Channel]], names: Sequence[str]) -> 
 
 
 def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
-    """The names of the files without suffix, with that of the person where equal ones differ by it.
+    """Return the files' names without suffix, with the person where equal names differ by it.
 
     Numbers where there are none, or still equal ones.
     """

@@ -76,13 +76,19 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
 
 
 def sides_of(channels: tuple[str, ...]) -> list[tuple[str, str]]:
-    """The channels of left sides with those of the right; without those that have no other side."""
+    """Return the channels of left sides with those of the right.
+
+    Without those that have no other side.
+    """
     pairs = ((name, right_of(name)) for name in channels)
     return [(left, right) for left, right in pairs if right != left and right in channels]
 
 
 def right_of(name: str) -> str:
-    """The channel of the right side to one of the left; the name itself where it is of no side."""
+    """Return the channel of the right side to one of the left.
+
+    The name itself where it is of no side.
+    """
     turned = re.sub("left", lambda found: _RIGHT.get(found[0], "right"), name, flags=re.IGNORECASE)
     return turned if turned != name else re.sub("_l$", "_r", name)
 

@@ -1,4 +1,4 @@
-"""The annotations of CMU subject 86 as truths: fourteen trials, each with three annotators.
+"""Annotations of CMU subject 86 as truths: fourteen trials, each with three annotators.
 
 At another rate than 120 Hz mark m is m × rate / 120, halves up, as in the evaluation of Vögele,
 Krüger, Klein 2014. Frame f counted from 1 is frame f - 1 here.

@@ -276,7 +276,7 @@ Truths = Mapping[str, Mapping[str, Truth]]
 
 
 class _Sides:
-    """The classes of all frames as numbers: by names one for all, else one for each annotator."""
+    """Classes of all frames as numbers: by names one for all, else one for each annotator."""
 
     def __init__(self, truths: Truths, by: By):
         self._truths, self._by = truths, by

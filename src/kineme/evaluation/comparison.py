@@ -177,7 +177,7 @@ class Comparison:
 
     @cached_property
     def mapped(self) -> Ints:
-        """The class that each frame's cluster stands for; below 0 where it stands for none."""
+        """Class that each frame's cluster stands for; below 0 where it stands for none."""
         mapping = best_mapping([self]) if self.mapping is None else self.mapping
         clusters, where = np.unique(self.found, return_inverse=True)
         classes = [mapping.get(int(c), -2 - i) for i, c in enumerate(clusters)]

@@ -196,7 +196,10 @@ def evaluate_folder(
 def joined_comparisons(
     answers: Sequence[tuple[Job, Answer]], n_clusters: int | None = None
 ) -> list[Comparison | None]:
-    """The comparisons of one method by one mapping of joined clusters; None where a job failed."""
+    """Return the comparisons of one method by one mapping of joined clusters.
+
+    None where a job failed.
+    """
     classes: dict[str, int] = {}
     compared = {
         i: compare(sides.truth, found, classes=classes)

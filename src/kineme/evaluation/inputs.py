@@ -145,7 +145,7 @@ def score(truth: Truth, found: Segmentation, motion: Motion | None = None) -> di
 
 
 def recording_of(found: Segmentation) -> Path | None:
-    """The file a segmentation was made from, if it is still there and unchanged."""
+    """Return the file a segmentation was made from, if it is still there and unchanged."""
     from kineme.formats.files import load
 
     source = found.provenance.get("input") or {}

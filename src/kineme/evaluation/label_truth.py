@@ -59,7 +59,9 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
 
 
 def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
-    """The activities of a segmentation as a truth at a rate; transitions are uncertain borders.
+    """Return the activities of a segmentation as a truth at a rate.
+
+    Transitions are uncertain borders.
 
     Activities are called by their labels, else by their clusters. Counts are those of the
     provenance, and repetitions the primitives, see `add_repetitions`.
@@ -168,7 +170,10 @@ def _repetitions(
     *,
     single: bool,
 ) -> list[Segment]:
-    """The level of primitives that rows of the activity level make up; empty where they do not."""
+    """Return the level of primitives that rows of the activity level make up.
+
+    Empty where they do not.
+    """
     inner: list[Segment] = []
     for group in groups:
         first, last = rows[group[0]], rows[group[-1]]

@@ -29,7 +29,7 @@ from kineme.transfer.channel_samples import ChannelSamples, channel_samples
 UNMET = "has no column like"
 """How a note on a pattern begins that no column of a recording fits, such as a mistyped one."""
 NUMBER_OF_CLASSES = "n_classes"
-"""The constant of presets that take the true number of classes."""
+"""Constant of presets that take the true number of classes."""
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ _ORDER = 2  # run forwards and backwards: fourth order in all, and no delay
 
 
 def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> NDArray[np.float64]:
-    """The envelope (frames, channels) of raw muscle signals, at the same rate, never below 0.
+    """Return envelope (frames, channels) of raw muscle signals, at the same rate, never below 0.
 
     Each channel loses its mean, is rectified, and low-passed without delay
     (Butterworth, forwards and backwards).

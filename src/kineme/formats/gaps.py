@@ -64,7 +64,9 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
 def bridge(
     points: Floats, gaps: Gaps, chosen: Iterable[int], fps: float
 ) -> tuple[tuple[int, int], ...]:
-    """The frames [start, stop) in which any of these points has an open gap; they are filled.
+    """Return the frames [start, stop) in which any of these points has an open gap.
+
+    They are filled.
 
     In place, along a straight line. What was seen for no longer than 0.2 s
     between two gaps is part of one.

@@ -41,7 +41,7 @@ _TO_Y = {
     "x": (0.5**0.5, 0.0, 0.0, 0.5**0.5),
     "-x": (0.5**0.5, 0.0, 0.0, -(0.5**0.5)),
 }
-"""The rotation that brings an axis up, and leaves x or z where it is."""
+"""Rotation that brings an axis up, and leaves x or z where it is."""
 
 AXES = tuple(_TO_Y)
 
@@ -56,7 +56,7 @@ SIZES = (0.02, 50.0)
 """Metres: a whole body of less, or points of more, are not of the unit that the file states."""
 
 METRIC = ("m", "cm", "mm")
-"""The units of markers and of most files."""
+"""Units of markers and of most files."""
 
 _METRES = re.compile("(centi|milli)?met(?:er|re)s?")
 _HEAD = re.compile("head", re.IGNORECASE)
@@ -84,7 +84,7 @@ def unit_named(word: str) -> str | None:
 
 
 def upright(points: Floats, up: str) -> Floats:
-    """The points (frames, points, 3), turned in place so that their axis ``up`` becomes y."""
+    """Return points (frames, points, 3), turned in place so that their axis ``up`` becomes y."""
     if up != "y":
         for span in blocks(len(points)):
             points[span] = rot.rotate(up_rotation(up), points[span])

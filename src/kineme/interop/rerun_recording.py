@@ -106,7 +106,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
 
 
 def _send_lane(recording: Any, segmentation: Segmentation, level: Level) -> None:
-    """The states of one level: each segment one of its own, shown under its text."""
+    """Send the states of one level: each segment one of its own, shown under its text."""
     import rerun as rr
 
     rows = segmentation.level(level)

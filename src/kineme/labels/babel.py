@@ -106,7 +106,10 @@ def _text(label: Mapping[str, Any]) -> str:
 
 
 def _apart(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
-    """The spans cut where another begins or ends, with all their texts; how many have several."""
+    """Return the spans cut where another begins or ends, with all their texts.
+
+    How many have several.
+    """
     solid = [span for span in spans if span.start < span.stop]
     apart = [span for span in spans if not span.start < span.stop]
     waiting = sorted(solid, key=lambda span: span.start, reverse=True)

@@ -64,7 +64,7 @@ def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
 
 
 def _seconds(times: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
-    """The seconds that starts and stops stand for, and a note unless they are the clock's own."""
+    """Return the seconds of starts and stops, and a note unless they are the clock's own."""
     candidates: tuple[tuple[Callable[[ArrayLike], Floats], tuple[str, ...]], ...] = (
         (clock.second, ()),
         (

@@ -48,7 +48,7 @@ class Extent(NamedTuple):
 
 @dataclass(frozen=True)
 class LabelSource:
-    """The file that holds the labels of a recording; its labels, where that is a table of many."""
+    """File that holds the labels of a recording; its labels, where that is a table of many."""
 
     path: Path
     labels: Labels | None = None
@@ -174,7 +174,10 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
 
 
 def _first_frame(time: float, n_frames: int) -> int:
-    """The first frame at or after a time in frames; the end for times beyond, however far."""
+    """Return the first frame at or after a time in frames.
+
+    The end for times beyond, however far.
+    """
     return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
 

@@ -123,7 +123,10 @@ def roundest_rate(n_frames: int, seconds: float) -> float:
 
 
 def intervals(path: Path) -> dict[str, Labels]:
-    """The labels of a table of intervals, by recording; by ``""`` where it has no such column."""
+    """Return the labels of a table of intervals, by recording.
+
+    By ``""`` where it has no such column.
+    """
     unit: Unit = "seconds"
     spans: dict[str, list[Span]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
@@ -168,7 +171,10 @@ def _level(row: dict[str, str]) -> Level:
 
 
 def _cluster(row: dict[str, str]) -> int:
-    """The number of a cluster, as in an exported library; other words there are people's own."""
+    """Return the number of a cluster, as in an exported library.
+
+    Other words there are people's own.
+    """
     text = row.get("cluster", "").strip()
     return int(text) if re.fullmatch("[0-9]{1,9}", text) else -1
 

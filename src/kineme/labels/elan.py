@@ -127,7 +127,7 @@ def _name_medium(header: ET.Element, segmentation: Segmentation) -> None:
 
 
 def chosen_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
-    """The level of each tier that is read: those named after one, or the only one there is."""
+    """Return level of each tier that is read: those named after one, or the only one there is."""
     found: dict[str, Level] = {level: level for level in get_args(Level) if level in names}
     if found or not names:
         return found

@@ -156,7 +156,7 @@ def read_segments(
 def read_content(
     path: str | PathLike[str], name: str | None = None
 ) -> tuple[LabelFormat, Segmentation | Labels]:
-    """The format of a file and what it holds by itself, before anything is filled in."""
+    """Return the format of a file and what it holds by itself, before anything is filled in."""
     label_format = format_to_read(path, name)
     with translate_read_errors(path):
         return label_format, label_format.read(Path(path))

@@ -110,7 +110,7 @@ def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelF
 
 
 def format_to_write(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
-    """The format in which a file is written: the one named, else the first with its suffix."""
+    """Return format in which a file is written: the one named, else the first with its suffix."""
     if name is not None:
         chosen = _find_named(name)
         if chosen.write is None:

@@ -199,13 +199,13 @@ def _frame(value: float, per_unit: float, path: Path) -> int:
 
 
 def _as_long_as_a_frame(rows: list[Row], n_frames: int) -> list[Row]:
-    """The rows cut off at the end of the recording, without those of which nothing is left."""
+    """Return rows cut off at the end of the recording, without those of which nothing is left."""
     inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
     return [row for row in inside if row[2] < row[3]]
 
 
 def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
-    """The rows of each level with the gaps between them filled, no gap across an activity's end."""
+    """Return the rows of each level, gaps between them filled but not across an activity's end."""
     if all(row[0] == "primitive" for row in full):
         activity: Level = "activity"
         full = [

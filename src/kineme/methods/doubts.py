@@ -9,7 +9,7 @@ import numpy as np
 from kineme.methods.base import Columns
 
 Doubt = tuple[float, str]
-"""The probability that something is right, and the sentence about it."""
+"""Probability that something is right, and the sentence about it."""
 
 MOST = 5
 """Sentences at most: a longer list is not read."""

@@ -29,12 +29,12 @@ from kineme.methods.segments import number_by_appearance
 COARSER = (0.125, 0.25, 0.5, 0.75)
 FINER = (2.0, 4.0, 8.0)
 DETAILS = (*COARSER, *FINER)
-"""The details that are offered beside 1."""
+"""Details that are offered beside 1."""
 
 
 @dataclass(frozen=True, eq=False)
 class FineSegments:
-    """The segments of the finest level, and which cluster of detail 1 they lie in.
+    """Segments of the finest level, and which cluster of detail 1 they lie in.
 
     Attributes
     ----------

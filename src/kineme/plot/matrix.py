@@ -1,4 +1,4 @@
-"""The self-similarity matrix of a recording, with the borders and clusters found in it.
+"""Self-similarity matrix of a recording, with the borders and clusters found in it.
 
 Time runs to the right and downwards. A dark dot at (t, j) means that frame j
 looks like frame t: the darker, the nearer. Squares frame the activities, fine

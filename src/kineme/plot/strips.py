@@ -140,7 +140,7 @@ def _draw_poses(axes: Axes, outlines: Floats, parents: Sequence[int], color: str
 
 
 def _draw_channels(axes: Axes, signals: Signals, first: int, last: int, color: str) -> None:
-    """The lines of channels below each other, each as high as the next."""
+    """Draw the lines of channels below each other, each as high as the next."""
     values = signals.values[first:last]
     varied = np.argsort(-values.std(axis=0), kind="stable")
     chosen = np.sort(varied[:MOST_CHANNELS])

@@ -1,4 +1,4 @@
-"""The joints of a body and how they hang together.
+"""Joints of a body and how they hang together.
 
 A joint sits where its rotation acts, and its offset is carried by the parent:
 
@@ -95,7 +95,10 @@ class Skeleton:
         return f"<Skeleton of {format_count(self.n_joints, 'joint')}{ends}>"
 
     def joint(self, name: str) -> int:
-        """The index of the joint of this name; a ParameterError names those closest to it."""
+        """Return the index of the joint of this name.
+
+        A ParameterError names those closest to it.
+        """
         try:
             return self._index[name]
         except (KeyError, TypeError):

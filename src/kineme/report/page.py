@@ -1,4 +1,4 @@
-"""The report: one page of HTML with everything in it, for any browser, without a network.
+"""Report: one page of HTML with everything in it, for any browser, without a network.
 
 The page itself is built from the sources in ``web/pages`` and comes with the
 package. It has marked places for data, which become script elements that
@@ -119,7 +119,7 @@ def fill_template(
 
 
 def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
-    """The channels of what has no figure."""
+    """Return the channels of what has no figure."""
     if data.motion is not None:
         return None
     head, curves = curves_of(recording, data.fps)
@@ -127,7 +127,7 @@ def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
 
 
 def _name(segmentation: Segmentation) -> str:
-    """The file's name, if the provenance tells: tables from elsewhere may hold anything there."""
+    """Return the file's name if the provenance has one: foreign tables may hold anything there."""
     source = segmentation.provenance.get("input")
     path = source.get("path") if isinstance(source, dict) else None
     return Path(str(path or "recording")).name

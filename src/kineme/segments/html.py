@@ -118,7 +118,7 @@ def _cells(segment: Row) -> str:
 
 
 def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float, float]]:
-    """The segments that begin a pixel of their own, with the pixels where they start and stop."""
+    """Return the segments that begin a pixel of their own, and the pixels of start and stop."""
     scale = WIDTH / max(stop_s - start_s, 1e-9)
     left = (table.start_s - start_s) * scale
     _, first = np.unique(left.astype(np.int64), return_index=True)

@@ -18,7 +18,7 @@ FASTEST, LONGEST = 1e9, 1e11
 
 
 class Input(TypedDict, total=False):
-    """The file that a recording was read from."""
+    """File that a recording was read from."""
 
     path: str | None
     format: str | None
@@ -26,7 +26,7 @@ class Input(TypedDict, total=False):
 
 
 class LabelFile(TypedDict, total=False):
-    """The file that labels were read from, and repetitions of each activity where it has some."""
+    """File that labels were read from, and repetitions of each activity where it has some."""
 
     path: str | None
     format: str | None

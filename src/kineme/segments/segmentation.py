@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Segmentation:
-    """The segments of one recording.
+    """Segments of one recording.
 
     Usually made by `kineme.segment`, `from_columns` or `kineme.read_segments`.
 

@@ -1,4 +1,4 @@
-"""The segment table: the package's common tongue.
+"""Segment table: the package's common tongue.
 
 `Segment` declares its columns, a field each: type, meaning, unit, and what holds where nothing is
 known. Rows and arrays, the checks, CSV, JSON, Parquet and data frames, the JSON Schema, the table
@@ -153,7 +153,7 @@ def _list_columns() -> Iterator[tuple[str, Column]]:
 
 
 COLUMNS: Mapping[str, Column] = MappingProxyType(dict(_list_columns()))
-"""The columns by name, in the documented order."""
+"""Columns by name, in the documented order."""
 START_TIME = "start_time"
 """One more column of files and data frames, where the recording has a clock: what it shows."""
 COMMENT = "comment"
@@ -161,7 +161,7 @@ COMMENT = "comment"
 
 
 NEEDED = [name for name, column in COLUMNS.items() if not column.optional]
-"""The columns that every segment table in a file has."""
+"""Columns that every segment table in a file has."""
 
 
 def lacking(names: Container[str]) -> list[str]:
@@ -275,7 +275,9 @@ class SegmentTable:
     @overload
     def __getitem__(self, rows: slice | ArrayLike) -> Self: ...
     def __getitem__(self, rows: Any) -> Segment | Self:
-        """The segment in a row; or the table of those that a slice, mask or index array picks.
+        """Return the segment in a row.
+
+        Or the table of those that a slice, mask or index array picks.
 
         Raises
         ------
@@ -361,7 +363,10 @@ def _compute_derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str
 
 
 def _check_column(values: ArrayLike, name: str) -> NDArray[Any]:
-    """The values of a column as an array of its type; ParameterError where it cannot hold them."""
+    """Return the values of a column as an array of its type.
+
+    ParameterError where it cannot hold them.
+    """
     column = COLUMNS[name]
     try:
         array = np.asarray(values)

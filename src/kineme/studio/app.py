@@ -1,4 +1,4 @@
-"""The application: the addresses of the studio, what becomes of errors, and the guard in front."""
+"""Application: the addresses of the studio, what becomes of errors, and the guard in front."""
 
 from __future__ import annotations
 

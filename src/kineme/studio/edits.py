@@ -40,7 +40,7 @@ BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """The table after an edit, and what to tell people.
+    """Table after an edit, and what to tell people.
 
     Where it is another table (``replaced``), the one before is kept.
     """

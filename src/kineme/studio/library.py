@@ -216,7 +216,7 @@ class ShownLibrary:
 
 
 class LibraryFolder(Folder):
-    """The recordings of a library as a folder of the studio, and files that came later."""
+    """Recordings of a library as a folder of the studio, and files that came later."""
 
     of_library = True
 
@@ -229,7 +229,10 @@ class LibraryFolder(Folder):
         return self._shown.table_of(path)
 
     def recordings(self) -> dict[str, ListedRecording]:
-        """The recordings by id, whose files are there; of several people the library has one."""
+        """Return the recordings by id, whose files are there.
+
+        Of several people the library has one.
+        """
         files = [path for path in self._shown.files() if path.is_file()]
         return {**{file_id(path): ListedRecording(path) for path in files}, **super().recordings()}
 
@@ -287,7 +290,10 @@ class Interruptible:
 
 
 def segment_of(table: Segmentation, start_s: float, stop_s: float) -> Segment | None:
-    """The segment that a span shows, of the level that fits it best; None where none does."""
+    """Return the segment that a span shows, of the level that fits it best.
+
+    None where none does.
+    """
 
     def share(row: Segment) -> float:
         common = min(row.stop_s, stop_s) - max(row.start_s, start_s)

@@ -1,4 +1,4 @@
-"""The tables of a library's recordings, with its clusters and names; and tables that take these.
+"""Tables of a library's recordings, with its clusters and names; and tables that take these.
 
 A recording whose table nobody has saved is shown as the library has it. A saved one is what people
 made of it: it takes numbers and names of the library when they say so, and keeps its segments.
@@ -33,7 +33,7 @@ COMPUTED = tuple(name for name, column in COLUMNS.items() if not column.derived)
 
 
 class LibraryTables:
-    """The segment tables of a library as it is now."""
+    """Segment tables of a library as it is now."""
 
     def __init__(self, library: Library):
         table = library.table("segments")

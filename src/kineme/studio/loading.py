@@ -175,7 +175,7 @@ class LoadedRecording:
             return self._one_segment("activity"), [f"not segmented: {error}"]
 
     def not_segmented(self) -> Segmentation:
-        """The table while segments are being found: one transition."""
+        """Return the table while segments are being found: one transition."""
         return self._one_segment("transition")
 
     def labelled(

@@ -1,4 +1,4 @@
-"""The repetitions of a recording as loops: how good each would be, and how it would play."""
+"""Repetitions of a recording as loops: how good each would be, and how it would play."""
 
 from __future__ import annotations
 

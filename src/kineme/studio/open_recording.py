@@ -50,7 +50,7 @@ CHANGED = "the table was changed elsewhere meanwhile: look at it as it is now, a
 
 
 class ConflictError(Exception):
-    """The edit was made on another table than the present one, which comes along."""
+    """Raised where an edit was made on another table than the present one, which comes along."""
 
     def __init__(self, reason: str, present: Edited):
         self.present = present

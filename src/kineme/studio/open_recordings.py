@@ -1,4 +1,4 @@
-"""The open recordings of a folder, each found by its id."""
+"""Open recordings of a folder, each found by its id."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class SupersededError(Exception):
 
 
 class OpenRecordings:
-    """The recordings of a folder, each opened once.
+    """Recordings of a folder, each opened once.
 
     ``changed`` is called with id and revision when a table has changed.
     """

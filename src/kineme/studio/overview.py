@@ -1,4 +1,4 @@
-"""The tables of a folder in brief, from the files beside its recordings: none of those is read.
+"""Tables of a folder in brief, from the files beside its recordings: none of those is read.
 
 A table as this version writes it is decoded into the few columns that are needed, which takes a
 tenth of the time; any other is read as every table is. What was found stays in memory as long as

@@ -81,7 +81,7 @@ BINARY = "application/octet-stream"
 
 
 class Api:
-    """The addresses under ``/api``; uploads have at most ``limit`` bytes."""
+    """Addresses under ``/api``; uploads have at most ``limit`` bytes."""
 
     def __init__(self, recordings: OpenRecordings, hub: Hub, *, limit: int = LIMIT):
         self._recordings, self._hub, self._limit = recordings, hub, limit

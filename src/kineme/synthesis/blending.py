@@ -48,7 +48,7 @@ class Placement:
     shift: complex = 0j
 
     def after(self, angle: float, shift: tuple[float, float]) -> Placement:
-        """The placement of what is itself turned and moved before."""
+        """Return the placement of what is itself turned and moved before."""
         return Placement(self.angle + angle, self.of(complex(*shift)))
 
     def of(self, floor: complex) -> complex:

@@ -124,7 +124,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
 
 
 def load_sources(graph: MotionGraph) -> list[Motion]:
-    """The recordings the graph was built on, in order.
+    """Return the recordings the graph was built on, in order.
 
     Parameters
     ----------

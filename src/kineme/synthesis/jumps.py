@@ -79,7 +79,7 @@ def jumps(
 def _ends_of(
     nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
 ) -> _Ends:
-    """The ends (side 1) or starts (side 0) of all nodes.
+    """Return the ends (side 1) or starts (side 0) of all nodes.
 
     Only frames with a whole window inside their recording, and never so many
     that a node entered late could be left before that.

@@ -32,7 +32,7 @@ MOST_IN_MEMORY = 24
 
 
 class Curves:
-    """The curves of a recording; those looked at last stay in memory.
+    """Curves of a recording; those looked at last stay in memory.
 
     ``analog`` are channels beside a motion, at a rate of their own: of each frame the least and the
     greatest value are drawn.

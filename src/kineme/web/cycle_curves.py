@@ -59,7 +59,7 @@ PLACES = {
 
 
 class CycleCurves:
-    """The curves of a recording's repetitions, measured when they are asked for.
+    """Curves of a recording's repetitions, measured when they are asked for.
 
     ``read`` gives the recording, ``beside`` the channels of the same time, if there are any:
     neither is held. Cycles are those of the table asked for last.
@@ -101,7 +101,9 @@ class CycleCurves:
             return list(self._heads.values())
 
     def of(self, table: Segmentation, cluster: int, channel: str = "") -> ClusterCurves | None:
-        """The curves of a cluster; None where there are no such repetitions, or no such channel.
+        """Return the curves of a cluster.
+
+        None where there are no such repetitions, or no such channel.
 
         Without ``channel`` that one which goes farthest in them.
         """
@@ -125,7 +127,7 @@ class CycleCurves:
         other: CycleCurves,
         other_table: Segmentation,
     ) -> ClusterCurves | None:
-        """The same with the mean of what has the same name in another recording, if it has.
+        """Return the same with the mean of what has the same name in another recording, if it has.
 
         Both are measured together, and so from one phase.
         """
@@ -184,7 +186,7 @@ class CycleCurves:
             )
 
     def _report_channels(self, cycles: Cycles, n_groups: int) -> list[str]:
-        """The usual channels: first those that go farthest in a cluster, with their other sides."""
+        """Return the usual channels: those with the largest range in a cluster, with both sides."""
         lively = [_liveliest(cycles.select(_rows_of(cycles, cluster)), cycles)[0]
                   for cluster in _clusters(cycles)]  # fmt: skip
         sides = [
@@ -415,7 +417,7 @@ def _digits(extent: float) -> int:
 
 
 def _some(order: Sequence[int], most: int, kept: set[int]) -> list[int]:
-    """The first ones, which are the farthest, those kept, and of the others evenly so many."""
+    """Return first ones, which are the farthest, those kept, and of the others evenly so many."""
     if len(order) <= most:
         return list(order)
     first = [i for place, i in enumerate(order) if place < FAR or i in kept][:most]

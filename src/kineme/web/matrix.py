@@ -94,7 +94,9 @@ class Matrix:
 
 
 def pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
-    """The matrix of features (samples, dims) at every zoom; ``seconds`` is the recording's length.
+    """Return the matrix of features (samples, dims) at every zoom.
+
+    ``seconds`` is the recording's length.
 
     They are so scaled that two of them are ``exp(-1)`` similar at a distance of 1; nan where
     nothing was seen.

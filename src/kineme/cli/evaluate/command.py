@@ -1,4 +1,4 @@
-"""The options of ``kineme evaluate``, and which of its kinds of run they ask for."""
+"""Options of ``kineme evaluate``, and which of its kinds of run they ask for."""
 
 from __future__ import annotations
 

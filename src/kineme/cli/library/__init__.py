@@ -12,7 +12,7 @@ HOMES = {
     "search": "kineme.cli.library.search",
     **dict.fromkeys(("name", "merge", "split", "query", "export"), "kineme.cli.library.commands"),
 }
-"""The module of each command, in the order of the help."""
+"""Module of each command, in the order of the help."""
 
 library = typer.Typer(
     name="library",

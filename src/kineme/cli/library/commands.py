@@ -58,7 +58,7 @@ Cluster = Annotated[str, typer.Argument(help="A cluster by its number or name.")
 
 @contextmanager
 def open_library(folder: Path) -> Iterator[Library]:
-    """The library; what goes wrong with it in the block is said, and ends the command with 1."""
+    """Open the library; an error with it in the block is printed, and ends the command with 1."""
     failures = Failures()
     with failures.caught(folder):
         from kineme.library import Library

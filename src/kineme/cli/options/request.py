@@ -76,7 +76,7 @@ def split_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
 
 @dataclass(frozen=True)
 class Request:
-    """The options of a command, checked: how recordings are read and segmented, in what detail."""
+    """Options of a command, checked: how recordings are read and segmented, in what detail."""
 
     options: SegmentOptions
     reading: dict[str, Any]

@@ -54,7 +54,7 @@ def folders_for(option: str, given: Path, inputs: list[Path], *, single: bool) -
 
 
 def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -> list[Path]:
-    """The table of each recording: a file of all, by a pattern, or that of its name in a folder.
+    """Return table of each recording: a file of all, by a pattern, or that of its name in a folder.
 
     In a folder that of this ``person`` in it, where there is one.
     """

@@ -1,4 +1,4 @@
-"""The layout of MAT files of version 5 (MATLAB 5 to 7.2, the default up to -v7).
+"""Layout of MAT files of version 5 (MATLAB 5 to 7.2, the default up to -v7).
 
 128 bytes of text with the order of the bytes, then elements: type and size, and
 that many bytes, padded to eight. An element of type 15 holds another one,

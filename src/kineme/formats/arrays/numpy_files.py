@@ -73,7 +73,9 @@ def write_npz(motion: Motion, path: Path) -> None:
 
 
 def members(content: FileContent) -> dict[str, Array]:
-    """The arrays of an npz by name; those of another kind than numbers or text are passed over.
+    """Return the arrays of an npz by name.
+
+    Those of another kind than numbers or text are passed over.
 
     ReadError where it is damaged, or claims to hold much more than it can.
     """

@@ -84,7 +84,10 @@ class ChannelTable:
 
 
 def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float | None) -> Signals:
-    """The signals in a table of channels; ``fps`` stands in place of what the table tells."""
+    """Return the signals in a table of channels.
+
+    ``fps`` stands in place of what the table tells.
+    """
     timing = table.timed(content, fps)
     values, gaps, filled = without_gaps(content, table.values, timing, table.names)
     provenance = content.provenance(name, [*table.notes, *timing.notes, *filled])

@@ -187,11 +187,14 @@ class _ParquetRows:
 
 
 Rows = _TextRows | _ParquetRows
-"""The frames of a recording as rows of a file; ``names`` is None where the file has none."""
+"""Frames of a recording as rows of a file; ``names`` is None where the file has none."""
 
 
 def _source_table(content: FileContent, signals: Signals) -> ChannelTable | None:
-    """The table on disk whose rows are the frames of signals, holes aside; None for another."""
+    """Return the table on disk whose rows are the frames of signals, holes aside.
+
+    None for another.
+    """
     try:
         if signals.provenance.format == PARQUET:
             table = parquet_channels(content, parquet_file(content), signals.names)
@@ -238,7 +241,7 @@ def _of_values(signals: Signals) -> _TextRows:
 
 
 def _table(rows: Rows, suffix: str, columns: Sequence[str] | None) -> _TextRows:
-    """The same cells between commas or tabs: all of them, or some columns and those of times."""
+    """Return same cells between commas or tabs: all of them, or some columns and those of times."""
     names = rows.names
     if columns is None:
         return _text_rows(suffix, names, rows.cells())

@@ -71,7 +71,7 @@ def read_openpose(content: FileContent, data: Any, options: ReadOptions) -> Moti
 
 
 def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
-    """The motion of one person in a folder with a file for each frame, None if there are none."""
+    """Return the motion of one person in a folder with a file for each frame, or None."""
     numbered = frame_files(path)
     if not numbered:
         return None
@@ -94,7 +94,7 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
 
 
 def frame_files(folder: Path) -> list[tuple[int, Path]]:
-    """The files in a folder that hold a frame each, with the numbers of the frames, in order.
+    """Return files in a folder that hold a frame each, with the numbers of the frames, in order.
 
     Files numbered alike are frames where one of them begins as OpenPose's do; a numbered
     JSON of something else is none.

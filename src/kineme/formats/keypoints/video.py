@@ -55,7 +55,10 @@ class Video:
 
 
 def video_to_motion(content: FileContent, video: Video, options: ReadOptions) -> Motion:
-    """The motion of one person in a video; ReadError where nothing tells which one, or the rate."""
+    """Return the motion of one person in a video.
+
+    ReadError where nothing tells which one, or the rate.
+    """
     fps = options.fps or video.fps
     if not fps:
         raise content.error("keypoints have no frame rate: give fps= (--fps), that of the video")

@@ -1,4 +1,4 @@
-"""The layout of C3D files: header, parameters, then points and analog samples frame by frame.
+"""Layout of C3D files: header, parameters, then points and analog samples frame by frame.
 
 Blocks are of 512 bytes. Integers and floats are those of the processor that the
 parameter section names: Intel, DEC or MIPS (SGI). A frame holds four numbers
@@ -63,7 +63,10 @@ class C3D:
 
 
 def parse_c3d(content: FileContent) -> C3D:
-    """The contents of a C3D file; ReadError where it is none, or holds less than one frame."""
+    """Return the contents of a C3D file.
+
+    ReadError where it is none, or holds less than one frame.
+    """
     parameters = read_parameters(content)
     file = Layout(content, parameters, read_header(content, parameters))
     raw = file.frames()
@@ -162,7 +165,7 @@ def _pad(labels: list[str], n: int) -> list[str]:
 
 @dataclass(frozen=True)
 class Header:
-    """The first block, as far as it is used."""
+    """First block, as far as it is used."""
 
     points: int
     analog_per_frame: int
@@ -307,7 +310,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Parameters:
-    """The values of a C3D file by group and name, both in upper case."""
+    """Values of a C3D file by group and name, both in upper case."""
 
     content: FileContent
     processor: int
@@ -330,7 +333,10 @@ class Parameters:
         return values[0] if values and np.isfinite(values[0]) else usual
 
     def numbers(self, group: str, name: str, *, signed: bool = False) -> list[float]:
-        """The values as numbers, none if they are text; integers are counts unless signed."""
+        """Return the values as numbers, none if they are text.
+
+        Integers are counts unless signed.
+        """
         kind, _, data = self.stored(group, name)
         if kind == 4:
             reals = np.frombuffer(data, number_type(self.processor, real=True))
@@ -407,7 +413,7 @@ def number_type(processor: int, *, real: bool) -> np.dtype[Any]:
 
 
 def as_float32(values: NDArray[Any], processor: int) -> NDArray[np.float32]:
-    """The values, with DEC's floats (words exchanged, exponents larger by two) made IEEE's."""
+    """Return values, with DEC's floats (words exchanged, exponents larger by two) made IEEE's."""
     if processor != DEC:
         return values
     words = np.ascontiguousarray(values).view("<u2")

@@ -166,7 +166,7 @@ def _records_with(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord
 
 
 def _records(parameters: Parameters) -> list[RawRecord]:
-    """The records as stored, each from the length of its name to where the next one begins."""
+    """Return records as stored, each from the length of its name to where the next one begins."""
     data, records = parameters.content.data, []
     for each in parameters.records:
         stop = each.stop

@@ -185,7 +185,7 @@ class Sampler:
         return True
 
     def _find(self, times: Floats) -> None:
-        """The key before each frame, and the share of the interval that has passed."""
+        """Return the key before each frame, and the share of the interval that has passed."""
         if len(times) == len(self._times) and np.array_equal(times, self._times):
             return
         self._times = times

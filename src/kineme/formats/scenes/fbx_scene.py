@@ -1,4 +1,4 @@
-"""The objects of an FBX file, how they are connected, and the transforms of its models.
+"""Objects of an FBX file, how they are connected, and the transforms of its models.
 
 Objects have a number, a name, a class and properties; what a file leaves out is in the templates
 of its classes. Connections make one object part of another, or drive a property of it. An
@@ -111,7 +111,7 @@ class FBXScene:
             self._driving.setdefault(parent, []).append((part, link.text(3)))
 
     def _bones(self) -> set[int]:
-        """The numbers of the models that are bones: by their kind, or as a skin hangs on them."""
+        """Return the numbers of the models that are bones: by kind, or as a skin hangs on them."""
         bones: set[int] = set()
         for number, node in self.objects.items():
             if node.name == "Model" and node.text(2) in BONES:
@@ -228,7 +228,7 @@ class FBXScene:
 
 
 class Pose:
-    """The transforms of models at the frames of a take."""
+    """Transforms of models at the frames of a take."""
 
     def __init__(self, scene: FBXScene, take: Take, sampler: Sampler) -> None:
         self.scene, self.sampler = scene, sampler
@@ -329,7 +329,7 @@ def _replaces(properties: Properties) -> bool:
 
 
 def _euler(angles: Floats, axes: str) -> Floats:
-    """The rotation (..., 4) by angles about x, y and z in degrees, multiplied in this order."""
+    """Return rotation (..., 4) by angles about x, y and z in degrees, multiplied in this order."""
     order = ["xyz".index(axis) for axis in axes]
     if angles.ndim == 1:
         return rot.from_euler(np.radians(angles[None, order]), axes).reshape(4)
@@ -370,7 +370,7 @@ def _templates(root: FBXNode) -> dict[str, Properties]:
 
 
 def _spans(root: FBXNode) -> dict[str, tuple[float, float]]:
-    """The spans of takes by their names, as programs write them for older ones."""
+    """Return the spans of takes by their names, as programs write them for older ones."""
     found = {}
     for group in root.all("Takes"):
         for take in group.all("Take"):

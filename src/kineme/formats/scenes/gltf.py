@@ -133,7 +133,7 @@ def _is_marked(each: SceneObject) -> bool:
 
 
 def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
-    """The numbers of the nodes, parents first, and the place of each one's parent among them."""
+    """Return numbers of the nodes, parents first, and the place of each one's parent among them."""
     nodes = file.tree.nodes
     carried = {child for node in nodes for child in node.children}
     waiting = [(number, -1) for number in reversed(range(len(nodes))) if number not in carried]

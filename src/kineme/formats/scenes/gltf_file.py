@@ -1,4 +1,4 @@
-"""The parts of a glTF 2.0 file: its JSON, and the arrays in its buffers.
+"""Parts of a glTF 2.0 file: its JSON, and the arrays in its buffers.
 
 A GLB is a header and two chunks, JSON and bytes. A ``.gltf`` is the JSON alone, with buffers in
 base64 or in files beside it. An accessor is an array in a view of a buffer: its type says how many
@@ -70,7 +70,7 @@ class BufferView(Struct, rename="camel"):
 
 
 class SparsePart(Struct, rename="camel"):
-    """The rows or the values that take the place of others."""
+    """Rows or the values that take the place of others."""
 
     buffer_view: int
     byte_offset: int = 0
@@ -112,7 +112,7 @@ class SceneObject(Struct):
 
 
 class Skin(Struct):
-    """The joints that carry a mesh."""
+    """Joints that carry a mesh."""
 
     joints: list[int]
 

@@ -37,7 +37,7 @@ from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import local_translations, place_at_rest
 
 EXTRAS = "kineme"
-"""The name of what kineme adds to the extras of a file."""
+"""Name of what kineme adds to the extras of a file."""
 
 THICK = 0.08
 """Share of its length that a bone of the mesh is wide."""

@@ -182,7 +182,7 @@ class Joint:
 
 
 class _Hierarchy:
-    """The joints of the HIERARCHY section, the bytes before ``stop``; parents first."""
+    """Joints of the HIERARCHY section, the bytes before ``stop``; parents first."""
 
     def __init__(self, content: FileContent, stop: int):
         self.content = content
@@ -358,7 +358,7 @@ def _end(data: bytes, start: int) -> int:
 
 
 def _row(line: bytes) -> tuple[list[float], bool]:
-    """The numbers of a line, and whether some were not apart (``0.0-7.5``, as SlimeVR wrote)."""
+    """Return numbers of a line, and whether some were not apart (``0.0-7.5``, as SlimeVR wrote)."""
     try:
         return numbers(line.split()), False
     except ValueError:

@@ -111,7 +111,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
 
 
 class _Subjects(NoEntities):
-    """The people in a file, made of its elements as they come; nothing else is kept."""
+    """People in a file, made of its elements as they come; nothing else is kept."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
@@ -168,7 +168,10 @@ def _stack_frames(content: FileContent, subject: Subject, what: str, width: int)
 
 
 def _parent(name: str, names: list[str]) -> int:
-    """The place of the nearest segment that is there of those that one hangs on; -1 for none."""
+    """Return the place of the nearest segment that is there of those that one hangs on.
+
+    -1 for none.
+    """
     parent = PARENTS[name]
     while parent and parent not in names:
         parent = PARENTS[parent]

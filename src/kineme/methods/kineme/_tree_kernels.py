@@ -94,7 +94,7 @@ def mean_distances(features, chosen, borders, start, stop, means):
 
 @njit("float64(float64[:, ::1], float64[::1], int64, int64, float64)", **OPTIONS)
 def _distance(sums, lengths, g, h, spread_share):
-    """The mean distance of two clusters, less a share of the mean distance within them.
+    """Return the mean distance of two clusters, less a share of the mean distance within them.
 
     ``sums`` are summed distances of the samples of each two clusters, ``lengths`` their numbers.
     """
@@ -107,7 +107,7 @@ def _distance(sums, lengths, g, h, spread_share):
     **OPTIONS,
 )
 def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
-    """The cluster whose distance to cluster g is least, and that distance."""
+    """Return the cluster whose distance to cluster g is least, and that distance."""
     apart[g] = np.inf
     for h in range(len(lengths)):
         if h != g and owner[h] == h:
@@ -122,7 +122,7 @@ def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
     **OPTIONS,
 )
 def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share, labels):
-    """The least cost of a grouping of segments; `labels` gets the grouping.
+    """Return the least cost of a grouping of segments; `labels` gets the grouping.
 
     The two clusters that are nearest are joined, again and again: by their mean distance,
     less `spread_share` of the mean of the distances within them. A grouping costs half the

@@ -1,4 +1,4 @@
-"""The method, stage by stage, from features to segments, repetitions and events.
+"""Method, stage by stage, from features to segments, repetitions and events.
 
 Skeletons and sensors are unknown here: features are any array of frames x dims.
 

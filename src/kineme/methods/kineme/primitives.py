@@ -73,7 +73,7 @@ class Segments:
 
     @cached_property
     def firsts(self) -> Frames:
-        """The first primitive of each activity or transition, and the number of primitives."""
+        """First primitive of each activity or transition, and the number of primitives."""
         return np.searchsorted(self.parents, np.arange(len(self.labels) + 1))
 
     @cached_property
@@ -111,6 +111,7 @@ def divide_into_repetitions(
     """
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
     cuts = map_threads(lambda span: repetitions(rows, *span, preset), spans)
+    # Cuts of one activity do not depend on others; ends do, as they may fit another's repetition.
     ends = fitted_ends(rows, starts, stops, labels, cuts, preset)
     borders, segment = _tile(len(rows), ends.starts, ends.stops)
     primitives, repeated = _tile(len(rows), ends.firsts, ends.lasts, [borders, *cuts])
@@ -135,12 +136,14 @@ def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstan
     means = {}
     for segment in np.flatnonzero(segments.counts > 1).tolist():
         movement, _, repeated = _find_repeated(rows, segments, segment, preset)
+        # Centred poses plus their mean: posture tells two movements apart, too.
         means[segment] = repeated.mean(axis=0) + movement.middle
     labels = link_clusters(segments.labels, means, preset.min_similarity)
     if (labels == segments.labels).all():
         return segments
     activities = np.flatnonzero(labels >= 0)
     first = np.flatnonzero(np.diff(labels[activities], prepend=-1))
+    # Neighbours that are one cluster now are one segment, with repetitions found anew.
     starts = segments.borders[:-1][activities[first]]
     stops = segments.borders[1:][activities[np.append(first[1:], len(activities)) - 1]]
     groups = np.split(segments.preference[activities], first[1:])
@@ -174,6 +177,7 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
         return labels
     _, rank = np.unique(labels[repeating], return_inverse=True)
     first = np.argsort(rank, kind="stable")
+    # Rank of each segment in its cluster; the first `COMPARED` of each stand for it.
     within = np.arange(len(repeating)) - np.searchsorted(rank[first], rank[first])
     compared = repeating[np.sort(first[within < COMPARED])]
     similarity = kernels.similarities(np.stack([movements[at] for at in compared.tolist()]))
@@ -181,6 +185,7 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
         names, of = np.unique(labels[compared], return_inverse=True)
         members = np.eye(len(names))[of]
         sizes = members.sum(axis=0)
+        # Mean linkage: all pairs of segments of two clusters weigh the same.
         means = (members.T @ similarity @ members) / np.outer(sizes, sizes)
         np.fill_diagonal(means, -np.inf)
         one, other = sorted(divmod(int(means.argmax()), len(names)))
@@ -209,9 +214,11 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     if weak.any():
         lengths = np.diff(segments.borders)
         searched = np.repeat(weak | (weak & (segments.labels >= 0)).any(), lengths)
+        # Where no activity is weak, transitions are not searched: there is nothing to recur with.
         found = occurrences(rows, searched, preset)
         recurring = found.within(segments.borders, weak).explained(segments.borders)
         recurring = action_means(recurring, lengths, segments.labels)
+        # Repetitions give way only where occurrences cover more of the activity than they explain.
         free = weak & ((segments.labels < 0) | (recurring > shares))
         found = found.within(segments.borders, free)
         if len(found):
@@ -220,7 +227,10 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
 
 
 def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
-    """The share of each segment's repetitions that the mean of the others explains; 0 of one."""
+    """Return the share of each segment's repetitions that the mean of the others explains.
+
+    0 of one.
+    """
     found = np.zeros(len(segments.labels))
 
     def explain(segment: int) -> None:
@@ -235,7 +245,7 @@ def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -
 def _find_repeated(
     rows: Rows, segments: Segments, segment: int, preset: KinemeConstants
 ) -> tuple[Movement, Frames, Floats]:
-    """The span of a segment that repeats, the frames in it at which repetitions begin, and these.
+    """Return the span of a segment that repeats, the frames at which repetitions begin, and these.
 
     Repetitions are (repetitions, places, dims), evenly along their path.
     """
@@ -268,6 +278,7 @@ def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) 
     free : (activities,) array of bool
         Transitions, and activities of clusters that are not periodic.
     """
+    # A border inside an occurrence moves to its nearer end, which may empty a segment.
     borders, old = _drop_empty(_out_of(found, segments.borders), segments.labels)
     free = free[old]
     cuts = segments.primitives[:-1]
@@ -306,6 +317,7 @@ def drop_still_clusters(segments: Segments, rows: Rows, near: float) -> Segments
     """
     actions, repeats = segments.labels[segments.parents], segments.repeats
     several = segments.counts[segments.parents] > 1
+    # One small movement in any primitive of a cluster is enough to keep all of them.
     moves = np.array([_reach(part) > near for part in np.split(rows, segments.primitives[1:-1])])
     still = np.setdiff1d(actions[repeats], actions[repeats & (moves | several)])
     return drop_repetitions(segments, still)
@@ -337,6 +349,7 @@ def _tile(
     """
     borders: Frames = np.unique(np.concatenate([[0, n], starts, stops, *cuts]))
     spans = _segment_at(starts, borders[:-1])
+    # The span that began last may have ended; -1 indexes the 0 appended, which is never above.
     inside = (spans >= 0) & (borders[:-1] < np.append(stops, 0)[spans])
     return borders, np.where(inside, spans, -1)
 
@@ -350,6 +363,7 @@ def _segment_at(borders: Frames, frames: Frames) -> Frames:
 def _drop_empty(borders: Frames, labels: Frames) -> tuple[Frames, Frames]:
     """Borders of the segments that have frames, and which they are; equal neighbours are one."""
     kept = np.flatnonzero(np.diff(borders) > 0)
+    # Segments that became neighbours and are of one cluster are one.
     kept = kept[np.append(True, labels[kept[1:]] != labels[kept[:-1]])]
     return np.append(borders[kept], borders[-1]), kept
 
@@ -361,5 +375,6 @@ def _out_of(found: Occurrences, borders: Frames) -> Frames:
     before = np.maximum(_segment_at(found.starts, borders), 0)
     starts, stops = found.starts[before], found.stops[before]
     inside = (starts < borders) & (borders < stops)
+    # Ties go to the start, so that no frame is lost from the occurrence before.
     nearer = np.where(borders - starts <= stops - borders, starts, stops)
     return np.where(inside, nearer, borders)

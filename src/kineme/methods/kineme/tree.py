@@ -151,6 +151,7 @@ def median_distance(features: Rows, width: int) -> float:
     from scipy.spatial.distance import pdist
 
     at = spread(0, len(features), PAIRED)
+    # Samples stand 1/PAIRED of the recording apart: of hours, neighbours must still be a pair.
     near = pdist(at[:, None]) < max(width, 2 * len(features) // PAIRED)
     apart = pdist(features[at])[near]
     middle = float(np.median(apart)) if len(apart) else 0.0
@@ -176,6 +177,7 @@ def fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Sam
         kernels.similarity_band(features, unit, rows.start, rows.stop, similarity)
 
     map_threads(fill, make_even_slices(len(features)))
+    # The cost of a span is half the sum over ordered pairs, so a border costs twice as much there.
     borders: Samples = kernels.change_points(similarity, 2 * cost)
     return borders
 
@@ -183,9 +185,11 @@ def fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Sam
 def sum_between_segments(features: Rows, borders: Samples, unit: float) -> Floats:
     """Summed distances of the samples of each two segments, (segments, segments), in units."""
     k = len(borders) - 1
+    # Few samples stand for a segment where there are many: time and memory stay bounded.
     most = max(LEAST, min(MOST, COMPARED // k))
     groups = [spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
     lengths = np.diff(borders)
+    # A mean distance times the number of pairs estimates the sum over all samples.
     sums = mean_distances(features, groups) * np.outer(lengths, lengths)
     return np.asarray(sums / unit, np.float64)
 
@@ -200,6 +204,7 @@ def mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
         kernels.mean_distances(features, chosen, ends, rows.start, rows.stop, means)
 
     map_threads(fill, make_even_slices(len(groups)))
+    # Kernels fill the upper half only.
     return np.triu(means) + np.triu(means, 1).T
 
 
@@ -217,6 +222,7 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
     found = [np.append(alive, len(lengths))]
 
     def loss(g: int, h: int) -> float:
+        # What two segments cost as one, less what they cost apart (Ward's criterion for distances).
         union = (sums[g, g] + sums[h, h] + 2 * sums[g, h]) / (lengths[g] + lengths[h])
         return float(union - sums[g, g] / lengths[g] - sums[h, h] / lengths[h])
 
@@ -224,10 +230,12 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
     while losses:
         at = int(np.argmin(losses))
         g, h = alive[at], alive[at + 1]
+        # Row and column g become the union; those of h are not read again.
         sums[g] += sums[h]
         sums[:, g] += sums[:, h]
         lengths[g] += lengths[h]
         del alive[at + 1], losses[at]
+        # Only the losses of the union with its two neighbours have changed.
         for left in (at - 1, at):
             if 0 <= left < len(losses):
                 losses[left] = loss(alive[left], alive[left + 1])
@@ -252,6 +260,7 @@ def best_level(
         from the cost of a level, and do not change its grouping.
     """
     tree = levels(borders, sums.copy())
+    # Levels of few segments differ most: each is tried; of many segments, ever sparser ones.
     tried = {*range(min(len(tree), EACH_LEVEL))}
     tried |= {int(at) for at in np.geomspace(1, len(tree), LEVELS).astype(np.int64) - 1}
     chosen = [tree[at] for at in sorted(tried)]
@@ -259,6 +268,7 @@ def best_level(
     segment_cost = preset.samples(preset.segment_cost)
     savings: dict[tuple[int, int], float] = {}
     best, cheapest = found[0], np.inf
+    # Best first: no level can cost less than if each segment saved all that it costs alone.
     for level in sorted(found, key=lambda level: level.cost - level.alone.sum()):
         if level.cost - level.alone.sum() >= cheapest:  # of those that follow none is cheaper
             break
@@ -293,9 +303,11 @@ def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> G
     )
     shortest = round(preset.samples(preset.min_action))
     labels = absorb_short_clusters(labels, lengths, sums, shortest)
+    # Neighbours of one cluster are one segment.
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     lengths, sums = np.add.reduceat(lengths, first), sum_runs(sums, first)
     labels = number_by_appearance(labels[first])
+    # (segments, clusters): 1 where a segment is in a cluster.
     members = np.eye(int(labels.max()) + 1)[labels]
     within = np.einsum("sc,st,tc->c", members, sums, members) / (2 * lengths @ members)
     cost = within.sum() + segment_cost * len(labels) + cluster_cost * len(within)
@@ -328,12 +340,14 @@ def absorb_short_clusters(
     if not len(long):
         return np.zeros_like(labels)
     kept = labels.copy()
+    # Before the first long segment and after the last there is one neighbour only.
     kept[: long[0]], kept[long[-1] :] = labels[long[0]], labels[long[-1]]
     members = np.eye(len(longest))[labels]
     apart = (sums @ members) / np.maximum(lengths @ members, 1.0)
     for before, after in pairwise(long.tolist()):
         short = slice(before + 1, after)
         gained = apart[short, labels[after]] - apart[short, labels[before]]
+        # The sum is least where the segments so far prefer the cluster before, the rest the other.
         border = before + 1 + int(np.cumsum([0.0, *-gained]).argmin())
         kept[before + 1 : border] = labels[before]
         kept[border:after] = labels[after]
@@ -358,6 +372,7 @@ def preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
     means = (sums @ members) / np.outer(lengths, lengths @ members)
     each = np.arange(len(labels))
     inside = means[each, labels]
+    # The nearest other cluster, not the own one.
     means[each, labels] = np.inf
     return np.asarray(np.clip(1 - inside / np.maximum(means.min(axis=1), 1e-12), 0, 1), np.float64)
 
@@ -411,6 +426,7 @@ def link_parts(
     labels = np.concatenate([part.labels + number for part, number in numbers])
     ends = np.concatenate([[0], *(part.borders[1:] for part in parts)])
     fine = np.concatenate([[0], *(part.fine[1:] for part in parts)])
+    # A cluster is compared by some of its samples, so each sample needs its cluster.
     per_sample = labels[np.searchsorted(ends, at, side="right") - 1]
     sizes = np.bincount(per_sample, minlength=int(firsts[-1]))
     if sizes.all():  # a part shorter than a sample has nothing to compare: parts stay apart
@@ -426,7 +442,7 @@ def link_parts(
 
 
 def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Samples:
-    """The clusters of all parts, where those of different parts may be one: a number for each.
+    """Return clusters of all parts, where those of different parts may be one: a number for each.
 
     Parameters
     ----------
@@ -451,12 +467,15 @@ def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Sampl
     owner = np.arange(len(means))
     while True:
         within = np.diag(means)
+        # The energy distance: between two clusters, less the mean of what is within them.
         gaps = means - np.add.outer(within, within) / 2
         costs = gaps * np.outer(lengths, lengths) / np.maximum(np.add.outer(lengths, lengths), 1)
+        # Clusters that share a part stay apart: there they were told from each other.
         costs[parts @ parts.T] = np.inf
         a, b = sorted(divmod(int(np.argmin(costs)), len(costs)))
         if not costs[a, b] < price:
             return owner
+        # Mean distances of the union are means weighted by the lengths.
         share = lengths[b] / (lengths[a] + lengths[b])
         means[a] += share * (means[b] - means[a])
         means[:, a] += share * (means[:, b] - means[:, a])

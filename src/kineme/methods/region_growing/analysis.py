@@ -1,4 +1,4 @@
-"""The published methods: what each stage finds, in frames of the working rate.
+"""Published methods: what each stage finds, in frames of the working rate.
 
 Nothing here knows what a skeleton is: any array of frames × dims will do.
 """

@@ -181,7 +181,10 @@ def assign_comments(segmentation: Segmentation) -> list[str]:
 
 
 def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
-    """The same segments with these comments, one for each row; as they are where they say that."""
+    """Return the same segments with these comments, one for each row.
+
+    As they are where they say that.
+    """
     if list(texts) == assign_comments(segmentation):
         return segmentation
     entries = [

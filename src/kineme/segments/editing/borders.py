@@ -20,7 +20,7 @@ from kineme.segments.table import Level
 
 
 def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -> Segmentation:
-    """The border at ``frame`` stands at ``to``, between those before and after it.
+    """Move the border at ``frame`` to ``to``, between those before and after it.
 
     Of the primitive borders that an activity's border passes, the last one
     moves with it; primitives between the others go to the activity that grew.

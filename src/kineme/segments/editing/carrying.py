@@ -217,7 +217,7 @@ def _cut_at(activities: Rows, primitives: Rows) -> Rows:
 
 
 def _sparing(activities: Rows, primitives: Rows) -> Rows:
-    """The activities, whose borders inside primitives that stay go to the nearer end of those."""
+    """Return the activities, their borders moved out of primitives that stay, to the nearer end."""
     starts = [row.start_frame for row in primitives]
 
     def moved(border: int) -> int:
@@ -232,7 +232,10 @@ def _sparing(activities: Rows, primitives: Rows) -> Rows:
 
 
 def _insert_fixed(rows: Rows, fixed: Rows) -> Rows:
-    """The rows with others in their place; what is left of less than half of a row is joined on."""
+    """Return the rows with others in their place.
+
+    What is left of less than half of a row is joined on.
+    """
     edges = {_edges(one) for one in fixed}
     for one in fixed:
         start, stop = _edges(one)
@@ -260,7 +263,7 @@ def _shorten_row(
 
 
 def _inside(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
-    """The primitives of an activity that stays, called what it is where they were what it was."""
+    """Return the primitives of an activity that stays, with its label where they had its old."""
     inside = [i for i, row in enumerate(primitives) if _overlap(row, activity)]
     was = _find_middle_row(found.activities, activity)
     if activity.kind == "transition" and was.kind != "transition":

@@ -26,7 +26,7 @@ from kineme.segments.table import Kind, Level, Segment
 
 
 def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: int) -> Segmentation:
-    """The segment that starts at ``frame`` is in a cluster, and so no transition; -1: in none.
+    """Put the segment that starts at ``frame`` into a cluster, as no transition; -1: into none.
 
     The primitives of an activity that were in its cluster go with it. Who was called by
     the old cluster's name is called by the new one's.
@@ -73,7 +73,7 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
 
 
 def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segmentation:
-    """The segments of one cluster are in another, and called by its name where it has one.
+    """Move the segments of a cluster into another, with its name where it has one.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
 
 
 def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int]) -> Segmentation:
-    """The primitives of a cluster that start at ``frames`` are in a new cluster of their own.
+    """Move the primitives of a cluster that start at ``frames`` into a new cluster.
 
     So is an activity all of whose primitives of that cluster go.
 

@@ -118,7 +118,7 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
 
 
 def set_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
-    """The same segments, whose clusters have these names and no others; labels stay as they are.
+    """Give the clusters these names and no others; labels stay as they are.
 
     The name of a cluster is empty if it has none, whatever its segments are called.
     """

@@ -22,7 +22,7 @@ Rows = list[Segment]
 
 @dataclass(frozen=True)
 class Part:
-    """The activities that hold some frames, and their primitives.
+    """Activities that hold some frames, and their primitives.
 
     ``activity`` of their rows counts from the first of these; ``spans`` are their rows in the
     table.
@@ -75,7 +75,7 @@ def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
 
 
 def move_border_rows(rows: Rows, frame: int, to: int) -> Rows:
-    """The border at ``frame`` stands at ``to``."""
+    """Move the border at ``frame`` to ``to``."""
     return [
         replace(row, stop_frame=to, confidence=math.nan)
         if row.stop_frame == frame
@@ -201,7 +201,7 @@ def replace_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]
 
 
 def renumber_clusters(segmentation: Segmentation, numbers: Mapping[int, int]) -> Segmentation:
-    """The same segments, whose clusters have these numbers; those without one are in none."""
+    """Give the clusters these numbers; segments of clusters without one are in none."""
     table = segmentation.table
     clusters = np.array([numbers.get(c, -1) for c in table.cluster.tolist()], np.int64)
     actions = clusters[table.level == "activity"][table.activity]

@@ -82,7 +82,7 @@ class Change:
 
 
 class Journal:
-    """The history of one table; ``notes`` say that a damaged one was left alone.
+    """History of one table; ``notes`` say that a damaged one was left alone.
 
     ``table`` is what the file that people have holds, or what was found if it is not there. Where
     the history ends with another table, that one is kept. Nothing is written before the first
@@ -254,7 +254,7 @@ class Journal:
 
 
 def read_record(folder: Path) -> tuple[Record, list[str]]:
-    """The history in a folder, empty where none can be read, and what people should know of it."""
+    """Return the history in a folder, empty where none can be read, and notes on it."""
     record, notes = read_sidecar(folder / HISTORY, Record, Record())
     complete = record.schema == SCHEMA and needed_by(record) <= record.steps.keys()
     if complete or record == Record():

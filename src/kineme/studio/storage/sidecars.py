@@ -77,7 +77,7 @@ def options_of(recording: Path) -> dict[str, Any]:
 
 
 def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
-    """The recordings in some files: those of which the people are known have one for each."""
+    """Return recordings in some files: those of which the people are known have one for each."""
     present: dict[Path, set[str]] = {}
     found: list[ListedRecording] = []
     for path in paths:

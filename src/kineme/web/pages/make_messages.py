@@ -1,4 +1,4 @@
-"""The TypeScript types of the messages and of the server's paths.
+"""TypeScript types of the messages and of the server's paths.
 
     python src/kineme/web/pages/make_messages.py
 
@@ -76,7 +76,7 @@ def typescript(named: dict[str, Any]) -> str:
 
 
 def types_of(*modules: ModuleType) -> dict[str, Any]:
-    """The structs that modules hold, but those that are there to be derived from, and unions."""
+    """Return structs that modules hold, but those that are there to be derived from, and unions."""
     return {
         name: kind
         for module in modules
