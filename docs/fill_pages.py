@@ -389,7 +389,7 @@ def show_constant(value: Any) -> str:
         case None | bool():
             return {None: "–", True: "yes", False: "no"}[value]
         case float():
-            return f"{value:.4g}"
+            return f"{value:.4g}" if value < 1000 else f"{value:.0f}"
         case ((_, _), *_):
             return " ".join(map(str, value))
         case tuple():
