@@ -1,4 +1,4 @@
-"""The pictures of the documentation, from the recording that comes with the package.
+"""Draw the pictures of the documentation from the bundled recording.
 
     python docs/make_figures.py
 
