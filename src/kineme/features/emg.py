@@ -59,6 +59,8 @@ def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> ND
     raw = np.asarray(values, np.float64)
     rectified = np.abs(raw - raw.mean(axis=0))
     sections = butter(_ORDER, cutoff, fs=fps, output="sos")
+    # One cycle of the cutoff, but less than the recording.
     padding = min(len(raw) - 1, int(fps / cutoff))
     smooth = sosfiltfilt(sections, rectified, axis=0, padlen=padding)
+    # The filter overshoots below 0 after strong bursts.
     return np.asarray(np.maximum(smooth, 0.0), np.float64)
