@@ -142,6 +142,7 @@ def length_variance(found: Labelling) -> tuple[float, float]:
         if label != TRANSITION:
             lengths.setdefault(label, []).append(frames / found.fps)
     shared = [seconds for seconds in lengths.values() if len(seconds) > 1]
+    # A single segment has no variance.
     if not shared:
         return float("nan"), float("nan")
     return (
@@ -165,6 +166,7 @@ def _variance(label: str, spans: list[slice], distances: Distances, fps: float) 
     normalised = []
     for i, j in combinations(range(len(spans)), 2):
         cost = warped_cost(np.ascontiguousarray(distances(spans[i], spans[j])))
+        # The path costs the same in both directions, so one warp gives both ordered pairs.
         normalised += [cost / lengths[i], cost / lengths[j]]
     seconds = lengths / fps
     return ClusterVariance(
