@@ -97,12 +97,14 @@ def plot_matrix(
         cmap=SHADES,
         vmin=0,
         vmax=1,
+        # Row 0 is at the top: time runs down.
         extent=(0, seconds, seconds, 0),
         interpolation="antialiased",
         resample=True,
     )
     _draw_borders(axes, segmentation)
     _draw_bars(axes, segmentation, bar)
+    # Room for the bars at the left and below.
     axes.set_xlim(-1.5 * bar, seconds)
     axes.set_ylim(seconds + 1.5 * bar, 0)
     axes.set_aspect("equal")
@@ -196,11 +198,13 @@ def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.f
     n = max(len(graph), graph.n_columns)
     size = min(n, pixels)
     image = np.zeros(size * size, np.float32)
+    # A radius of 0 only has neighbours at distance 0.
     scale = graph.radius or 1.0
     for first, last in _runs_of_rows(graph.indptr):
         entries = slice(graph.indptr[first], graph.indptr[last])
         rows = np.repeat(np.arange(first, last), np.diff(graph.indptr[first : last + 1]))
         columns = graph.indices[entries].astype(np.int64)
+        # Row and column of each pair in pixels, as one index into the flat image.
         cells = rows * size // n * size + columns * size // n
         # A neighbour at the very rim of the radius is still seen.
         np.maximum.at(image, cells, 1 - 0.85 * graph.distances[entries] / np.float32(scale))
@@ -210,6 +214,7 @@ def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.f
 def _runs_of_rows(indptr: NDArray[np.int64]) -> list[tuple[int, int]]:
     """Rows in runs of about ENTRIES_AT_ONCE entries."""
     bounds = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
+    # The rows whose entries begin nearest to every multiple of ENTRIES_AT_ONCE.
     starts = np.unique(np.searchsorted(indptr, bounds, side="right") - 1).tolist()
     return list(zip(starts, [*starts[1:], len(indptr) - 1], strict=True))
 
@@ -218,6 +223,7 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
     activities, primitives = segmentation.activities, segmentation.primitives
     counts = np.bincount(primitives.activity, minlength=len(activities))
     lengths = (activities.stop_frame - activities.start_frame) / segmentation.n_frames
+    # Where primitives are narrower than a line, only the activity is framed.
     wide = lengths > counts * NARROW
     cuts = [
         line
@@ -258,6 +264,7 @@ def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
 
 def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.float64]]:
     """Corners (4, 2) of upright rectangles; a number stands for as many as needed."""
+    # Clockwise from the upper left corner: eight columns of numbers become four points.
     left, right, top, bottom = np.broadcast_arrays(left, right, top, bottom)
     corners = [left, top, right, top, right, bottom, left, bottom]
     return list(np.stack(corners, axis=-1).reshape(-1, 4, 2))
@@ -266,6 +273,7 @@ def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.floa
 def _legend(segmentation: Segmentation) -> list[Patch]:
     """Return the largest clusters by number of primitives, in the order of their numbers."""
     counts = segmentation.repetitions()
+    # The largest clusters, shown by number.
     shown = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
     handles = [
         Patch(color=cluster_color(cluster), label=f"{cluster}  ({counts[cluster]}×)")
@@ -316,15 +324,19 @@ def insert_gaps(
     from kineme.methods.region_growing.neighbors import NeighborGraph
 
     n_present = n_frames - sum(stop - start for start, stop in gaps)
+    # Rows of the graph for each frame outside of gaps.
     per_frame = len(graph) / max(n_present, 1)
+    # The place of each row when all earlier gaps are inserted.
     place = np.arange(len(graph))
     before = 0
     for start, stop in gaps:
+        # Row at which the gap lies: frames before it without earlier gaps, at the graph's rate.
         at = floor((start - before) * per_frame + 0.5)
         before += stop - start
         place[at:] = np.arange(at, len(graph)) + ceil(before * per_frame)
     n = max(floor(n_frames * per_frame + 0.5), int(place[-1]) + 1)
     counts = np.zeros(n, np.int64)
+    # Rows in gaps keep a count of 0.
     counts[place] = graph.counts
     indptr = np.concatenate([[0], np.cumsum(counts)])
     indices = place[graph.indices].astype(np.int32)
