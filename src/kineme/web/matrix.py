@@ -70,6 +70,7 @@ class Matrix:
         """
         sides = [ceil(len(features) / TILE) for features in self.levels]
         coarse = [level for level, side in enumerate(sides) if side <= MOST_TILES]
+        # Coarse levels in full, the coarsest first; the matrix is symmetric, so one half is enough.
         places = [
             (level, row, column)
             for level in reversed(coarse)
@@ -78,6 +79,7 @@ class Matrix:
         ]
         first = len(places)
         fine = [level for level in reversed(range(len(sides))) if level not in coarse]
+        # Of fine levels all diagonals come before any tile beside a diagonal.
         for away, level in product((0, 1), fine):
             places += [(level, row, row - away) for row in range(away, sides[level])]
         tiles: dict[str, bytes] = {}
@@ -89,6 +91,7 @@ class Matrix:
                 break
             tiles["/".join(map(str, place))] = tile
         if len(tiles) == len(places):
+            # Every place fits: the tiles beside the diagonal reach one tile away.
             return tiles, TILE if fine else None
         return tiles, 0 if len(tiles) >= first else None
 
@@ -102,12 +105,16 @@ def pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
     nothing was seen.
     """
     rate = min(RATE, fps, MOST_CELLS / seconds)
+    # Middles of the cells; a tiny rest of a cell, which rounding may leave, is none.
     middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
     stacked = np.concatenate(
         [_sample_at(values, middles + offset, fps) for offset in OFFSETS], axis=1
     )
+    # Five stacked poses shall not make distances larger.
     stacked /= np.sqrt(len(OFFSETS))
+    # A cell counts only if all of its stacked samples were seen.
     visible = np.asarray(np.isfinite(stacked).all(axis=1))
+    # Sums instead of means, so that levels can be merged by adding.
     total = np.where(visible[:, None], stacked, 0.0)
     squares, counts = total**2, visible.astype(float)[:, None]
     levels = [np.where(visible[:, None], total, np.nan).astype(np.float32)]
@@ -116,13 +123,16 @@ def pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
         # 0 / 0: where nothing was seen there is nothing to compare.
         with np.errstate(invalid="ignore"):
             mean = total / counts
+            # Variance as mean of squares less squared mean, which rounding can make negative.
             deviation = np.sqrt(np.maximum(squares / counts - mean**2, 0))
+        # The squared distance of means and deviations is the Fréchet distance of the distributions.
         levels.append(np.concatenate([mean, deviation], axis=1).astype(np.float32))
     return Matrix(rate, tuple(levels))
 
 
 def _sample_at(values: Floats, times: Floats, fps: float) -> Floats:
     """Values at seconds, where frame i stands for the time around (i + 0.5) / fps."""
+    # Frame i is at its middle, half a frame later than its number.
     at = np.clip(times * fps - 0.5, 0, len(values) - 1)
     before = np.floor(at).astype(np.intp)
     after = np.minimum(before + 1, len(values) - 1)
@@ -136,20 +146,26 @@ def _sum_pairs(sums: Floats) -> Floats:
 
 
 def _similarity(down: NDArray[np.float32], across: NDArray[np.float32]) -> NDArray[np.float32]:
+    # All squared distances |a|² + |b|² - 2 a·b by one matrix product.
     squared = (down**2).sum(axis=1)[:, None] + (across**2).sum(axis=1) - 2 * (down @ across.T)
+    # Distances to unseen cells are nan: nothing in common.
     return np.asarray(np.nan_to_num(np.exp(-np.maximum(squared, 0)), nan=0.0), np.float32)
 
 
 def _png(shares: NDArray[np.float32]) -> bytes:
     """Return a grey picture of 4 bits per pixel, from shares of white."""
     height, width = shares.shape
+    # Two pixels share a byte, so an odd row gets one more.
     shades = np.zeros((height, width + width % 2), np.uint8)
     shades[:, :width] = np.rint(15 * shares)
     rows = np.zeros((height, 1 + shades.shape[1] // 2), np.uint8)  # each begins with its filter: 0
+    # The left pixel is in the high bits.
     rows[:, 1:] = shades[:, ::2] << 4 | shades[:, 1::2]
+    # Width, height, 4 bits a pixel, grey; default compression, filter and no interlacing.
     header = struct.pack(">IIBBBBB", width, height, 4, 0, 0, 0, 0)
     chunks = [(b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes(), 6)), (b"IEND", b"")]
     return b"\x89PNG\r\n\x1a\n" + b"".join(
+        # A chunk is its length, name and data, and a checksum of the last two.
         struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
         for name, data in chunks
     )

@@ -71,6 +71,7 @@ def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
     if not (np.isfinite(fps) and fps > 0):
         raise ParameterError(f"the frame rate must be a positive number, not {fps}")
     averaged = max(1, int(fps / (2 * RATE)))  # frames whose mean is compared: 0.05 s
+    # Means over short spans; the last one may be shorter.
     starts = np.arange(0, len(signal), averaged)
     lengths = np.diff(starts, append=len(signal))
     means = np.add.reduceat(signal, starts, axis=0) / lengths[:, None]
@@ -87,6 +88,7 @@ def _distances(motion: Motion) -> Floats:
         visible[start:stop] = False
     if motion.skeleton.n_joints < 2 or not visible.any():
         return np.zeros((motion.n_frames, 1))
+    # Frames in gaps would distort the scale, and are left out.
     features, _ = distance_features(motion.positions[visible])
     values = np.zeros((motion.n_frames, features.shape[1]))
     values[visible] = features / (BODY_SCALE * SIZE)
@@ -98,6 +100,7 @@ def _standardise(values: Floats) -> Floats:
     visible = np.asarray(np.isfinite(values).all(axis=1))
     if not visible.any():
         return np.full((len(values), 1), np.nan)
+    # Centred over what was seen; rows with a gap become nan.
     out = np.where(visible[:, None], values, np.nan) - values[visible].mean(axis=0)
     deviation = out[visible].std(axis=0)
     out = out[:, deviation > 0] / deviation[deviation > 0]
@@ -107,6 +110,8 @@ def _standardise(values: Floats) -> Floats:
         from scipy.linalg import eigh
 
         n = out.shape[1]
+        # The last eigenvectors have the largest eigenvalues.
         axes = eigh(np.cov(out[visible].T), subset_by_index=(n - MOST_CHANNELS, n - 1))[1]
         out = out @ axes
+    # Twice the summed variance is the mean squared distance of two samples drawn at random.
     return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[visible].var(axis=0).sum())))
