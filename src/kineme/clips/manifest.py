@@ -60,8 +60,8 @@ class Clip:
 def write_manifests(clips: Sequence[Clip], folder: Path, *, loops: bool, animations: bool) -> None:
     """Leave both lists in a folder."""
     _write_csv(clips, folder / MANIFEST, loops=loops, animations=animations)
-    loops_first = sorted(clips, key=_order)
     # Stable: clips of equal order stay in the order of time.
+    loops_first = sorted(clips, key=_order)
     head = f'{{\n"schema": "{SCHEMA}",\n"kineme": "{__version__}",\n"clips": ['
     body = ",".join(f"\n{_as_text(clip)}" for clip in loops_first)
     (folder / MANIFEST_JSON).write_text(f"{head}{body}\n]\n}}\n", encoding="utf-8", newline="\n")

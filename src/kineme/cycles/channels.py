@@ -143,10 +143,10 @@ def channels_of(
         if isinstance(recording, Motion)
         else _make_signal_channels(recording)
     )
+    # Contacts follow, unless a channel of this name is there already.
     every += [each for each in contacts_of(recording) if each.name not in {c.name for c in every}]
     for signals in beside:
         every += _make_signal_channels(signals)
-    # Contacts of sensors come last, unless a channel of this name is there already.
     if names is None:
         usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
         return usual or [channel for channel in every if channel.group == "speed"]
@@ -169,7 +169,6 @@ def channels_of(
 def _make_signal_channels(signals: Signals) -> list[Channel]:
     columns = signals.values.T
     return [
-        # A copy, since callers set gaps to nan.
         Channel(name, "", CHANNEL, name, signals.fps, partial(np.array, column), signals.gaps)
         for name, column in zip(signals.names, columns, strict=True)
     ]

@@ -373,8 +373,8 @@ def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
         of_side = [table[name][table["foot"] == side] for name in measures]
         values = [each[np.isfinite(each)] for each in of_side]
         columns[f"{side}_n"] = [len(each) for each in values]
-        # The sample deviation (n - 1) needs two values.
         columns[f"{side}_mean"] = [each.mean() if len(each) else np.nan for each in values]
+        # The sample deviation (n - 1) needs two values.
         columns[f"{side}_sd"] = [each.std(ddof=1) if len(each) > 1 else np.nan for each in values]
     left, right = (np.array(columns[f"{side}_mean"], np.float64) for side in SIDES)
     means = {name: np.array(column) for name, column in columns.items()}

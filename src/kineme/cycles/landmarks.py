@@ -79,7 +79,7 @@ def landmarks(motion: Motion) -> dict[str, int]:
     joints: dict[str, int] = {}
     for side in SIDES:
         for end, middle, top in (("ankle", "knee", "hip"), ("wrist", "elbow", "shoulder")):
-            # The end effectors are found by the skeleton's shape; names help only where that fails.
+            # What `end_effectors` found comes first; else the usual names of points.
             tip = ends.get(f"{side}_{end}", _named(skeleton.names, end, side))
             # A bool as index: the other side.
             other = ends.get(f"{SIDES[side == SIDES[0]]}_{end}")

@@ -141,8 +141,8 @@ def cycles(
 
 
 def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
-    # In the order of the rows of `cycles`: by recording, then by time.
     """Return same without those that people left out, as the annotations of their tables say."""
+    # In the order of the rows of `cycles`: by recording, then by time.
     left_out = [
         table.annotation.excludes(row.start_frame, row.stop_frame)
         for table in tables
@@ -257,7 +257,6 @@ def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
 
 
 def _groups(table: Segmentation, prefix: str) -> dict[int | str, str]:
-    # The most frequent label of a movement names all of its repetitions.
     """By `movement` what its repetitions are summarised with: the label, or the cluster."""
     found: dict[int | str, str] = {}
     labels: dict[int | str, Counter[str]] = {}
@@ -267,6 +266,7 @@ def _groups(table: Segmentation, prefix: str) -> dict[int | str, str]:
             label = row.label or str(activities.label[row.activity])
             labels.setdefault(movement(row), Counter())[label] += 1
     for what, counts in labels.items():
+        # The most frequent label of a movement names all of its repetitions.
         label = counts.most_common(1)[0][0]
         unnamed = "no cluster" if what == "" else f"cluster {what}"
         found[what] = label or f"{prefix}{unnamed}"

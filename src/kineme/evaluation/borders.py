@@ -59,7 +59,7 @@ def border_score(compared: Comparison) -> BorderScore:
     # The tolerance beyond the span in which people put the border, in frames.
     slack = truth.tolerance_s * truth.fps
     hits = len(_matches(truth.earliest - slack, truth.latest + slack, found))
-    # Nothing found, but something to find: both shares are 0.
+    # A share of nothing is 0.
     return BorderScore(
         hits / found.size if found.size else 0.0,
         hits / truth.mean.size if truth.mean.size else 0.0,

@@ -40,9 +40,9 @@ def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:
     (0.79, 1.0)
     """
     start, stop, certain = _closed_spans(compared.spans.actions)
-    # Closed spans, as in the authors' program: the last frame is included.
     found = compared.spans.activities
     first = found.starts
+    # Closed spans, as in the authors' program: each ends on the first frame of the next.
     last = np.minimum(found.stops, found.frames - 1)
     owner = np.array(
         [

@@ -135,9 +135,9 @@ class Labelling:
         )
 
     def merged(self) -> Labelling:
-        # Rows at which the label changes.
         """Return the same labels with equal neighbours joined."""
         labels = self.labels
+        # Rows at which the label changes.
         rows = [i for i, label in enumerate(labels) if not i or label != labels[i - 1]]
         return Labelling(
             np.append(self.borders[rows], self.frames), tuple(labels[i] for i in rows), self.fps

@@ -141,8 +141,8 @@ def length_variance(found: Labelling) -> tuple[float, float]:
     for label, frames in zip(found.labels, np.diff(found.borders), strict=True):
         if label != TRANSITION:
             lengths.setdefault(label, []).append(frames / found.fps)
-    shared = [seconds for seconds in lengths.values() if len(seconds) > 1]
     # A single segment has no variance.
+    shared = [seconds for seconds in lengths.values() if len(seconds) > 1]
     if not shared:
         return float("nan"), float("nan")
     return (

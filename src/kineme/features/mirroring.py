@@ -124,8 +124,8 @@ def _partners(skeleton: Skeleton) -> list[int]:
 
 
 def _renamed(name: str) -> Iterator[str]:
-    # A name may hold several letters that look like a side, as in `l_hand_r`.
     """Yield the name with one word for a side turned into the other, each way to do so."""
+    # A name may hold several letters that look like a side, as in `l_hand_r`.
     for found in _SIDE.finditer(name):
         side = found[1]
         other = _SIDES[side.lower()]

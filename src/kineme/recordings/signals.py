@@ -63,9 +63,9 @@ class Signals(Recording):
             values = values[:, None]
         if values.ndim != 2 or 0 in values.shape:
             raise ParameterError(f"signals are frames x channels, not of shape {values.shape}")
+        # The default names count from 1.
         columns = getattr(self.values, "columns", range(1, values.shape[1] + 1))
         assign(self, values=frozen(values, "signals"), fps=as_rate(self.fps))
-        # The default names count from 1.
         if (largest := float(np.abs(values).max())) > LARGEST:
             raise ParameterError(f"signals reach {largest:.3g}, which no sensor tells")
         names = as_texts(self.names, "names of channels") or tuple(map(str, columns))

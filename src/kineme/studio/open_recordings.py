@@ -99,9 +99,9 @@ class OpenRecordings:
 
     def _forget_others(self, name: str) -> None:
         """Drop cached pictures of the least recently used recordings."""
-        # Moved to the end; the first ones were asked for longest ago.
         with self._lock:
             self._asked[name] = None
+            # The first name is thus the one asked for longest ago.
             self._asked.move_to_end(name)
             while len(self._asked) > MOST_DRAWN:
                 last, _ = self._asked.popitem(last=False)

@@ -150,7 +150,6 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     >>> len(load_sources(graph))
     1
     """
-    # Digests must match: spans of frames mean nothing in a changed file.
     motions = []
     for source in graph.sources:
         path = Path(source.path or "")
@@ -160,6 +159,7 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
         if not exists:
             raise ReadError(path, "is not there, and the graph was built on it: put it back, "
                             "or build the graph anew")  # fmt: skip
+        # Digests must match: spans of frames mean nothing in a changed file.
         if digest != source.sha256:
             raise ReadError(path, "has changed since the graph was built on it: build it anew")
         motions.append(read_motion(path, **source.options))

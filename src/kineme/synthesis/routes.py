@@ -87,8 +87,8 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
     """
     names = [name for name, count in actions for _ in range(count)]
     if not names:
-        # One layer for each action to play, with all nodes of that name.
         raise ParameterError("no actions: give names with counts, as in walk,run*3")
+    # One layer for each action to play, with all nodes of that name.
     layers = [graph.nodes_of(name) for name in names]
     cost, before = _cheapest_paths(graph)
     total = np.zeros(len(layers[0]))
@@ -102,8 +102,8 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
             raise ParameterError(_no_route(graph, names[: i + 1], cost))
     at = int(total.argmin())
     route = [layers[-1][at]]
+    # From the last action back to the first.
     for i in range(len(chosen) - 1, -1, -1):
-        # From the last action back to the first.
         at = int(chosen[i][at])
         route = [*_path(before, layers[i][at], route[0]), *route]
     return route

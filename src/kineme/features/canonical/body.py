@@ -139,9 +139,9 @@ def _facing_ahead(points: Floats, to_left: Floats) -> Floats:
     """
     length = np.hypot(to_left[:, 0], to_left[:, 2])
     sideways = np.flatnonzero(length > _FLAT * np.linalg.norm(to_left, axis=1))
-    # The nearest frame with a heading; `searchsorted` takes the earlier one at a tie.
     if len(sideways) == 0:
         return points
+    # The nearest frame with a heading; `searchsorted` takes the earlier one at a tie.
     nearest = sideways[np.searchsorted((sideways[:-1] + sideways[1:]) / 2, np.arange(len(length)))]
     # Cosine and sine (frames, 1) of the turn about y.
     cos, sin = (to_left[nearest, axis, None] / length[nearest, None] for axis in (0, 2))

@@ -101,8 +101,8 @@ def _plain(item: Any) -> Any:
     if h5py.check_string_dtype(item.dtype) is not None:
         lines = np.atleast_1d(item.asstr(errors="replace")[()]).ravel()
         return [str(line) for line in lines]
-    # Arrays of other kinds, such as compounds, are passed over.
     array = np.asarray(item[()])
+    # Arrays of other kinds, such as compounds, are passed over.
     if array.dtype.kind not in "iufbS":
         return None
     matlab = item.attrs.get("MATLAB_class", b"")

@@ -53,9 +53,9 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
     frame = _column_of(table.names, _FRAME)
     extra = [*timing, *([frame] if frame is not None else [])]
     rows = table.numbers([*at.values(), *extra])
+    # Columns x, y, z and visibility; the last one is 1 where there is none.
     poses = np.zeros((len(rows), len(NAMES), 4))
     poses[..., 3] = 1.0
-    # Columns x, y, z and visibility; the last one is 1 where there is none.
     for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
         poses[:, landmark, field] = column
     frames, clock = np.arange(len(rows)), Timing(options.fps or 0.0)

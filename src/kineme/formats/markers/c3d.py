@@ -146,8 +146,8 @@ def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
     described = file.parameters.strings("ANALOG", "DESCRIPTIONS")
     described = [*described, *[""] * len(names)]
+    # Channels of force plates count from 1.
     muscles = [
-        # Channels of force plates count from 1.
         name
         for number, (name, label, text, unit) in enumerate(
             zip(names, file.analog_labels, described, file.analog_units, strict=False), 1

@@ -38,8 +38,8 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     row = next(filter(str.strip, lines[_HEADER_LINES:]), "")
     names = _names(lines[3].split(separator)[2:], len(row.split(separator)) - 2)
     if not names:
-        # `x y z` of each marker; the first two columns are frame and time.
         raise content.error("no marker is named after 'Frame#' and 'Time'", 4)
+    # `x y z` of each marker; the first two columns are frame and time.
     columns = ["frame", "seconds", *(f"{name}_{axis}" for name in names for axis in "xyz")]
     text = DelimitedText(content, lines, columns, 3, _HEADER_LINES, separator)
     table = text.numbers()

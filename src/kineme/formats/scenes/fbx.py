@@ -89,13 +89,13 @@ def _rate(
         return options.fps, [f"sampled {options.fps:g} times a second, as asked for"]
     mode = int(scene.setting("TimeMode", 0))
     fps = RATES.get(mode, 0.0) if mode != CUSTOM else scene.setting("CustomFrameRate", 0.0)
-    # A rate of keys far above the file's means that the file was resampled.
     keys = _rate_of_keys(scene, take, joints)
     if not SLOWEST <= fps <= FASTEST:
         if keys:
             return keys, [f"frame rate {keys:g} Hz: the file tells none, its keys are so far apart"]
         remark = f"the file tells no frame rate: {USUAL_RATE:g} Hz assumed; give fps= (--fps)"
         return USUAL_RATE, [Note(remark, "warning")]
+    # Keys closer together than frames: sampling at the file's rate drops some of them.
     if keys > 1.5 * fps:
         return fps, [f"{keys:g} keys a second are sampled at the file's {fps:g} Hz: fps= asks more"]
     return fps, []

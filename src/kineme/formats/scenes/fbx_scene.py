@@ -110,7 +110,6 @@ class FBXScene:
             self._driven.setdefault(part, []).append((parent, link.text(3)))
             self._driving.setdefault(parent, []).append((part, link.text(3)))
 
-    # Cluster deformers belong to skins; the models connected to them are bones.
     def _bones(self) -> set[int]:
         """Return the numbers of the models that are bones: by kind, or as a skin hangs on them."""
         bones: set[int] = set()
@@ -118,6 +117,7 @@ class FBXScene:
             if node.name == "Model" and node.text(2) in BONES:
                 bones.add(number)
             elif node.name == "Deformer" and node.text(2) == "Cluster":
+                # Cluster deformers belong to skins; the models connected to them are bones.
                 bones |= {part for part in self._parts.get(number, ()) if self._is(part, "Model")}
         return bones
 
@@ -260,7 +260,7 @@ class Pose:
         angles = _vector(model.properties, ROTATION)
         turn: Floats | None = None  # in place of the angles, once layers were multiplied
         for value, weight, properties in self._layers(model, ROTATION, angles):
-            # None wins over all layers before it.
+            # A weight of None replaces all layers before it.
             if weight is None:
                 angles, turn = value, None
             elif _choice(properties, "RotationAccumulationMode", 2) == 1:
@@ -425,8 +425,8 @@ def _vector(properties: Properties, name: str, usual: float = 0.0) -> Floats:
 
 
 def _plain(name: str) -> str:
-    # Binary files write `name\0\1class`, texts `class::name`.
     """An object's name without its class, which binary files have behind it, texts before it."""
+    # Binary files write `name\0\1class`, texts `class::name`.
     name = name.partition("\0\1")[0]
     head, mark, tail = name.partition("::")
     return tail if mark and head.isidentifier() else name

@@ -59,8 +59,8 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
     firsts = np.zeros((3, n), np.int64)
     records = np.full((3, n), -1, np.int64)
     passes = np.full((3, n), -1, np.int64)
-    # The first entries only give the lists their types.
     since = np.zeros((3, n), np.int64)  # the first sample, or that of the latest pair passed
+    # The first entries only give the lists their types.
     found = [(0, 0, 0, 0, np.int64(-1), 0.0)]
     passed = [(0, 0, np.int64(-1))]
     for i in range(n):

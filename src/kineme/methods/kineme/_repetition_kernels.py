@@ -211,9 +211,9 @@ def repetitions_between(poses, path, visits, places):
 
 @njit("float64(float64[::1])", **OPTIONS)
 def upper_median(values):
-    # Insertion sort: a division has few repetitions.
     """Return the middle value, the upper one of two."""
     ordered = np.empty(len(values))
+    # Insertion sort: a division has few repetitions.
     for k in range(len(values)):
         place = k
         while place > 0 and ordered[place - 1] > values[k]:

@@ -13,9 +13,9 @@ from kineme._util.parallel import OPTIONS
 
 @njit("Tuple((int64[::1], int32[::1]))(int64[::1], int32[::1], boolean)", **OPTIONS)
 def group_pairs(indptr, indices, by_later):
-    # Counting sort: how many pairs each frame has, then where its pairs begin.
     """Stored pairs grouped by their later frame, or by their earlier one; holds the other."""
     n = len(indptr) - 1
+    # Counting sort: how many pairs each frame has, then where its pairs begin.
     grouped = np.zeros(n + 1, np.int64)
     for i in range(n):
         for e in range(indptr[i], indptr[i + 1]):
@@ -87,8 +87,8 @@ def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
     n = len(indptr) - 1
     counts = np.full(n, -1, np.int64)
     end = last = n - 1
-    # From the last frame but one back: there is no later frame to pair the last with.
     still = found = 0
+    # From the last frame but one back: there is no later frame to pair the last with.
     for i in range(n - 2, -1, -1):
         for e in range(indptr[i], indptr[i + 1]):
             found += later[e] <= end

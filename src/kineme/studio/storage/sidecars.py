@@ -60,9 +60,9 @@ class Reading:
     options: dict[str, Any] = field(default_factory=dict)
     people: Sequence[str] = ()
 
-    # Another person is another recording, with a table of its own.
     def differs_from(self, other: Reading) -> set[str]:
         """Return the options that are others; another person of several is another recording."""
+        # Another person is another recording, with a table of its own.
         names = {name for name in OPTIONS if name != "person" or not self.people}
         return {name for name in names if self.options.get(name) != other.options.get(name)}
 
