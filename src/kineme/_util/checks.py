@@ -174,7 +174,7 @@ def format_count(n: int, one: str) -> str:
 
     Examples
     --------
-    >>> counted(1, "gap"), counted(0, "gap"), format_count(2, "activity")
+    >>> format_count(1, "gap"), format_count(0, "gap"), format_count(2, "activity")
     ('1 gap', '0 gaps', '2 activities')
     """
     return f"{n} {one if n == 1 else MANY.get(one, f'{one}s')}"
@@ -185,7 +185,7 @@ def join_names(names: Sequence[str], most: int = 8) -> str:
 
     Examples
     --------
-    >>> listed(["hip", "knee", "toe"], most=2), join_names(["hip", "knee"])
+    >>> join_names(["hip", "knee", "toe"], most=2), join_names(["hip", "knee"])
     ('hip, knee and 1 more', 'hip, knee')
     """
     more = len(names) - most

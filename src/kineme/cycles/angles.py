@@ -78,7 +78,7 @@ def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
     Examples
     --------
     >>> x, y, z = np.eye(3)[:, None]
-    >>> about(x, y, z).round(6), measure_turn(x, z, y).round(6)
+    >>> measure_turn(x, y, z).round(6), measure_turn(x, z, y).round(6)
     (array([90.]), array([-90.]))
     """
     flat = [remove_along(vectors, axis) for vectors in (first, second)]

@@ -284,7 +284,7 @@ def pool_scores(results: Iterable[Value]) -> float:
 
     Examples
     --------
-    >>> over_all([Ratio(1, 10), Ratio(9, 10)]), pool_scores([0.2, 0.4])
+    >>> pool_scores([Ratio(1, 10), Ratio(9, 10)]), pool_scores([0.2, 0.4])
     (0.5, 0.30000000000000004)
     """
     kept = list(results)

@@ -90,7 +90,7 @@ def parse_value(constant: Constant, text: str) -> Any:
     --------
     >>> from kineme.methods import PRESETS
     >>> constants = {each.name: each for each in PRESETS["voegele2014"].constants()}
-    >>> parsed(constants["max_lag"], "none"), parse_value(constants["offsets"], "-0.1,0,0.1")
+    >>> parse_value(constants["max_lag"], "none"), parse_value(constants["offsets"], "-0.1,0,0.1")
     (None, (-0.1, 0.0, 0.1))
     """
     try:
@@ -106,8 +106,8 @@ def format_value(value: Any) -> str:
 
     Examples
     --------
-    >>> shown(((1, 1), (2, 1))), shown(None), shown(True), shown(1 / 3), format_value(1e4)
-    ('1,1 2,1', 'none', 'yes', '0.3333', '10000')
+    >>> [format_value(value) for value in (((1, 1), (2, 1)), None, True, 1 / 3, 1e4)]
+    ['1,1 2,1', 'none', 'yes', '0.3333', '10000']
     """
     if isinstance(value, bool):
         return "yes" if value else "no"

@@ -32,6 +32,30 @@ def similarity_band(features, unit, start, stop, similarity):
             similarity[i, lag] = one - np.sqrt(square) * units
 
 
+@njit("float64[::1](float32[:, ::1], int64[::1], int64)", **OPTIONS)
+def near_distances(features, chosen, width):
+    """Distances of the chosen samples, ascending, of which two are less than `width` apart."""
+    count = 0
+    for i in range(len(chosen)):
+        for j in range(i + 1, len(chosen)):
+            if chosen[j] - chosen[i] >= width:
+                break
+            count += 1
+    found = np.empty(count)
+    at = 0
+    for i in range(len(chosen)):
+        for j in range(i + 1, len(chosen)):
+            if chosen[j] - chosen[i] >= width:
+                break
+            square = 0.0
+            for d in range(features.shape[1]):
+                difference = np.float64(features[chosen[i], d]) - features[chosen[j], d]
+                square += difference * difference
+            found[at] = np.sqrt(square)
+            at += 1
+    return found
+
+
 @njit("int64[::1](float32[:, ::1], float64)", **OPTIONS)
 def change_points(similarity, penalty):
     """Borders of the segments whose samples are most similar, ends included.
