@@ -208,11 +208,13 @@ def draw_neighbors(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.flo
     n = max(len(graph), graph.n_columns)
     size = min(n, pixels)
     image = np.zeros(size * size, np.float32)
+    # A radius of 0 only has neighbours at distance 0.
     scale = graph.radius or 1.0
     for first, last in _runs_of_rows(graph.indptr):
         entries = slice(graph.indptr[first], graph.indptr[last])
         rows = np.repeat(np.arange(first, last), np.diff(graph.indptr[first : last + 1]))
         columns = graph.indices[entries].astype(np.int64)
+        # Row and column of each pair in pixels, as one index into the flat image.
         cells = rows * size // n * size + columns * size // n
         # A neighbour at the very rim of the radius is still seen.
         np.maximum.at(image, cells, 1 - 0.85 * graph.distances[entries] / np.float32(scale))
@@ -222,5 +224,6 @@ def draw_neighbors(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.flo
 def _runs_of_rows(indptr: NDArray[np.int64]) -> list[tuple[int, int]]:
     """Rows in runs of about ENTRIES_AT_ONCE entries."""
     bounds = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
+    # The rows whose entries begin nearest to every multiple of ENTRIES_AT_ONCE.
     starts = np.unique(np.searchsorted(indptr, bounds, side="right") - 1).tolist()
     return list(zip(starts, [*starts[1:], len(indptr) - 1], strict=True))

@@ -61,7 +61,9 @@ class SimilarityMatrix:
     def cells(self, level: int, rows: slice, columns: slice) -> Float32s:
         """Return the similarities of some cells of a level, (rows, columns) from 0 to 1."""
         down, across = self.levels[level][rows], self.levels[level][columns]
+        # All squared distances |a|² + |b|² - 2 a·b by one matrix product.
         squared = (down**2).sum(axis=1)[:, None] + (across**2).sum(axis=1) - 2 * (down @ across.T)
+        # Distances to unseen cells are nan: nothing in common.
         return np.asarray(np.nan_to_num(np.exp(-np.maximum(squared, 0)), nan=0.0), np.float32)
 
 
@@ -125,6 +127,7 @@ def compare_frames_of_signal(values: ArrayLike, fps: float) -> SimilarityMatrix:
     if not (np.isfinite(fps) and fps > 0):
         raise ParameterError(f"the frame rate must be a positive number, not {fps}")
     averaged = max(1, int(fps / (2 * RATE)))  # frames whose mean is compared: 0.05 s
+    # Means over short spans; the last one may be shorter.
     starts = np.arange(0, len(signal), averaged)
     lengths = np.diff(starts, append=len(signal))
     means = np.add.reduceat(signal, starts, axis=0) / lengths[:, None]
@@ -141,6 +144,7 @@ def _distances(motion: Motion) -> Floats:
         visible[start:stop] = False
     if motion.skeleton.n_joints < 2 or not visible.any():
         return np.zeros((motion.n_frames, 1))
+    # Frames in gaps would distort the scale, and are left out.
     features, _ = distance_features(motion.positions[visible])
     values = np.zeros((motion.n_frames, features.shape[1]))
     values[visible] = features / (BODY_SCALE * SIZE)
@@ -152,6 +156,7 @@ def _standardise(values: Floats) -> Floats:
     visible = np.asarray(np.isfinite(values).all(axis=1))
     if not visible.any():
         return np.full((len(values), 1), np.nan)
+    # Centred over what was seen; rows with a gap become nan.
     out = np.where(visible[:, None], values, np.nan) - values[visible].mean(axis=0)
     deviation = out[visible].std(axis=0)
     out = out[:, deviation > 0] / deviation[deviation > 0]
@@ -161,8 +166,10 @@ def _standardise(values: Floats) -> Floats:
         from scipy.linalg import eigh
 
         n = out.shape[1]
+        # The last eigenvectors have the largest eigenvalues.
         axes = eigh(np.cov(out[visible].T), subset_by_index=(n - MOST_CHANNELS, n - 1))[1]
         out = out @ axes
+    # Twice the summed variance is the mean squared distance of two samples drawn at random.
     return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[visible].var(axis=0).sum())))
 
 
@@ -175,12 +182,16 @@ def _stack_levels(values: Floats, fps: float, seconds: float) -> SimilarityMatri
     nothing was seen.
     """
     rate = min(RATE, fps, MOST_CELLS / seconds)
+    # Middles of the cells; a tiny rest of a cell, which rounding may leave, is none.
     middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
     stacked = np.concatenate(
         [_sample_at(values, middles + offset, fps) for offset in OFFSETS], axis=1
     )
+    # Five stacked poses shall not make distances larger.
     stacked /= np.sqrt(len(OFFSETS))
+    # A cell counts only if all of its stacked samples were seen.
     visible = np.asarray(np.isfinite(stacked).all(axis=1))
+    # Sums instead of means, so that levels can be merged by adding.
     total = np.where(visible[:, None], stacked, 0.0)
     squares, counts = total**2, visible.astype(float)[:, None]
     levels = [np.where(visible[:, None], total, np.nan).astype(np.float32)]
@@ -189,13 +200,16 @@ def _stack_levels(values: Floats, fps: float, seconds: float) -> SimilarityMatri
         # 0 / 0: where nothing was seen there is nothing to compare.
         with np.errstate(invalid="ignore"):
             mean = total / counts
+            # Variance as mean of squares less squared mean, which rounding can make negative.
             deviation = np.sqrt(np.maximum(squares / counts - mean**2, 0))
+        # The squared distance of means and deviations is the Fréchet distance of the distributions.
         levels.append(np.concatenate([mean, deviation], axis=1).astype(np.float32))
     return SimilarityMatrix(rate, tuple(levels))
 
 
 def _sample_at(values: Floats, times: Floats, fps: float) -> Floats:
     """Return the values at seconds, where frame i stands for the time around (i + 0.5) / fps."""
+    # Frame i is at its middle, half a frame later than its number.
     at = np.clip(times * fps - 0.5, 0, len(values) - 1)
     before = np.floor(at).astype(np.intp)
     after = np.minimum(before + 1, len(values) - 1)

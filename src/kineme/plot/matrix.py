@@ -97,12 +97,14 @@ def plot_matrix(
         cmap=SHADES,
         vmin=0,
         vmax=1,
+        # Row 0 is at the top: time runs down.
         extent=(0, seconds, seconds, 0),
         interpolation="antialiased",
         resample=True,
     )
     _draw_borders(axes, segmentation)
     _draw_bars(axes, segmentation, bar)
+    # Room for the bars at the left and below.
     axes.set_xlim(-1.5 * bar, seconds)
     axes.set_ylim(seconds + 1.5 * bar, 0)
     axes.set_aspect("equal")
@@ -190,6 +192,7 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
     activities, primitives = segmentation.activities, segmentation.primitives
     counts = np.bincount(primitives.activity, minlength=len(activities))
     lengths = (activities.stop_frame - activities.start_frame) / segmentation.n_frames
+    # Where primitives are narrower than a line, only the activity is framed.
     wide = lengths > counts * NARROW
     cuts = [
         line
@@ -230,6 +233,7 @@ def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
 
 def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.float64]]:
     """Corners (4, 2) of upright rectangles; a number stands for as many as needed."""
+    # Clockwise from the upper left corner: eight columns of numbers become four points.
     left, right, top, bottom = np.broadcast_arrays(left, right, top, bottom)
     corners = [left, top, right, top, right, bottom, left, bottom]
     return list(np.stack(corners, axis=-1).reshape(-1, 4, 2))
@@ -238,6 +242,7 @@ def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.floa
 def _legend(segmentation: Segmentation) -> list[Patch]:
     """Return the largest clusters by number of primitives, in the order of their numbers."""
     counts = segmentation.repetitions()
+    # The largest clusters, shown by number.
     shown = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
     handles = [
         Patch(color=cluster_color(cluster), label=f"{cluster}  ({counts[cluster]}×)")

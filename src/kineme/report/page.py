@@ -137,6 +137,7 @@ def _name(segmentation: Segmentation) -> str:
 def _json(value: object) -> str:
     """JSON that stays inside its script element, whatever the texts in it hold."""
     text = json.dumps(json.loads(to_json(value)), separators=(",", ":"))  # which is ASCII
+    # Neither a tag nor an entity can begin in it.
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 

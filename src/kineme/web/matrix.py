@@ -48,6 +48,7 @@ def make_report_tiles(
     """
     sides = [ceil(len(features) / TILE) for features in matrix.levels]
     coarse = [level for level, side in enumerate(sides) if side <= MOST_TILES]
+    # Coarse levels in full, the coarsest first; the matrix is symmetric, so one half is enough.
     places = [
         (level, row, column)
         for level in reversed(coarse)
@@ -56,6 +57,7 @@ def make_report_tiles(
     ]
     first = len(places)
     fine = [level for level in reversed(range(len(sides))) if level not in coarse]
+    # Of fine levels all diagonals come before any tile beside a diagonal.
     for away, level in product((0, 1), fine):
         places += [(level, row, row - away) for row in range(away, sides[level])]
     tiles: dict[str, bytes] = {}
@@ -67,6 +69,7 @@ def make_report_tiles(
             break
         tiles["/".join(map(str, place))] = tile
     if len(tiles) == len(places):
+        # Every place fits: the tiles beside the diagonal reach one tile away.
         return tiles, TILE if fine else None
     return tiles, 0 if len(tiles) >= first else None
 
@@ -74,13 +77,17 @@ def make_report_tiles(
 def _encode_png(shares: Float32s) -> bytes:
     """Return a grey picture of 4 bits per pixel, from shares of white."""
     height, width = shares.shape
+    # Two pixels share a byte, so an odd row gets one more.
     shades = np.zeros((height, width + width % 2), np.uint8)
     shades[:, :width] = np.rint(15 * shares)
     rows = np.zeros((height, 1 + shades.shape[1] // 2), np.uint8)  # each begins with its filter: 0
+    # The left pixel is in the high bits.
     rows[:, 1:] = shades[:, ::2] << 4 | shades[:, 1::2]
+    # Width, height, 4 bits a pixel, grey; default compression, filter and no interlacing.
     header = struct.pack(">IIBBBBB", width, height, 4, 0, 0, 0, 0)
     chunks = [(b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes(), 6)), (b"IEND", b"")]
     return b"\x89PNG\r\n\x1a\n" + b"".join(
+        # A chunk is its length, name and data, and a checksum of the last two.
         struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
         for name, data in chunks
     )
