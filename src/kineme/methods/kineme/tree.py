@@ -148,12 +148,9 @@ def median_distance(features: Rows, width: int) -> float:
     width : int
         Samples that two are apart, at most.
     """
-    from scipy.spatial.distance import pdist
-
     at = spread(0, len(features), PAIRED)
     # Samples stand 1/PAIRED of the recording apart: of hours, neighbours must still be a pair.
-    near = pdist(at[:, None]) < max(width, 2 * len(features) // PAIRED)
-    apart = pdist(features[at])[near]
+    apart = kernels.near_distances(features, at, max(width, 2 * len(features) // PAIRED))
     middle = float(np.median(apart)) if len(apart) else 0.0
     return middle if middle > 1e-9 else 1.0
 
