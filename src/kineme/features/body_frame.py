@@ -102,8 +102,8 @@ def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats
 
 def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]:
     """Joint where the legs part, and the left and right joint where they first lie apart."""
-    left = _ancestry(skeleton, effectors.left_ankle)
-    right = _ancestry(skeleton, effectors.right_ankle)
+    left = skeleton.ancestry(effectors.left_ankle)
+    right = skeleton.ancestry(effectors.right_ankle)
     shared = sum(1 for a, b in zip(left, right, strict=False) if a == b)
     if shared == 0:
         raise MotionError("the legs hang on different roots, so there is no pelvis")
@@ -116,19 +116,11 @@ def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]
     )
 
 
-def _ancestry(skeleton: Skeleton, joint: int) -> list[int]:
-    """Return the joints from the root down to ``joint``."""
-    chain = [joint]
-    while skeleton.parents[chain[-1]] >= 0:
-        chain.append(skeleton.parents[chain[-1]])
-    return chain[::-1]
-
-
 def _at_rest(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip: int) -> Floats:
     """From the right hip to the left, in the pelvis's own frame, at rest."""
 
     def from_pelvis(joint: int) -> Floats:
-        chain = _ancestry(skeleton, joint)
+        chain = skeleton.ancestry(joint)
         return np.asarray(skeleton.offsets[chain[chain.index(pelvis) + 1 :]].sum(axis=0))
 
     return from_pelvis(left_hip) - from_pelvis(right_hip)
@@ -141,7 +133,7 @@ def _turned_axis(
     rest = _at_rest(skeleton, pelvis, left_hip, right_hip)
     axis = np.zeros(3)
     axis[np.argmax(np.abs(rest))] = np.sign(rest[np.argmax(np.abs(rest))])
-    for joint in reversed(_ancestry(skeleton, pelvis)):
+    for joint in reversed(skeleton.ancestry(pelvis)):
         axis = rot.rotate(rotations[:, joint], axis)
     return axis
 
