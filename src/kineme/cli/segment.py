@@ -17,7 +17,6 @@ from kineme.cli.options.targets import check_writable
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
-    from kineme.methods.base import Found
     from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
@@ -76,7 +75,7 @@ def segment(
         with batch.progress(path) as stage:
             stage("reading")
             recording = asked.read(path)
-            result = _segmented(recording, asked, targets, stage)
+            result = _segment_one(recording, asked, targets, stage)
         print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
@@ -84,13 +83,13 @@ def segment(
     batch.exit()
 
 
-def _segmented(
+def _segment_one(
     recording: Motion | Signals, request: Request, targets: Sequence[Path | None], stage: Stage
 ) -> Segmentation:
-    """The segments of a recording, written as table, picture and page where these are wanted."""
+    """Return the segments of a recording; write table, picture and page where these are wanted."""
     table, picture, page = targets
-    result, found = request.segment(recording, stage)
-    write_results(result, found, table, picture)
+    result = request.segment(recording, stage)
+    write_results(result, recording, request, table, picture)
     if page is not None:
         from kineme.report.page import write_report
 
@@ -99,9 +98,13 @@ def _segmented(
 
 
 def write_results(
-    result: Segmentation, found: Found, table: Path | None, picture: Path | None
+    result: Segmentation,
+    recording: Motion | Signals,
+    request: Request,
+    table: Path | None,
+    picture: Path | None,
 ) -> None:
-    """The table and the picture, where wanted."""
+    """Write the table and the picture, where wanted."""
     if table is not None:
         from kineme.labels import write_segments
 
@@ -109,7 +112,7 @@ def write_results(
     if picture is not None:
         from kineme.plot import plot_segmentation
 
-        plot_segmentation(result, found, picture)
+        plot_segmentation(result, request.drawn(recording), picture, effectors=request.effectors)
 
 
 def print_segments(
@@ -121,7 +124,7 @@ def print_segments(
     json: bool,
     quiet: bool,
 ) -> None:
-    """The segments as JSON, or as a table above the files that were written."""
+    """Print the segments as JSON, or as a table above the files that were written."""
     if json:
         from kineme.labels.json_table import as_object
 

@@ -11,13 +11,13 @@ import numpy as np
 
 from kineme._util.arrays import Masks
 from kineme._util.checks import check_flag, is_number
-from kineme.clips.loops import Carry, carry_of, loop, with_first_again
+from kineme.clips.loops import Carry, carry_of, loop, repeat_first_frame
 from kineme.clips.quality import LoopQuality, distances, loop_quality, ranks, usual_steps
 from kineme.clips.root_motion import (
     RootMotion,
+    remove_root_motion,
     root_motion,
-    straightened,
-    without_root_motion,
+    straighten,
 )
 from kineme.cycles.contacts import stands_from_positions
 from kineme.cycles.landmarks import find_feet
@@ -98,15 +98,19 @@ class ShapedClip:
     poses: Mapping[str, Mapping[str, Any]] | None = field(default=None, repr=False)
 
 
-def shaped(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterator[ShapedClip]:
-    """The segments as clips one by one, in their order; of loops those that were asked for."""
+def shape_clips(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterator[ShapedClip]:
+    """Return the segments as clips one by one, in their order.
+
+    Of loops those that were asked for.
+    """
     feet = planted_feet(motion)
     qualities = loop_qualities(motion, rows, feet) if shape.loops else {}
+    # Ranks are among all candidates of the cluster, also where only the best are written.
     places = _places(rows, qualities)
     for index, row in enumerate(rows):
         rank = places.get(index)
         if shape.best is None or (rank is not None and rank <= shape.best):
-            yield _shaped(motion, index, row, shape, feet, qualities.get(index), rank)
+            yield _shape_clip(motion, index, row, shape, feet, qualities.get(index), rank)
 
 
 @dataclass(frozen=True)
@@ -142,23 +146,26 @@ def played_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
     It is the loop that is written without further changes.
     """
     closed, carry = loop(cut(motion, row.start_frame, row.stop_frame))
-    return with_first_again(closed, carry), carry
+    return repeat_first_frame(closed, carry), carry
 
 
 def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
     """By index of the segment the quality of each loop; transitions have none."""
     body = list(motion.skeleton.body)  # a root bone that stays still would count as closed
+    # The usual steps are those of the whole recording, not of the clip.
     usual, found = usual_steps(motion.positions[:, body]), dict[int, LoopQuality]()
     for members in _candidates(rows).values():
         shapes = []
         for index in members:
             clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
-            shapes.append(without_root_motion(clip, carry_of(clip))[0].positions[:, body])
+            # In place, so that candidates with different paths can be compared.
+            shapes.append(remove_root_motion(clip, carry_of(clip))[0].positions[:, body])
         for index, unlike in zip(members, distances(shapes), strict=True):
             row = rows[index]
             clip = cut(motion, row.start_frame, row.stop_frame)
             closed, carry = loop(clip)
             of_clip = [
+                # Joints are counted within the body, and frames within the clip.
                 ([body.index(point) for point in points], mask[row.start_frame : row.stop_frame])
                 for points, mask in feet.values()
             ]
@@ -190,6 +197,7 @@ def _candidates(rows: Sequence[Segment]) -> dict[Hashable, list[int]]:
     """Indices of what can become a loop, those of a cluster or a label together."""
     groups: defaultdict[Hashable, list[int]] = defaultdict(list)
     for index, row in enumerate(rows):
+        # A loop needs two frames for a speed at the seam.
         if row.kind != "transition" and row.stop_frame - row.start_frame >= 2:
             groups[row.label if row.cluster < 0 else row.cluster].append(index)
     return groups
@@ -203,7 +211,7 @@ def _places(rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]) -> di
     return places
 
 
-def _shaped(
+def _shape_clip(
     motion: Motion,
     index: int,
     row: Segment,
@@ -215,17 +223,20 @@ def _shaped(
     clip = cut(motion, row.start_frame, row.stop_frame)
     carry = carry_of(clip)
     if quality is not None:
+        # Loops have a carry of exactly one round after blending.
         clip, carry = loop(clip)
     root = root_motion(clip, carry)
     if shape.straight:
-        clip, carry = straightened(clip, carry)
+        clip, carry = straighten(clip, carry)
+        # The path changed, and with it the root motion.
         root = root_motion(clip, carry)
     if shape.in_place:
-        clip, root = without_root_motion(clip, carry)
+        clip, root = remove_root_motion(clip, carry)
         carry = Carry(0.0, 0.0, 0.0)
+    # Before the first frame is repeated, so that `last` is the last frame of the round.
     poses = _poses(clip)
     if shape.close and quality is not None:
-        clip = with_first_again(clip, carry)
+        clip = repeat_first_frame(clip, carry)
     return ShapedClip(
         index,
         row,
@@ -251,6 +262,7 @@ def _poses(clip: Motion) -> dict[str, dict[str, Any]] | None:
     """How the clip begins and ends: head, hands and feet from the pelvis, and its height."""
     try:
         ends = end_effectors(clip)
+        # First and last frame only.
         relative = body_frame(clip, ends.indices)[[0, -1]]
     except (EndEffectorError, MotionError):
         return None

@@ -31,16 +31,16 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_texts
 from kineme.cycles.angles import (
-    about,
     bend,
-    between,
     cardan,
     continuous,
     hinge_axis,
+    measure_angle,
+    measure_turn,
     normalize,
     remove_along,
 )
-from kineme.cycles.centres import with_centres
+from kineme.cycles.centres import add_joint_centres
 from kineme.cycles.events import foot_of, stance_of
 from kineme.cycles.landmarks import landmarks
 from kineme.errors import EndEffectorError, MotionError, ParameterError
@@ -48,7 +48,7 @@ from kineme.features import body_frame, heading
 from kineme.features.feet import speed_of
 from kineme.recordings import Motion, Signals
 from kineme.recordings.joint_names import SIDES
-from kineme.recordings.kinematics import at_rest, world_rotations
+from kineme.recordings.kinematics import place_at_rest, world_rotations
 
 Compute = Callable[[], Floats]
 Add = Callable[[str, str, str, Sequence[str | int], Compute], None]
@@ -139,10 +139,15 @@ def channels_of(
     >>> [channel.name for channel in channels_of(motion, ["knee_*", "Head.up"])]
     ['knee_l', 'knee_r', 'Head.up']
     """
-    every = of_motion(recording) if isinstance(recording, Motion) else _of_signals(recording)
+    every = (
+        make_motion_channels(recording)
+        if isinstance(recording, Motion)
+        else _make_signal_channels(recording)
+    )
+    # Contacts follow, unless a channel of this name is there already.
     every += [each for each in contacts_of(recording) if each.name not in {c.name for c in every}]
     for signals in beside:
-        every += _of_signals(signals)
+        every += _make_signal_channels(signals)
     if names is None:
         usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
         return usual or [channel for channel in every if channel.group == "speed"]
@@ -162,7 +167,7 @@ def channels_of(
     return list(chosen.values())
 
 
-def _of_signals(signals: Signals) -> list[Channel]:
+def _make_signal_channels(signals: Signals) -> list[Channel]:
     columns = signals.values.T
     return [
         Channel(name, "", CHANNEL, name, signals.fps, partial(np.array, column), signals.gaps)
@@ -180,11 +185,11 @@ def contacts_of(recording: Motion | Signals) -> list[Channel]:
     ]  # fmt: skip
 
 
-def of_motion(motion: Motion) -> list[Channel]:
+def make_motion_channels(motion: Motion) -> list[Channel]:
     """Return every channel of a body: its angles first, after them rotations, positions, speeds."""
     channels: list[Channel] = []
     fps, gaps = motion.fps, motion.gaps
-    extended, parts = with_centres(motion, landmarks(motion))
+    extended, parts = add_joint_centres(motion, landmarks(motion))
     names = extended.skeleton.names
 
     def add(name: str, unit: str, group: str, of: Sequence[str | int], compute: Compute) -> None:
@@ -251,10 +256,12 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     bent = (
         ("knee", ("hip", "knee", "ankle"), 0.0),
         ("elbow", ("shoulder", "elbow", "wrist"), 0.0),
+        # 90 degrees less, so that an ankle is 0 with the foot at right angles to the shank.
         ("ankle", ("knee", "ankle", "toe"), -90.0),
     )
     for name, parts, less in bent:
         for side in SIDES:
+            # Joints that were not found are -1.
             chain = [joints.get(f"{side}_{part}", -1) for part in parts]
             thigh = joints.get(f"{side}_thigh")
             compute = partial(_bend, places, chain, less)
@@ -277,7 +284,7 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     for side, shoulder in zip(SIDES, shoulders, strict=True):
         elbow = joints.get(f"{side}_elbow")
         if elbow is not None:
-            compute = partial(_raised, places, shoulder, elbow, hips, shoulders)
+            compute = partial(_measure_arm_raise, places, shoulder, elbow, hips, shoulders)
             add(f"shoulder_{side[0]}", DEGREES, ANGLE, ["against the trunk", shoulder, elbow],
                 compute)  # fmt: skip
     for name, sideways in (("trunk_lean", False), ("trunk_side", True)):
@@ -313,23 +320,27 @@ def _bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
 def _flexion(places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[int]) -> Floats:
     """By how much a knee is bent about its axis, or that of the hips if it hardly moves."""
     hip, knee, ankle = (places[:, joint] for joint in chain)
+    # Without what lies along the leg: an axis at right angles to it.
     to_left = normalize(remove_along(places[:, hips[0]] - places[:, hips[1]], ankle - hip))
     axis = hinge_axis(hip, knee, ankle, places[:, thigh])
+    # Cosine of the fitted axis with the line of the hips, in each frame.
     alike = np.zeros(1) if axis is None else (axis * to_left).sum(axis=1)
     if axis is None or np.median(np.abs(alike)) < ALIKE:
-        return about(to_left, knee - hip, ankle - knee)
+        return measure_turn(to_left, knee - hip, ankle - knee)
     axis = axis * np.sign(alike)[:, None]  # in each frame: a thigh marker may be mistaken in some
-    return about(axis, knee - hip, ankle - knee)
+    return measure_turn(axis, knee - hip, ankle - knee)
 
 
 def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:
     """Return how far the thigh is turned forward from the pose of rest, in the pelvis's frame."""
     skeleton = motion.skeleton
     turned = world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
+    # The thigh as the pelvis sees it: rotated by the inverse of its rotation.
     thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])
-    places = at_rest(skeleton)
+    places = place_at_rest(skeleton)
     rest, to_left = places[knee] - places[hip], places[hips[0]] - places[hips[1]]
-    return -about(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
+    # A right-handed turn about the axis to the left swings a hanging thigh back, hence the minus.
+    return -measure_turn(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
 
 
 def _trunk(places: Floats, hips: Sequence[int], shoulders: Sequence[int]) -> Floats:
@@ -341,19 +352,23 @@ def _against_trunk(
     places: Floats, hip: int, knee: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
     to_left = places[:, hips[0]] - places[:, hips[1]]
-    return -about(to_left, -_trunk(places, hips, shoulders), places[:, knee] - places[:, hip])
+    return -measure_turn(
+        to_left, -_trunk(places, hips, shoulders), places[:, knee] - places[:, hip]
+    )
 
 
-def _raised(
+def _measure_arm_raise(
     places: Floats, shoulder: int, elbow: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
-    return between(places[:, elbow] - places[:, shoulder], -_trunk(places, hips, shoulders))
+    return measure_angle(places[:, elbow] - places[:, shoulder], -_trunk(places, hips, shoulders))
 
 
 def _lean(
     places: Floats, hips: Sequence[int], shoulders: Sequence[int], *, sideways: bool
 ) -> Floats:
     trunk = _trunk(places, hips, shoulders)
+    # The line of the hips, level.
     to_left = (places[:, hips[0]] - places[:, hips[1]]) * [1, 0, 1]
     up = np.broadcast_to([0.0, 1.0, 0.0], trunk.shape)
-    return about(np.cross(to_left, up) if sideways else to_left, up, trunk)
+    # Left x up is ahead: turning up about it leads to the right; about left, it leads forward.
+    return measure_turn(np.cross(to_left, up) if sideways else to_left, up, trunk)

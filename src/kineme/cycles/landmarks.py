@@ -58,6 +58,7 @@ def find_feet(motion: Motion) -> dict[str, tuple[int, ...]]:
     """Return for each foot the joints that tell whether it stands: heel or ankle, and toe."""
     joints = landmarks(motion)
     heels = {side: joints.get(f"{side}_heel", joints.get(f"{side}_ankle")) for side in SIDES}
+    # The keys of a dict are unique: a foot without a toe has its heel only once.
     return {
         side: tuple(dict.fromkeys((heel, joints.get(f"{side}_toe", heel))))
         for side, heel in heels.items()

@@ -20,8 +20,8 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_indices, check_flag, check_one_of, check_type
 from kineme._util.files import as_display_name, make_person_suffix
 from kineme._version import __version__
-from kineme.cycles.align import ALIGNMENTS, LINEAR, aligned
-from kineme.cycles.anchors import anchored
+from kineme.cycles.align import ALIGNMENTS, LINEAR, align_curves
+from kineme.cycles.anchors import anchor_repetitions
 from kineme.cycles.channels import Channel, channels_of
 from kineme.cycles.runs import Repetition, movement, repetitions
 from kineme.cycles.table import BY_HAND, INCOMPLETE, STATISTICS, Columns, Cycles
@@ -116,6 +116,7 @@ def cycles(
     check_flag(common, "common")
     check_one_of(align, ALIGNMENTS, "align")
     names = _names(given)
+    # Equal cluster numbers mean nothing across recordings, unless they are common.
     groups = [_groups(table, "" if common or len(given) == 1 else f"{name}: ")
               for table, name in zip(tables, names, strict=True)]  # fmt: skip
     measured = [channels_of(recording, channels, beside=beside) for recording in given]
@@ -124,22 +125,24 @@ def cycles(
     if anchor is not None:
         if not isinstance(anchor, str) and len(given) > 1:
             raise ParameterError("seconds of events belong to one recording: name them instead")
-        found = anchored(found, given, groups, anchor, beside)
+        found = anchor_repetitions(found, given, groups, anchor, beside)
     columns = _columns(found, tables, names, groups)
+    # Repetitions, channels, points.
     curves = np.empty((len(found), len(measured[0]), points))
     _measure([(each.recording, each.start, each.stop) for each in found], measured, columns, curves)
     cycles = Cycles(
         columns,
         tuple(channel.name for channel in measured[0]),
         tuple(channel.unit for channel in measured[0]),
-        _in_step(curves, columns, align),
+        _align_groups(curves, columns, align),
         _provenance(given, tables, measured[0], found, columns, align),
     )
-    return with_left_out(cycles, tables)
+    return drop_left_out(cycles, tables)
 
 
-def with_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
-    """The same without those that people left out, as the annotations of their tables say."""
+def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
+    """Return same without those that people left out, as the annotations of their tables say."""
+    # In the order of the rows of `cycles`: by recording, then by time.
     left_out = [
         table.annotation.excludes(row.start_frame, row.stop_frame)
         for table in tables
@@ -165,6 +168,7 @@ def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
         As if `kineme.cycles` had measured these channels, without all that finds the borders. Of
         curves in step (``align``) the first of these channels says where they are.
     """
+    # Columns of the former channels make way for those of the new ones.
     former = {f"{channel}.{name}" for channel in cycles.channels for name in STATISTICS}
     columns = {name: column for name, column in cycles.columns.items() if name not in former}
     spans = zip(columns["start_s"].tolist(), columns["stop_s"].tolist(), strict=True)
@@ -174,7 +178,7 @@ def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
         columns,
         tuple(channel.name for channel in channels),
         tuple(channel.unit for channel in channels),
-        _in_step(curves, columns, cycles.provenance.get("align", LINEAR)),
+        _align_groups(curves, columns, cycles.provenance.get("align", LINEAR)),
         {**cycles.provenance, "channels": {channel.name: channel.source for channel in channels}},
     )
 
@@ -227,7 +231,7 @@ def _check_same(measured: Sequence[Sequence[Channel]], names: Sequence[str]) -> 
 
 
 def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
-    """The names of the files without suffix, with that of the person where equal ones differ by it.
+    """Return the files' names without suffix, with the person where equal names differ by it.
 
     Numbers where there are none, or still equal ones.
     """
@@ -236,6 +240,7 @@ def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
     people = [
         each.provenance.person if len(each.provenance.people) > 1 else "" for each in recordings
     ]
+    # The person is added only where several recordings have the same file name.
     names = [
         as_display_name(path.stem) + make_person_suffix(person or "") * (counts[path.stem] > 1)
         for path, person in zip(files, people, strict=True)
@@ -261,6 +266,7 @@ def _groups(table: Segmentation, prefix: str) -> dict[int | str, str]:
             label = row.label or str(activities.label[row.activity])
             labels.setdefault(movement(row), Counter())[label] += 1
     for what, counts in labels.items():
+        # The most frequent label of a movement names all of its repetitions.
         label = counts.most_common(1)[0][0]
         unnamed = "no cluster" if what == "" else f"cluster {what}"
         found[what] = label or f"{prefix}{unnamed}"
@@ -317,6 +323,7 @@ def _measure(
 
     ``spans`` has of each cycle its recording, start and stop in seconds.
     """
+    # Values of a channel are computed for one channel at a time, so memory stays small.
     for place, channel in enumerate(measured[0]):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
         for number, of_one in enumerate(measured):
@@ -324,7 +331,7 @@ def _measure(
             values = of_one[place].values()
             for row in rows:
                 _, start, stop = spans[row]
-                curves[row, place], statistics[row] = _of_cycle(
+                curves[row, place], statistics[row] = _measure_cycle(
                     values, channel.fps if number == 0 else of_one[place].fps, start, stop,
                     curves.shape[2],
                 )  # fmt: skip
@@ -332,24 +339,28 @@ def _measure(
             columns[f"{channel.name}.{name}"] = column
 
 
-def _in_step(curves: Floats, columns: Columns, align: str) -> Floats:
+def _align_groups(curves: Floats, columns: Columns, align: str) -> Floats:
     """Return the curves, those of each group in step; where nothing is measured, as they are."""
     if curves.shape[1]:
         for group in set(columns["group"].tolist()):
             rows = columns["group"] == group
-            curves[rows] = aligned(curves[rows], align)
+            curves[rows] = align_curves(curves[rows], align)
     return curves
 
 
-def _of_cycle(
+def _measure_cycle(
     values: Floats, fps: float, start: float, stop: float, points: int
 ) -> tuple[Floats, list[float]]:
     """A curve of so many points, and the statistics; nan where something was not recorded."""
     last = len(values) - 1
+    # The last border may lie after the last frame, where nothing is recorded.
     first, end = min(start * fps, last), min(stop * fps, last)
+    # False for nan, which marks a missing border.
     if not np.isfinite([first, end]).all() or end <= first:
         return np.full(points, np.nan), [np.nan] * len(STATISTICS)
+    # Both borders and the whole frames between them: extremes are searched at these.
     at = np.concatenate([[first], np.arange(int(first) + 1, np.ceil(end)), [end]])
+    # Frames that the interpolation needs: one before the start and one after the end.
     frames = np.arange(int(first), min(int(np.ceil(end)), last) + 1)
     span = values[frames]
     cycle = np.interp(at, frames, span)
@@ -357,7 +368,9 @@ def _of_cycle(
     if not np.isfinite(span).all():
         return np.where(np.isfinite(curve), curve, np.nan), [np.nan] * len(STATISTICS)
     least, most = int(cycle.argmin()), int(cycle.argmax())
+    # Per cent of the cycle at each of these places.
     percent = 100 * (at - first) / (end - first)
+    # Trapezoids, since the first and the last interval are shorter than a frame.
     mean = float(((cycle[1:] + cycle[:-1]) / 2 * np.diff(at)).sum() / (end - first))
     return curve, [
         float(cycle[most] - cycle[least]), float(cycle[least]), float(cycle[most]),
@@ -373,6 +386,7 @@ def _provenance(
     columns: Columns,
     align: str,
 ) -> dict[str, Any]:
+    # One entry for each run: its repetitions were turned by the same share.
     moved: dict[tuple[str, int, str], float] = {}
     for each, name, group in zip(
         found, columns["recording"].tolist(), columns["group"].tolist(), strict=True

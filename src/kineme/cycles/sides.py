@@ -54,6 +54,7 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
     check_type(cycles, Cycles, "compare_sides", "kineme.cycles(recording, segments) gives them")
     check_flag(ends, "ends")
     used = cycles.used(ends=ends)
+    # The unit tells stance channels, whose mean is the share of stance.
     stances = {
         name for name, unit in zip(cycles.channels, cycles.units, strict=True) if unit == "%"
     }
@@ -67,7 +68,7 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
                     cycles.columns[f"{name}.{measure}"][rows] for name in (left, right)
                 )
                 indexed = is_stance or measure == "range"
-                compared = _compared(of_left, of_right, measure, indexed=indexed)
+                compared = _compare_values(of_left, of_right, measure, indexed=indexed)
                 lines.append((group, left, right, measure, *compared))
     names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
              "difference", "low", "high", "symmetry_index")  # fmt: skip
@@ -76,18 +77,27 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
 
 
 def sides_of(channels: tuple[str, ...]) -> list[tuple[str, str]]:
-    """The channels of left sides with those of the right; without those that have no other side."""
+    """Return the channels of left sides with those of the right.
+
+    Without those that have no other side.
+    """
     pairs = ((name, right_of(name)) for name in channels)
     return [(left, right) for left, right in pairs if right != left and right in channels]
 
 
 def right_of(name: str) -> str:
-    """The channel of the right side to one of the left; the name itself where it is of no side."""
+    """Return the channel of the right side to one of the left.
+
+    The name itself where it is of no side.
+    """
+    # The case of the word is kept; a name that has no `left` may end in `_l`.
     turned = re.sub("left", lambda found: _RIGHT.get(found[0], "right"), name, flags=re.IGNORECASE)
     return turned if turned != name else re.sub("_l$", "_r", name)
 
 
-def _compared(left: Floats, right: Floats, measure: str, *, indexed: bool) -> tuple[float, ...]:
+def _compare_values(
+    left: Floats, right: Floats, measure: str, *, indexed: bool
+) -> tuple[float, ...]:
     """Number, means, difference with bounds, symmetry index."""
     from scipy.special import stdtrit
 
@@ -95,6 +105,7 @@ def _compared(left: Floats, right: Floats, measure: str, *, indexed: bool) -> tu
     n = int(both.sum())
     if n == 0:
         return 0, *[np.nan] * 6
+    # Paired: the differences within each cycle are what is averaged.
     apart = left[both] - right[both]
     of_left, of_right = left[both].mean(), right[both].mean()
     if is_phase(measure):
@@ -103,7 +114,9 @@ def _compared(left: Floats, right: Floats, measure: str, *, indexed: bool) -> tu
     mean = apart.mean()
     half = np.nan
     if n > 1:
+        # Student's t with n - 1 degrees of freedom times the standard error of the mean difference.
         half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * apart.std(ddof=1) / np.sqrt(n)
     total = of_left + of_right
+    # Per cent of the mean of both sides: 100 / (total / 2).
     index = 200 * mean / total if indexed and total > 0 else np.nan
     return n, *(float(each) for each in (of_left, of_right, mean, mean - half, mean + half, index))

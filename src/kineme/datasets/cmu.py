@@ -106,7 +106,7 @@ def fetch_subject(
     base = f"{site.rstrip('/')}/subjects/{subject:02d}/{subject:02d}"
 
     def get(url: str) -> Fetched | None:
-        return _checked(url, home, progress, timeout_s)
+        return _check_content(url, home, progress, timeout_s)
 
     skeleton = get(f"{base}.asf")
     if skeleton is None:
@@ -127,7 +127,9 @@ def fetch_subject(
         yield text
 
 
-def _checked(url: str, folder: Path, progress: Progress | None, timeout_s: float) -> Fetched | None:
+def _check_content(
+    url: str, folder: Path, progress: Progress | None, timeout_s: float
+) -> Fetched | None:
     """Return the file of this address, once its content has been read."""
     frames: list[int | None] = []
 
@@ -175,6 +177,7 @@ def _n_frames(path: Path, folder: Path) -> int:
     for warning in caught:
         if "truncated" in str(warning.message):
             raise ReadError(path, str(warning.message).removeprefix(f"{path}, "))
+    # A shorter file of an annotated trial is not the published one.
     expected = FRAMES.get(path.stem, found)
     if found != expected:
         raise ReadError(path, f"{found} frames, while trial {path.stem} has {expected}")

@@ -30,7 +30,7 @@ def frames_right(compared: Comparison) -> Ratio:
 
 
 def one_to_one_accuracy(compared: Comparison) -> float:
-    """The share of a recording's frames that are right: over a folder recordings weigh the same.
+    """Return share of a recording's frames that are right: over a folder recordings weigh the same.
 
     A cluster stands for one class at most, so that an action split into many clusters loses.
 
@@ -99,9 +99,11 @@ def cohen_kappa(compared: Comparison) -> float:
     0.0
     """
     found, true, frames = contingency(compared.mapped, compared.truth)
+    # Places of the classes that both sides have.
     row, column = np.nonzero(found[:, None] == true)
     shares = frames / frames.sum()
     right = shares[row, column].sum()
+    # Expected agreement: the product of both sides' shares, for each class.
     by_chance = (shares.sum(axis=1)[row] * shares.sum(axis=0)[column]).sum()
     return float((right - by_chance) / (1 - by_chance)) if by_chance < 1 else 1.0
 

@@ -1,7 +1,7 @@
 """What labels say of a recording, as a truth: activities, and the repetitions in them.
 
 People who cut repetitions name them all alike, back to back, or keep them on the level
-``primitive``. Both are the same truth (`with_repetitions`): equal labels that touch each other are
+``primitive``. Both are the same truth (`add_repetitions`): equal labels that touch each other are
 one activity, and each of them is a repetition in it. A column ``count`` tells the number alone.
 """
 
@@ -19,7 +19,7 @@ from kineme.segments.table import COLUMNS, Segment, SegmentTable, kind_of
 Count = int | None
 
 
-def with_repetitions(labels: Segmentation) -> Segmentation:
+def add_repetitions(labels: Segmentation) -> Segmentation:
     """Return the same labels on both levels: activities, and as primitives the repetitions of each.
 
     Neighbours of one name are one activity. They are its repetitions where nobody says what is:
@@ -31,7 +31,7 @@ def with_repetitions(labels: Segmentation) -> Segmentation:
     --------
     >>> columns = {"level": ["activity"] * 3, "kind": ["activity"] * 3, "start_frame": [0, 30, 60],
     ...     "stop_frame": [30, 60, 90], "label": ["squat", "squat", "walk"]}
-    >>> labels = with_repetitions(Segmentation.from_columns(columns, n_frames=90, fps=30))
+    >>> labels = add_repetitions(Segmentation.from_columns(columns, n_frames=90, fps=30))
     >>> labels.cuts().tolist(), labels.provenance["labels"]["counts"]
     ([60], [2, None])
     """
@@ -41,11 +41,14 @@ def with_repetitions(labels: Segmentation) -> Segmentation:
     single = origin.get("level") == "primitive"
     groups = _groups(rows, pauses=single)
     inner = list(labels.primitives) or _repetitions(rows, groups, given, single=single)
+    # A sum is known only if each row's count is.
     counts = [_sum([given[i] for i in group if not _is_transition(rows[i])]) for group in groups]
     starts = [rows[group[0]].start_frame for group in groups]
     found = [row.start_frame for row in inner if not _is_transition(row)]
+    # How many repetitions start in each group.
     numbers = np.bincount(np.searchsorted(starts, found, "right") - 1, minlength=len(groups))
     for i, group in enumerate(groups):
+        # A count that people gave is kept.
         if all(given[row] is None for row in group) and numbers[i]:
             counts[i] = int(numbers[i])
     joined = [replace(rows[g[0]], stop_frame=rows[g[-1]].stop_frame) for g in groups]
@@ -59,10 +62,12 @@ def with_repetitions(labels: Segmentation) -> Segmentation:
 
 
 def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
-    """The activities of a segmentation as a truth at a rate; transitions are uncertain borders.
+    """Return the activities of a segmentation as a truth at a rate.
+
+    Transitions are uncertain borders.
 
     Activities are called by their labels, else by their clusters. Counts are those of the
-    provenance, and repetitions the primitives, see `with_repetitions`.
+    provenance, and repetitions the primitives, see `add_repetitions`.
     """
     rows = truth.activities
     clusters = labelling_of(rows, fps=truth.fps)
@@ -70,6 +75,7 @@ def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
         TRANSITION if _is_transition(row) else _class(row.label) or name
         for row, name in zip(rows, clusters.labels, strict=True)
     ]
+    # Numbered, so that the rows that remain at the new rate can be told.
     numbered = replace(clusters, labels=tuple(map(str, range(len(names)))))
     numbered = numbered.at(frames=n_frames, fps=fps)
     kept = [int(label) for label in numbered.labels]  # the others vanished at this rate
@@ -107,6 +113,7 @@ def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
     >>> labelling_of(found.activities, fps=found.fps).labels[:4]
     ('0', 'transition', '1', 'transition')
     """
+    # A class of its own for a row without cluster and label.
     labels = [
         TRANSITION
         if row.kind == "transition"
@@ -149,6 +156,7 @@ def _groups(rows: Sequence[Segment], *, pauses: bool) -> list[list[int]]:
         if name and groups and name == _name(rows[groups[-1][-1]]):
             groups[-1].append(i)
         elif pauses and name and len(groups) > 1 and _is_pause(*rows[i - 2 : i + 1]):
+            # The last group but one takes in the pause and this row.
             groups[-2:] = [[*groups[-2], i - 1, i]]
         else:
             groups.append([i])
@@ -168,7 +176,10 @@ def _repetitions(
     *,
     single: bool,
 ) -> list[Segment]:
-    """The level of primitives that rows of the activity level make up; empty where they do not."""
+    """Return the level of primitives that rows of the activity level make up.
+
+    Empty where they do not.
+    """
     inner: list[Segment] = []
     for group in groups:
         first, last = rows[group[0]], rows[group[-1]]
@@ -180,6 +191,7 @@ def _repetitions(
                 for i, kind in zip(group, kinds, strict=True)
             ]
         else:  # nobody says
+            # Primitives cover the whole recording, so the rest is a transition.
             inner.append(
                 Segment("primitive", "transition", first.start_frame, last.stop_frame, 0.0, 0.0)
             )

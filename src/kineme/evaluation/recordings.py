@@ -29,7 +29,7 @@ from kineme.transfer.channel_samples import ChannelSamples, channel_samples
 UNMET = "has no column like"
 """How a note on a pattern begins that no column of a recording fits, such as a mistyped one."""
 NUMBER_OF_CLASSES = "n_classes"
-"""The constant of presets that take the true number of classes."""
+"""Constant of presets that take the true number of classes."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +103,7 @@ def segment_by(
     from kineme.methods.segmenter import segment
 
     check_method(name)
+    # None as the preset's value asks for the true number of classes.
     if getattr(PRESETS[name], NUMBER_OF_CLASSES, 0) is None:
         constants = {NUMBER_OF_CLASSES: n_classes, **constants}
     return segment(recording, preset=name, **constants)
@@ -166,8 +167,12 @@ def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answe
             waiting: dict[Future[Answer], Job] = {pool.submit(_answer, job): job for job in jobs}
         for future in as_completed(waiting):
             failure = future.exception()
-            yield waiting[future], future.result() if failure is None else _failed(failure)
+            yield (
+                waiting[future],
+                future.result() if failure is None else _describe_failure(failure),
+            )
     finally:
+        # Also reached when the caller stops early.
         pool.shutdown(cancel_futures=True)  # none is left, or nobody asks any more
 
 
@@ -177,7 +182,7 @@ def _answer(job: Job) -> Answer:
             warnings.simplefilter("ignore", KinemeWarning)
             return worked_out(job)
     except (KinemeError, ValueError, ArithmeticError, MemoryError) as error:
-        return _failed(error)
+        return _describe_failure(error)
 
 
 def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
@@ -187,6 +192,7 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
         n_frames=recording.n_frames, fps=recording.fps, clock=recording.provenance.clock
     )
     classes: dict[str, int] = {}
+    # Numbers the classes as the truth has them; the comparison itself is not needed.
     compare(truth, truth, classes=classes)
     start = clock()
     found = segment_by(job.method, recording, n_classes=len(classes), **job.constants)
@@ -195,13 +201,14 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     sides = None
     if job.joins:
         samples = channel_samples(recording) if isinstance(recording, Signals) else None
+        # The hierarchy is large and is not needed for joining.
         sides = Sides(truth, replace(found, hierarchy=None), samples)
     unmet = (str(note) for note in recording.provenance.notes if note.startswith(UNMET))
     notes = (*unmet, *truth.provenance.get("notes", ()))
     return Answer(compared, sides, classes, seconds, recording.duration, notes)
 
 
-def _failed(error: BaseException) -> Answer:
+def _describe_failure(error: BaseException) -> Answer:
     text = " ".join(str(error).split())
     return Answer(
         error=text if isinstance(error, KinemeError) else f"{type(error).__name__}: {text}"

@@ -260,6 +260,7 @@ def comparison_of(
     rows = found.activities
     activities = labelling_of(rows, fps=found.fps)
     primitives = labelling_of(found.primitives, fps=found.fps) if len(found.primitives) else None
+    # Activities without clusters or labels say nothing: then primitives are compared.
     grouped = bool(np.any((rows.cluster >= 0) | (rows.label != "")))
     return Comparison.of(
         truth,
@@ -278,18 +279,19 @@ def value_of(result: Value) -> float:
     return result.value if isinstance(result, Ratio) else float(result)
 
 
-def over_all(results: Iterable[Value]) -> float:
+def pool_scores(results: Iterable[Value]) -> float:
     """One number for many recordings: of ratios the sums' ratio, of numbers the mean.
 
     Examples
     --------
-    >>> over_all([Ratio(1, 10), Ratio(9, 10)]), over_all([0.2, 0.4])
+    >>> pool_scores([Ratio(1, 10), Ratio(9, 10)]), pool_scores([0.2, 0.4])
     (0.5, 0.30000000000000004)
     """
     kept = list(results)
     ratios = [result for result in kept if isinstance(result, Ratio)]
     if ratios:
         return Ratio(sum(r.part for r in ratios), sum(r.total for r in ratios)).value
+    # A score that is not defined for a recording leaves it out.
     numbers = [value for value in map(value_of, kept) if math.isfinite(value)]
     return sum(numbers) / len(numbers) if numbers else math.nan
 

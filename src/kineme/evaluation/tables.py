@@ -39,7 +39,7 @@ def score_rows(
     groups = []
     for group, names in {**titles, "cost": COST}.items():
         rows = [
-            (title, [shown(values.get(name, math.nan)) for values in columns.values()])
+            (title, [format_score(values.get(name, math.nan)) for values in columns.values()])
             for name, title in names.items()
             if any(math.isfinite(values.get(name, math.nan)) for values in columns.values())
         ]
@@ -52,6 +52,7 @@ def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
     """Return why scores of borders and of classes disagree, or "" if they do not."""
     for values in columns.values():
         by_class = values.get("edit", math.nan)
+        # False for nan.
         if values.get("border_f1", math.nan) - by_class > DISAGREEMENT:
             return (
                 "Borders are better than classes: Edit, F1@k and shares of frames also need the "
@@ -61,7 +62,7 @@ def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
     return ""
 
 
-def shown(value: float) -> str:
+def format_score(value: float) -> str:
     """Return a score with three digits behind the point, empty for nan."""
     return f"{value:.3f}" if math.isfinite(value) else ""
 
@@ -89,6 +90,7 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
             table = csv.DictWriter(file, names, lineterminator="\n")
             table.writeheader()
             table.writerows(
+                # Texts that look like formulas are protected for spreadsheets.
                 {k: as_text(v) if isinstance(v, str) else v for k, v in record.items()}
                 for record in rows
             )

@@ -25,7 +25,7 @@ from kineme.errors import EndEffectorError
 from kineme.features.topology import find_by_shape
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.joint_names import CROWN, find_joints, find_rig_joints, has_word
-from kineme.recordings.kinematics import at_rest
+from kineme.recordings.kinematics import place_at_rest
 
 PARTS = ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist")
 Names = Mapping[str, str] | Sequence[str]
@@ -59,7 +59,7 @@ class EndEffectors:
 
     @property
     def indices(self) -> tuple[int, int, int, int, int]:
-        """The joints in the order of the features: ankles, head, wrists, left before right."""
+        """Joints in the order of the features: ankles, head, wrists, left before right."""
         return self.left_ankle, self.right_ankle, self.head, self.left_wrist, self.right_wrist
 
     def describe(self, skeleton: Skeleton) -> str:
@@ -102,6 +102,7 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     """
     check_type(source, (Motion, Skeleton), "end_effectors", "kineme.read(path) gives a motion")
     skeleton = source.skeleton if isinstance(source, Motion) else source
+    # The first source that names a part wins: the user, the rig, usual names, shape.
     rig, of_rig = find_rig_joints(skeleton.names)
     ways = [(_named(skeleton, names), "as named"), (of_rig, f"by {rig} name"),
             (_find_by_names(skeleton), "by name")]  # fmt: skip
@@ -116,6 +117,7 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
             reason=f"no {_listed(missing, 'or')} among the joints",
         )
     joints = [found[part][0] for part in PARTS]
+    # One joint that serves as two parts would count twice.
     if len(set(joints)) < len(PARTS):
         twice = next(joint for joint in joints if joints.count(joint) > 1)
         reason = f"joint {skeleton.names[twice]!r} serves as two end effectors"
@@ -177,12 +179,14 @@ def _crown(skeleton: Skeleton, head: int) -> int:
         if parent == head
         and (joint in skeleton.end_sites or has_word(skeleton.names[joint], CROWN))
     ]
+    # Of several ends the farthest one is the crown.
     return max(leaves, key=lambda j: float(np.linalg.norm(skeleton.offsets[j])), default=head)
 
 
 def _upright_pose(source: Skeleton | Motion) -> NDArray[np.float64]:
     if isinstance(source, Motion):
         heights = source.positions[:, :, 1]
+        # The frame with the largest difference in height.
         upright: NDArray[np.float64] = source.positions[np.ptp(heights, axis=1).argmax()]
         return upright
-    return at_rest(source)
+    return place_at_rest(source)

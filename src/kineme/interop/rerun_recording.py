@@ -21,7 +21,7 @@ import numpy as np
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import ParameterError
-from kineme.formats.gaps import covered
+from kineme.formats.gaps import mark_spans
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion
 from kineme.segments.colors import cluster_color
@@ -90,8 +90,9 @@ def _send_body(recording: Any, motion: Motion) -> None:
     )
     recording.log("body/joints", names, static=True)
     recording.log("body/bones", rr.LineStrips3D.from_fields(radii=BONE_RADIUS), static=True)
-    frames = np.flatnonzero(~covered(motion.gaps, motion.n_frames))
+    frames = np.flatnonzero(~mark_spans(motion.gaps, motion.n_frames))
     positions = motion.positions[frames].astype(np.float32)
+    # One flat list of points, which is parted into frames below.
     joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
     times = _times(frames, motion.fps)
     counts = np.full(len(frames), motion.skeleton.n_joints)
@@ -99,6 +100,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
     children = [j for j, parent in enumerate(motion.skeleton.parents) if parent >= 0]
     if children:
         parents = [motion.skeleton.parents[j] for j in children]
+        # Frames, bones, both ends, axes.
         ends = np.stack([positions[:, parents], positions[:, children]], axis=2)
         bones = rr.LineStrips3D.columns(strips=ends.reshape(-1, 2, 3))
         counts = np.full(len(frames), len(children))
@@ -106,7 +108,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
 
 
 def _send_lane(recording: Any, segmentation: Segmentation, level: Level) -> None:
-    """The states of one level: each segment one of its own, shown under its text."""
+    """Send the states of one level: each segment one of its own, shown under its text."""
     import rerun as rr
 
     rows = segmentation.level(level)

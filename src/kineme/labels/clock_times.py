@@ -23,13 +23,13 @@ NAMED = 4
 """Labels that a note names before it only counts."""
 
 
-def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
+def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
     """Return the labels in seconds of the recording, and notes on how they were taken.
 
     Examples
     --------
     >>> labels = Labels([Span(50, 60, "walk"), Span(100, 130, "rest"), Span(660, 700, "run")])
-    >>> found = by_clock(labels, Clock([0, 60], [0, 660]), length_s=120)
+    >>> found = convert_clock_times(labels, Clock([0, 60], [0, 660]), length_s=120)
     >>> [span[:3] for span in found.spans]
     [(50.0, 60.0, 'walk'), (60.0, 100.0, 'run')]
     >>> found.notes
@@ -39,7 +39,9 @@ def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
         return labels
     times = np.array([span[:2] for span in labels.spans], np.float64)
     seconds, remarks = _seconds(times, clock, length_s)
+    # A label may begin before the recording.
     begin, end = np.maximum(seconds[:, 0], 0.0), seconds[:, 1]
+    # Labels that run backwards are kept, so that they are refused by name later.
     backward = times[:, 1] < times[:, 0]
     meets = backward | ((begin < np.minimum(end, length_s)) & (end > 0))
     placed = [
@@ -64,7 +66,7 @@ def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
 
 
 def _seconds(times: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
-    """The seconds that starts and stops stand for, and a note unless they are the clock's own."""
+    """Return the seconds of starts and stops, and a note unless they are the clock's own."""
     candidates: tuple[tuple[Callable[[ArrayLike], Floats], tuple[str, ...]], ...] = (
         (clock.second, ()),
         (
@@ -79,5 +81,6 @@ def _seconds(times: Floats, clock: Clock, length_s: float) -> tuple[Floats, tupl
 
 def _shared_seconds(seconds: Floats, length_s: float) -> float:
     """Seconds of the recording that labels meet, to the millisecond."""
+    # The part of each label that lies in the recording.
     inside = np.clip(seconds, 0.0, length_s)
     return round(float(np.maximum(inside[:, 1] - inside[:, 0], 0.0).sum()), 3)

@@ -24,7 +24,7 @@ from typing import NamedTuple
 from kineme._util.checks import format_count
 from kineme.errors import ReadError
 from kineme.labels import csv_table
-from kineme.labels.clock_times import by_clock, lost_labels
+from kineme.labels.clock_times import convert_clock_times, lost_labels
 from kineme.labels.files import read_content, read_segments
 from kineme.labels.heads import columns
 from kineme.labels.pairs import SAME
@@ -48,7 +48,7 @@ class Extent(NamedTuple):
 
 @dataclass(frozen=True)
 class LabelSource:
-    """The file that holds the labels of a recording; its labels, where that is a table of many."""
+    """File that holds the labels of a recording; its labels, where that is a table of many."""
 
     path: Path
     labels: Labels | None = None
@@ -62,8 +62,8 @@ class LabelSource:
             name = label_format.name
         if isinstance(content, Labels):
             rate = content.fps or fps
-            timed = by_clock(content, clock, length_s=n_frames / rate)
-            labels = in_frames(timed, rate, n_frames=n_frames)
+            timed = convert_clock_times(content, clock, length_s=n_frames / rate)
+            labels = convert_to_frames(timed, rate, n_frames=n_frames)
             return as_segmentation(labels, self.path, name, fps=rate, n_frames=n_frames)[0]
         if content.n_frames != n_frames:
             raise ReadError(
@@ -93,7 +93,8 @@ def labels_and_strays(
 ) -> tuple[Mapping[Path, LabelSource], list[str]]:
     """What `labels_of` gives, and the recordings that a table names and that are not there."""
     files, home = list(recordings), Path(labels)
-    named = _in_folder(home) if home.is_dir() else _in_table(home)
+    named = _find_in_folder(home) if home.is_dir() else _find_in_table(home)
+    # Tables may name a recording with or without its suffix.
     pairs = ((path, named.get(path.name) or named.get(path.stem)) for path in files)
     found = {path: source for path, source in pairs if source is not None}
     if not found:
@@ -122,12 +123,12 @@ def labels_for(
     return source.of(n_frames=n_frames, fps=fps, clock=clock)
 
 
-def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
+def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     """Return the labels as spans of a recording's frames that neither overlap nor run backwards.
 
     Examples
     --------
-    >>> found = in_frames(Labels([Span(0, 9, "walk"), Span(4, 6, "wave")]), 10, n_frames=90)
+    >>> found = convert_to_frames(Labels([Span(0, 9, "walk"), Span(4, 6, "wave")]), 10, n_frames=90)
     >>> [span[:3] for span in found.spans]
     [(0, 40, 'walk'), (60, 90, 'walk'), (40, 60, 'wave')]
     >>> found.notes
@@ -147,11 +148,13 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     lost = [old for old, new in pairs if old.start <= old.stop and new.start >= new.stop]
     beyond = sum(old.stop * rate > n_frames + 1 for old, new in pairs if new.start < new.stop)
     before = sum(old.start * rate < -1 for old, new in pairs if new.start < new.stop)
+    # Counted from the front: spans that meet what is covered already.
     earlier: defaultdict[Level, _Covered] = defaultdict(_Covered)
     overlaps = sum(
         earlier[span.level].add(span.start, span.stop) != [(span.start, span.stop)]
         for span in forward
     )
+    # From the end of the file, so that of two that overlap the later one holds.
     later: defaultdict[Level, _Covered] = defaultdict(_Covered)
     kept: list[Span] = []
     for span in reversed(forward):
@@ -159,6 +162,7 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
         count = span.repetitions if len(free) == 1 else None  # else nobody says of which part
         kept += [
             span._replace(start=start, stop=stop, repetitions=count)
+            # The list is turned round below, and parts must come out in order.
             for start, stop in reversed(free)
         ]
     kept.reverse()
@@ -174,7 +178,11 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
 
 
 def _first_frame(time: float, n_frames: int) -> int:
-    """The first frame at or after a time in frames; the end for times beyond, however far."""
+    """Return the first frame at or after a time in frames.
+
+    The end for times beyond, however far.
+    """
+    # A frame has a label from the frame on whose time it begins: rounded up, with slack for digits.
     return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
 
@@ -187,17 +195,20 @@ class _Covered:
 
     def add(self, start: float, stop: float) -> list[tuple[float, float]]:
         """Cover a span, too; what of it was free, in order."""
+        # Covered spans that overlap or touch the new one; both lists are sorted.
         meeting = slice(bisect_left(self._stops, start), bisect_right(self._starts, stop))
         starts, stops = self._starts[meeting], self._stops[meeting]
+        # These become one span with the new one.
         self._starts[meeting], self._stops[meeting] = (
             [min([start, *starts])],
             [max([stop, *stops])],
         )
+        # Free is what lies between the covered spans, and before and after them.
         free = zip([start, *stops], [*starts, stop], strict=True)
         return [(begin, end) for begin, end in free if begin < end]
 
 
-def _in_table(path: Path) -> dict[str, LabelSource]:
+def _find_in_table(path: Path) -> dict[str, LabelSource]:
     try:
         tables = csv_table.intervals(path)
     except OSError as error:
@@ -209,11 +220,12 @@ def _in_table(path: Path) -> dict[str, LabelSource]:
     return {name: LabelSource(path, labels) for name, labels in tables.items()}
 
 
-def _in_folder(folder: Path) -> dict[str, LabelSource]:
+def _find_in_folder(folder: Path) -> dict[str, LabelSource]:
     """Return the label files by every name that a recording of theirs may have."""
     found: dict[str, LabelSource] = {}
     for path in sorted(folder.iterdir()):
         if path.is_file() and holds_labels(path):
             found.setdefault(path.stem, LabelSource(path))
+            # The part before the first dot, for names as `walk.labels.csv`.
             found.setdefault(path.name.split(".")[0], LabelSource(path))
     return found

@@ -144,6 +144,7 @@ def as_segmentation(
     if n_frames < 1:
         raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
     unusual = list(labels.notes)
+    # Spans that round to no frame.
     full = _as_long_as_a_frame(rows, n_frames)
     if len(full) < len(rows):
         unusual.append(
@@ -154,6 +155,7 @@ def as_segmentation(
     level = "activity" if any(row[0] == "activity" for row in full) else "primitive"
     if level == "primitive":
         source["level"] = level
+    # By first frame, which tells rows of a level apart.
     counts = {
         row[2]: span.repetitions
         for row, span in zip(rows, labels.spans, strict=True)
@@ -193,19 +195,20 @@ def _row(span: Span, per_unit: float, path: Path) -> Row:
 
 def _frame(value: float, per_unit: float, path: Path) -> int:
     frame = value * per_unit
+    # A start may round down to frame 0.
     if not -0.5 <= frame < TOO_FAR:
         raise ReadError(path, f"has a label at {value}, which no recording reaches")
     return math.floor(frame + 0.5)
 
 
 def _as_long_as_a_frame(rows: list[Row], n_frames: int) -> list[Row]:
-    """The rows cut off at the end of the recording, without those of which nothing is left."""
+    """Return rows cut off at the end of the recording, without those of which nothing is left."""
     inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
     return [row for row in inside if row[2] < row[3]]
 
 
 def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
-    """The rows of each level with the gaps between them filled, no gap across an activity's end."""
+    """Return the rows of each level, gaps between them filled but not across an activity's end."""
     if all(row[0] == "primitive" for row in full):
         activity: Level = "activity"
         full = [
@@ -213,13 +216,13 @@ def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
             for row in full
         ]
     inner = [row for row in full if row[0] == "primitive"]
-    tiled = list(_tiled([row for row in full if row[0] == "activity"], n_frames, [], path))
+    tiled = list(_fill_between([row for row in full if row[0] == "activity"], n_frames, [], path))
     if inner:
-        tiled += _tiled(inner, n_frames, [row[2] for row in tiled], path)
+        tiled += _fill_between(inner, n_frames, [row[2] for row in tiled], path)
     return tiled
 
 
-def _tiled(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
+def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
     """Yield the rows of one level in time order, and transitions where there are none."""
     at = 0
     level = rows[0][0] if rows else "activity"
@@ -237,6 +240,7 @@ def _tiled(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> It
 
 
 def _gap(level: Level, start: int, stop: int, borders: list[int]) -> Iterator[Row]:
+    # Borders strictly inside of the gap: a transition must not cross an activity's end.
     inside = borders[bisect_right(borders, start) : bisect_left(borders, stop)]
     for left, right in pairwise([start, *inside, stop]):
         if left < right:

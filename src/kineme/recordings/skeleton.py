@@ -1,4 +1,4 @@
-"""The joints of a body and how they hang together.
+"""Joints of a body and how they hang together.
 
 A joint sits where its rotation acts, and its offset is carried by the parent:
 
@@ -78,6 +78,7 @@ class Skeleton:
                 f"{self.offsets.shape} do not describe one skeleton"
             )
         if len(self._index) != n:
+            # In the index the last of two equal names wins, so the first differs from its place.
             twice = next(name for j, name in enumerate(self.names) if self._index[name] != j)
             raise MotionError(f"two joints are called {twice!r}: rename one of them")
         for joint, parent in enumerate(self.parents):
@@ -86,6 +87,7 @@ class Skeleton:
                     f"joint {self.names[joint]!r} (index {joint}) has parent {parent}: "
                     "parents come before their children, and a root has -1"
                 )
+        # Joints that have a child, -1, and numbers beyond the last joint cannot be end sites.
         inner = self.end_sites & ({*self.parents} | {-1} | {*self.end_sites} - {*range(n)})
         if inner:
             raise MotionError(f"end site {min(inner)} is not a leaf of the skeleton")
@@ -95,13 +97,16 @@ class Skeleton:
         return f"<Skeleton of {format_count(self.n_joints, 'joint')}{ends}>"
 
     def joint(self, name: str) -> int:
-        """The index of the joint of this name; a ParameterError names those closest to it."""
+        """Return the index of the joint of this name.
+
+        A ParameterError names those closest to it.
+        """
         try:
             return self._index[name]
         except (KeyError, TypeError):
             close = get_close_matches(str(name), self.names, n=3) or self.names[:5]
             raise ParameterError(
-                f"no joint is called {name!r}; did you mean {_listed(close)}?"
+                f"no joint is called {name!r}; did you mean {_list_names(close)}?"
             ) from None
 
     @property
@@ -141,6 +146,7 @@ class Skeleton:
         1
         """
         below, depth = [1] * self.n_joints, [0] * self.n_joints
+        # Children before parents, so the counts of a joint are complete when it is reached.
         for joint in range(self.n_joints - 1, 0, -1):
             if (parent := self.parents[joint]) >= 0:
                 below[parent] += below[joint]
@@ -149,6 +155,7 @@ class Skeleton:
         joint = max(roots, key=lambda root: below[root])
         while branches := self.children[joint]:
             limbs = [below[each] for each in branches if depth[each] >= LIMB]
+            # Two limbs with equally many joints, as two legs have.
             if len(limbs) > len(set(limbs)):
                 return joint
             joint = max(branches, key=lambda branch: below[branch])
@@ -170,5 +177,5 @@ class Skeleton:
         return {name: i for i, name in enumerate(self.names)}
 
 
-def _listed(names: Iterable[str]) -> str:
+def _list_names(names: Iterable[str]) -> str:
     return ", ".join(map(repr, names))

@@ -9,7 +9,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from kineme._util.checks import is_number
-from kineme._util.json import converted, fault_of
+from kineme._util.json import convert_json, fault_of
 from kineme.errors import ParameterError
 from kineme.segments.table import Level, SegmentTable
 
@@ -18,7 +18,7 @@ FASTEST, LONGEST = 1e9, 1e11
 
 
 class Input(TypedDict, total=False):
-    """The file that a recording was read from."""
+    """File that a recording was read from."""
 
     path: str | None
     format: str | None
@@ -26,7 +26,7 @@ class Input(TypedDict, total=False):
 
 
 class LabelFile(TypedDict, total=False):
-    """The file that labels were read from, and repetitions of each activity where it has some."""
+    """File that labels were read from, and repetitions of each activity where it has some."""
 
     path: str | None
     format: str | None
@@ -60,6 +60,7 @@ def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
         return
     if not len(rows) or rows.start_frame[0] != 0 or rows.stop_frame[-1] != n_frames:
         raise ParameterError(f"the {level} level must cover frames 0 to {n_frames}")
+    # The first of these, if any.
     for row in np.flatnonzero(rows.stop_frame[:-1] != rows.start_frame[1:])[:1].tolist():
         raise ParameterError(
             f"one {level} stops at frame {rows.stop_frame[row]}, the next starts at "
@@ -74,6 +75,7 @@ def check_parents(activities: SegmentTable, primitives: SegmentTable) -> None:
     """ParameterError where a primitive does not lie in the activity that it names."""
     if (activities.activity != np.arange(len(activities))).any():
         raise ParameterError("column 'activity' of the activity level must count 0, 1, 2, ...")
+    # The activity of each primitive: the last that begins at or before it.
     enclosing = np.searchsorted(activities.start_frame, primitives.start_frame, "right") - 1
     outside = primitives.stop_frame > activities.stop_frame[enclosing]
     if outside.any():
@@ -111,7 +113,7 @@ def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(provenance.get("input"), str):
         provenance["input"] = {"path": provenance["input"]}
     try:
-        converted(provenance, Provenance)
+        convert_json(provenance, Provenance)
     except ValueError as error:
         raise ParameterError(f"the provenance is not as kineme writes it: {error}") from error
     return provenance

@@ -91,7 +91,7 @@ class LoadedRecording:
 
         with self._lock:
             if self._page_data is None:
-                shown = without_others(self.recording)
+                shown = drop_others(self.recording)
                 self._page_data = page_data(shown, effectors=self.effectors)
             return self._page_data
 
@@ -145,6 +145,7 @@ class LoadedRecording:
         check_offered(preset, changed, signals=not self.is_motion)
         key = preset, *sorted(changed.items())
         former = self._found
+        # Another detail of the same segments needs no new run.
         if former is not None and former[0] == key and not self.changed():
             segments = former[1]
         else:
@@ -175,7 +176,7 @@ class LoadedRecording:
             return self._one_segment("activity"), [f"not segmented: {error}"]
 
     def not_segmented(self) -> Segmentation:
-        """The table while segments are being found: one transition."""
+        """Return the table while segments are being found: one transition."""
         return self._one_segment("transition")
 
     def labelled(
@@ -217,7 +218,7 @@ class LoadedRecording:
         return one_segment(kind, self.n_frames, self.fps, provenance)
 
 
-def without_others(recording: Motion | Signals) -> Motion | Signals:
+def drop_others(recording: Motion | Signals) -> Motion | Signals:
     """Return the recording without the markers of the other people in its file."""
     provenance = recording.provenance
     others = {*provenance.people} - {provenance.person}
@@ -225,8 +226,10 @@ def without_others(recording: Motion | Signals) -> Motion | Signals:
         return recording
     skeleton = recording.skeleton
     kept = [i for i, name in enumerate(skeleton.names) if name.rpartition(":")[0] not in others]
+    # New numbers of the joints that stay.
     places = {joint: place for place, joint in enumerate(kept)}
     parents = [skeleton.parents[joint] for joint in kept]
+    # A joint that hangs on one of the others cannot be parted from it.
     if len(kept) == skeleton.n_joints or not {*parents} <= {-1, *kept}:
         return recording
     names = tuple(skeleton.names[joint] for joint in kept)

@@ -52,7 +52,7 @@ def parse_line(text: str) -> list[tuple[float, float]]:
     return [(x, z) for x, z in points]
 
 
-def spaced(line: Sequence[tuple[float, float]]) -> Complex:
+def space_evenly(line: Sequence[tuple[float, float]]) -> Complex:
     """Points of the line, equally far from each other."""
     corners = np.array([complex(x, z) for x, z in line])
     lengths = np.abs(np.diff(corners))
@@ -61,6 +61,7 @@ def spaced(line: Sequence[tuple[float, float]]) -> Complex:
         raise ParameterError(
             f"the line is {total:g} m long: it must have a length from {FAR} m to 10 km"
         )
+    # Length of the line up to each corner.
     at = np.concatenate([[0], np.cumsum(lengths)])
     places = np.linspace(0, total, round(total / SPACING) + 1)
     x, z = (np.interp(places, at, part) for part in (corners.real, corners.imag))

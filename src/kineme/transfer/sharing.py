@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
-from kineme.segments.editing.rows import renumbered
+from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.channel_samples import channel_samples
 from kineme.transfer.features import transfer_features
@@ -104,7 +104,7 @@ def _numbered_on(
             if cluster not in numbers:
                 numbers[cluster] = following if base else cluster
                 following = max(following, numbers[cluster]) + 1
-        shared.append(renumbered(found, numbers))
+        shared.append(renumber_clusters(found, numbers))
         if old:
             named = _named_by_cluster(shared[-1])
             examples = KnowledgeBase.from_recording(motion, named)

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
 from kineme.recordings import Motion, Signals
-from kineme.web.drawn import of_analog, of_motion, of_signals
+from kineme.web.drawn import draw_analog, draw_motion, draw_signals
 from kineme.web.messages import Curve, CurveList
 
 Pairs = NDArray[np.float32]
@@ -32,7 +32,7 @@ MOST_IN_MEMORY = 24
 
 
 class Curves:
-    """The curves of a recording; those looked at last stay in memory.
+    """Curves of a recording; those looked at last stay in memory.
 
     ``analog`` are channels beside a motion, at a rate of their own: of each frame the least and the
     greatest value are drawn.
@@ -41,11 +41,11 @@ class Curves:
     def __init__(self, recording: Motion | Signals, analog: Signals | None = None):
         self.n_frames = recording.n_frames
         self._drawn = (
-            of_motion(recording) if isinstance(recording, Motion) else of_signals(recording)
+            draw_motion(recording) if isinstance(recording, Motion) else draw_signals(recording)
         )
         self._first_analog = len(self._drawn)
         if analog is not None:
-            self._drawn += of_analog(analog, recording.n_frames, recording.fps)
+            self._drawn += draw_analog(analog, recording.n_frames, recording.fps)
         self._recent: OrderedDict[int, list[Pairs]] = OrderedDict()
         self._lock = Lock()
 
@@ -77,13 +77,15 @@ class Curves:
                 levels = self._recent[curve] = levels_of(self._drawn[curve].with_gaps(source))
             self._recent.move_to_end(curve)
             while len(self._recent) > MOST_IN_MEMORY:
+                # Drop the curve that was looked at longest ago.
                 self._recent.popitem(last=False)
         if not 0 <= level < len(levels) or not 0 <= number * TILE < len(levels[level]):
             return None
+        # Pairs of 4-byte floats, little end first.
         return levels[level][number * TILE : (number + 1) * TILE].tobytes()
 
 
-def recorded(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Signals:
+def as_recording(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Signals:
     """Return the recording; signals where it is an array (frames, channels) of that rate."""
     if isinstance(recording, Motion | Signals):
         return recording
@@ -98,12 +100,14 @@ def curves_of(
     ``fps`` is that of an array (frames, channels). Finer levels are left out where all together
     would be longer than ``most_bytes``.
     """
-    signals = recorded(recording, fps)
+    signals = as_recording(recording, fps)
     curves, tiles = Curves(signals), dict[str, bytes]()
     head, left = curves.head(), most_bytes
+    # Coarse levels first: they cover the whole recording in little room.
     for level in reversed(range(head.levels)):
         bins = level_sizes(signals.n_frames)[level]
         places = [(c, level, n) for c in range(len(head.curves)) for n in range(ceil(bins / TILE))]
+        # Two floats of 4 bytes a bin.
         left -= 8 * bins * len(head.curves)
         if left < 0 and tiles:
             break
@@ -125,7 +129,9 @@ def levels_of(values: Floats) -> list[Pairs]:
     pairs = values if values.ndim == 2 else np.repeat(values[:, None], 2, axis=1)
     levels = [pairs.astype("<f4")]
     for size in level_sizes(len(values))[1:]:
+        # The first bin of each group; the last group may be shorter.
         at = np.arange(size) * FACTOR
+        # `fmin` and `fmax` ignore nan unless all are nan.
         least = np.fmin.reduceat(levels[-1][:, 0], at)
         greatest = np.fmax.reduceat(levels[-1][:, 1], at)
         levels.append(np.stack([least, greatest], axis=1).astype("<f4"))

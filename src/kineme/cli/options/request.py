@@ -24,7 +24,6 @@ from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.methods.base import Found
     from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
@@ -67,7 +66,7 @@ def asks(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable
     return with_options
 
 
-def of_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
+def split_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
     """Return whether all the people in a file are asked for, and how it is read otherwise."""
     if reading.get("person") != EVERYBODY:
         return False, reading
@@ -76,7 +75,7 @@ def of_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
 
 @dataclass(frozen=True)
 class Request:
-    """The options of a command, checked: how recordings are read and segmented, in what detail."""
+    """Options of a command, checked: how recordings are read and segmented, in what detail."""
 
     options: SegmentOptions
     reading: dict[str, Any]
@@ -131,7 +130,7 @@ class Request:
 
         A single one, or the one who was named, goes without a name.
         """
-        everybody, others = of_everybody(self.reading)
+        everybody, others = split_everybody(self.reading)
         if not everybody:
             return [("", self)]
         from kineme.formats import ReadOptions, people_in
@@ -147,20 +146,20 @@ class Request:
 
         return read_motion(path, **self.reading)
 
-    def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
-        """Return the segments at the detail asked for, and what was found on the way to them."""
+    def segment(self, recording: Motion | Signals, stage: Stage) -> Segmentation:
+        """Return the segments at the detail asked for."""
         from kineme.methods.segmenter import segment_with_options
 
         with announce_compilation(stage):
-            result, found = segment_with_options(recording, self.options, progress=stage)
-        return result.at_detail(self.detail), found
+            result, _ = segment_with_options(recording, self.options, progress=stage)
+        return result.at_detail(self.detail)
 
     def segments(
         self, recording: Motion | Signals, table: Path | None, stage: Stage
     ) -> Segmentation:
         """Return the segments in a table or label file; without one those that are found."""
         if table is None:
-            return self.segment(recording, stage)[0]
+            return self.segment(recording, stage)
         from kineme.labels.collections import labels_for
 
         return labels_for(

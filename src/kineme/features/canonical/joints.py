@@ -91,6 +91,7 @@ def find_limbs(
             ends.get(joint, named.get(joint, (-1,))[0]) for joint in (f"left_{end}", f"right_{end}")
         ]
         chains = [skeleton.ancestry(tip) for tip in tips]
+        # Equal joints from the root on: the limbs part below the last of these.
         shared = sum(1 for a, b in zip(*chains, strict=False) if a == b)
         for side, tip, chain in zip(SIDES, tips, chains, strict=True):
             places = (*_top_and_middle(skeleton, chain[shared:]), tip)
@@ -108,10 +109,12 @@ def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
     They are the longest pair, and the most equal one. Where the limbs part, left and right are one:
     that joint is none of them.
     """
+    # Length of the chain from where the limbs part down to each joint.
     below = np.cumsum(np.linalg.norm(skeleton.offsets[chain], axis=1))
     inner = [
         place
         for place, joint in enumerate(chain[:-1])
+        # Joints with a bone of some length above and below, unless they only turn a bone.
         if 0 < below[place] < below[place + 1] and not has_word(skeleton.names[joint], TWIST)
     ]
     if len(inner) < 2:
@@ -119,6 +122,7 @@ def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
 
     def unlikely(pair: tuple[int, int]) -> float:
         upper, lower = below[pair[1]] - below[pair[0]], below[-1] - below[pair[1]]
+        # Both terms are logarithms, so the choice does not depend on the unit of length.
         return float(abs(np.log(upper / lower)) - np.log(upper + lower))
 
     top, middle = min(combinations(inner, 2), key=unlikely)

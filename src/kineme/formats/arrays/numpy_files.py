@@ -26,7 +26,7 @@ from kineme._util.arrays import Array
 from kineme._util.files import atomic_write, shorten_error
 from kineme.formats.arrays.named_arrays import arrays_to_motion, positions_to_motion
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import FileContent, spelled
+from kineme.formats.files import FileContent, spell_names
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
@@ -59,7 +59,7 @@ def write_npz(motion: Motion, path: Path) -> None:
     arrays: dict[str, Any] = {
         "positions": motion.positions,
         "fps": motion.fps,
-        "names": np.array(spelled(path, skeleton.names, str)),
+        "names": np.array(spell_names(path, skeleton.names, str)),
         "parents": np.array(skeleton.parents),
         "offsets": skeleton.offsets,
         "end_sites": np.array(sorted(skeleton.end_sites), np.int64),
@@ -73,7 +73,9 @@ def write_npz(motion: Motion, path: Path) -> None:
 
 
 def members(content: FileContent) -> dict[str, Array]:
-    """The arrays of an npz by name; those of another kind than numbers or text are passed over.
+    """Return the arrays of an npz by name.
+
+    Those of another kind than numbers or text are passed over.
 
     ReadError where it is damaged, or claims to hold much more than it can.
     """
@@ -112,6 +114,7 @@ def _array(content: FileContent, data: bytes, name: str) -> Array:
         if len(shape) > _MOST_DIMENSIONS:
             raise content.error(f"{name} has {len(shape)} dimensions, more than any recording")
         count = int(np.prod(shape, dtype=object))
+        # The header may claim more than the file holds.
         if count < 0 or count * kind.itemsize > len(data) - file.tell():
             raise content.error(f"{name} claims shape {shape}, more than the file holds")
         if count == 0 or kind.itemsize == 0:

@@ -33,7 +33,7 @@ import numpy as np
 
 from kineme._util.checks import is_number
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.video import Person, Video, by_number, video_to_motion
+from kineme.formats.keypoints.video import Person, Video, order_by_number, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
@@ -103,6 +103,7 @@ def landmarks_to_motion(
     """
     if world is None and people:
         middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])
+        # World landmarks have the middle of the hips at 0 in each frame.
         world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
     notes = list(notes)
     if world:
@@ -124,6 +125,7 @@ def landmarks_to_motion(
                 "landmarks are shares of an image of unknown shape, taken as square: multiply x "
                 "and z by width / height, if it was not"
             )
+        # Shares of the width and height; z is in shares of the width.
         sides = np.array([width, height, width])
         people = [replace(person, points=np.asarray(person.points) * sides) for person in people]
     video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, notes=notes)
@@ -139,6 +141,7 @@ def _are_in_space(people: Sequence[Person]) -> bool:
     poses = np.array([[p.points[end] for end in ends] for p in people])
     if poses.ndim != 3 or poses.shape[2] != 3:
         return False
+    # From the middle of the ankles to the nose.
     lengths = poses[:, 0] - poses[:, 1:].mean(axis=1)
     along = np.nanmedian(lengths / np.linalg.norm(lengths, axis=1, keepdims=True), axis=0)
     return bool(along[2] > 0.7)
@@ -150,7 +153,7 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
         return [(0, data)] if _is_pose(data) else list(enumerate(data))
     if not isinstance(data, Mapping):
         return []
-    if numbered := by_number(data):
+    if numbered := order_by_number(data):
         return numbered
     for key, value in data.items():
         several = isinstance(value, list) and not _is_pose(value)
@@ -162,14 +165,14 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
 def _poses(frame: Any, *, world: bool) -> list[Any]:
     """Return the poses in a frame: lists of 33 landmarks."""
     found = frame
-    if isinstance(frame, Mapping) and not _by_name(frame):
+    if isinstance(frame, Mapping) and not _order_landmarks(frame):
         found = _first_value(frame, _WORLD if world else _IMAGE)
     elif world:
         return []
     if isinstance(found, Mapping) and "landmark" in found:
         found = found["landmark"]
     if isinstance(found, Mapping):
-        found = _by_name(found)
+        found = _order_landmarks(found)
     if not isinstance(found, list):
         return []
     if _is_pose(found):
@@ -187,7 +190,7 @@ def _is_landmark(value: Any) -> bool:
     return isinstance(value, list) and 2 <= len(value) <= 5 and not isinstance(value[0], list)
 
 
-def _by_name(frame: Mapping[str, Any]) -> list[Any]:
+def _order_landmarks(frame: Mapping[str, Any]) -> list[Any]:
     """Return the landmarks in order, from a mapping by their names; empty if it is none."""
     by_name = {plain(str(key)): landmark for key, landmark in frame.items()}
     names = [plain(name) for name in NAMES]
@@ -204,6 +207,7 @@ def _landmarks(
             fields = ("visibility", "score", "presence")
             visibility = next((landmark[key] for key in fields if key in landmark), 1.0)
         else:
+            # What is missing of z and visibility is filled in: 0 and 1.
             x, y, z, visibility = [*landmark, *(0.0, 1.0)[len(landmark) - 2 :]][:4]
         try:
             points.append([float(x), float(y), float(z or 0.0)])

@@ -78,10 +78,12 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
             "animation"
         )
     largest = max(map(len, skeletons))
+    # Small skeletons are props.
     bodies = [joints for joints in skeletons if len(joints) >= SMALLEST * largest]
     moving = [joints for joints in bodies if any(nodes[j].animated for j in joints)]
     bodies = moving or bodies
     people = dict(zip(_names(nodes, bodies), bodies, strict=True))
+    # A person may also be named by number.
     numbers = {str(number): name for number, name in enumerate(people)}
     name = person if person in people else numbers.get(person or "", person)
     shown = [f"{name} ({len(joints)} joints)" for name, joints in people.items()]
@@ -101,7 +103,10 @@ def carriers(nodes: Sequence[SceneNode], node: int) -> list[int]:
 
 
 def lively_takes(moved: Sequence[set[int]], bones: set[int]) -> list[int]:
-    """The animations that move a bone, by what each moves; anything where there are no bones."""
+    """Return the animations that move a bone, by what each moves.
+
+    Anything where there are no bones.
+    """
     return [number for number, nodes in enumerate(moved) if (nodes & bones if bones else nodes)]
 
 
@@ -113,7 +118,7 @@ def choose_take(
     Where none is wanted, it is the first of the lively ones, which move a skeleton.
     """
     if name is not None:
-        number = _numbered(names, name)
+        number = _find_take(names, name)
         if number is None:
             shown = join_names(names) or "none"
             raise content.error(f"there is no take {name!r}: choose from {shown}")
@@ -133,10 +138,11 @@ def choose_take(
     return first, [Note(remark, "warning")]
 
 
-def _numbered(names: Sequence[str], name: str) -> int | None:
-    """The number of a take, by its name, what follows the armature's in it, or its number."""
+def _find_take(names: Sequence[str], name: str) -> int | None:
+    """Return number of a take, by its name, what follows the armature's in it, or its number."""
     if name in names:
         return names.index(name)
+    # Blender writes armature and action as `armature|action`.
     short = [name.rpartition("|")[2] for name in names]
     if short.count(name) == 1:
         return short.index(name)
@@ -155,6 +161,7 @@ def bones_of(parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]
     for node, parent in enumerate(parents):
         above[node] = parent >= 0 and (above[parent] or bones[parent])
     holds_bone, bare = list(bones), list(free)
+    # Children before parents.
     for node in range(len(parents) - 1, -1, -1):
         joints[node] = bones[node] or (above[node] and (holds_bone[node] or bare[node]))
         if (parent := parents[node]) >= 0:
@@ -204,9 +211,10 @@ def _names(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
 
 
 def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
-    """The topmost nodes that are animated, or bones, and neither part of a body nor above one."""
+    """Return the topmost nodes that are animated or bones, but neither in a body nor above one."""
     body = {joint for joints in bodies for joint in joints}
     body.update(above for joints in bodies for above in carriers(nodes, joints[0]))
+    # Only the topmost node of a prop is named.
     names: list[str] = []
     props: set[int] = set()
     for number, node in enumerate(nodes):

@@ -1,4 +1,4 @@
-"""The parts of a glTF 2.0 file: its JSON, and the arrays in its buffers.
+"""Parts of a glTF 2.0 file: its JSON, and the arrays in its buffers.
 
 A GLB is a header and two chunks, JSON and bytes. A ``.gltf`` is the JSON alone, with buffers in
 base64 or in files beside it. An accessor is an array in a view of a buffer: its type says how many
@@ -22,7 +22,7 @@ from msgspec import Struct, field
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
-from kineme._util.json import decoded
+from kineme._util.json import decode_json
 from kineme.formats.files import FileContent, find_beside, load
 
 Part = TypeVar("Part")
@@ -70,7 +70,7 @@ class BufferView(Struct, rename="camel"):
 
 
 class SparsePart(Struct, rename="camel"):
-    """The rows or the values that take the place of others."""
+    """Rows or the values that take the place of others."""
 
     buffer_view: int
     byte_offset: int = 0
@@ -112,7 +112,7 @@ class SceneObject(Struct):
 
 
 class Skin(Struct):
-    """The joints that carry a mesh."""
+    """Joints that carry a mesh."""
 
     joints: list[int]
 
@@ -167,10 +167,10 @@ class GLTFFile:
         text, self._chunk = content.data, b""
         if text.startswith(MAGIC):
             text, self._chunk = _chunks(content)
-        version = str(decoded(text, content.path, Head).asset.version)
+        version = str(decode_json(text, content.path, Head).asset.version)
         if not version.startswith("2"):
             raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
-        self.tree = decoded(text, content.path, Tree)
+        self.tree = decode_json(text, content.path, Tree)
         self.beside = 0
         """Bytes of files beside it."""
         self._buffers: dict[int, bytes] = {}
@@ -197,6 +197,7 @@ class GLTFFile:
             place = accessor.buffer_view, accessor.byte_offset
             stored = self._stored_array(number, *place, shape, code)
         if (sparse := accessor.sparse) is not None:
+            # The array is a view of the file's bytes, which must not change.
             stored = stored.copy()
             kind = COMPONENTS.get(sparse.indices.component_type, "<f4")
             where, what = sparse.indices, sparse.values
@@ -210,6 +211,7 @@ class GLTFFile:
             )
         values = stored.astype(np.float64)
         if accessor.normalized and stored.dtype.kind in "iu":
+            # Normalized integers: the largest is 1, the least is cut to -1 (section 3.6.2.2).
             values = np.maximum(values / np.iinfo(stored.dtype).max, -1.0)
         if not np.isfinite(values).all():
             raise self.content.error(f"accessor {number} has values that are not finite: damaged")
@@ -224,13 +226,16 @@ class GLTFFile:
             raise self.content.error("its keys are packed by meshopt: export them unpacked")
         data = self._buffer(view.buffer)
         size, (count, width) = np.dtype(code).itemsize, shape
+        # Without a stride the elements follow each other.
         step = view.byte_stride or size * width
         start = view.byte_offset + offset
         stop = min(view.byte_offset + view.byte_length, len(data))
         if min(view.byte_offset, offset) < 0 or count < 1 or step < size:
             raise self.content.error(f"accessor {number} is nowhere in its buffer: damaged")
+        # The last element needs its size only, not a whole stride.
         if start + (count - 1) * step + size * width > stop:
             raise self.content.error(f"accessor {number} is longer than its buffer: truncated")
+        # A view with strides: interleaved attributes are read without a copy.
         return np.ndarray(shape, code, data, start, (step, size))
 
     def _buffer(self, number: int) -> bytes:
@@ -247,6 +252,7 @@ class GLTFFile:
             except (binascii.Error, ValueError):
                 raise self.content.error("a buffer is no base64: damaged") from None
         name = unquote(place)
+        # Only files in the folder of the glTF or below: others are none of its business.
         if Path(name).is_absolute() or ".." in Path(name).parts or ":" in name:
             raise self.content.error(f"has a buffer in {name!r:.60}: put that file beside it")
         data = load(find_beside(self.content, name)).data

@@ -68,7 +68,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         raise content.error("none of its segments is a 'Pelvis'")
     n, chosen = len(subject.segments), [subject.segments.index(name) for name in names]
     parents = [_parent(name, names) for name in names]
-    positions = _stacked(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
+    positions = _stack_frames(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
     if not np.isfinite(positions).all():
         raise content.error("positions are not all numbers")
     fps = options.fps or subject.rate
@@ -81,11 +81,12 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         provenance = provenance.of_person(who, called)
     if not subject.values["orientation"]:
         positions = metres(options.unit or "m") * upright(positions, options.up or "z")
+        # The frame in which the body is highest.
         tallest = positions[np.ptp(positions[:, :, 1], axis=1).argmax()]  # bones at full length
         offsets = tallest - np.where(np.array(parents)[:, None] < 0, tallest, tallest[parents])
         skeleton = Skeleton(tuple(names), tuple(parents), offsets)
         return Motion(skeleton, positions, fps, None, provenance)
-    world = _stacked(content, subject, "orientation", 4 * n).reshape(-1, n, 4)[:, chosen]
+    world = _stack_frames(content, subject, "orientation", 4 * n).reshape(-1, n, 4)[:, chosen]
     if len(positions) != len(world):
         raise content.error("some frames have orientations and others none: export all with them")
     lengths = np.linalg.norm(world, axis=2, keepdims=True)
@@ -93,11 +94,13 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         raise content.error("orientations are not all numbers")
     world = world / lengths
     local, offsets = world.copy(), np.zeros((len(names), 3))
+    # From the world's rotations to those relative to the parent.
     for joint, parent in enumerate(parents):
         if parent >= 0:
             back = rot.conjugate(world[:, parent])
             local[:, joint] = rot.multiply(back, world[:, joint])
             apart = rot.rotate(back, positions[:, joint] - positions[:, parent])
+            # Bones of a suit change a little: the median is the usual offset.
             offsets[joint] = np.median(apart, axis=0)
     return place(
         Skeleton(tuple(names), tuple(parents), offsets),
@@ -111,7 +114,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
 
 
 class _Subjects(NoEntities):
-    """The people in a file, made of its elements as they come; nothing else is kept."""
+    """People in a file, made of its elements as they come; nothing else is kept."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
@@ -158,7 +161,7 @@ def _subjects(content: FileContent) -> list[Subject]:
     return found.people
 
 
-def _stacked(content: FileContent, subject: Subject, what: str, width: int) -> Floats:
+def _stack_frames(content: FileContent, subject: Subject, what: str, width: int) -> Floats:
     frames = subject.values[what]
     if not frames:
         raise content.error(f"no frame has a {what} of segments: export it with them")
@@ -168,7 +171,10 @@ def _stacked(content: FileContent, subject: Subject, what: str, width: int) -> F
 
 
 def _parent(name: str, names: list[str]) -> int:
-    """The place of the nearest segment that is there of those that one hangs on; -1 for none."""
+    """Return the place of the nearest segment that is there of those that one hangs on.
+
+    -1 for none.
+    """
     parent = PARENTS[name]
     while parent and parent not in names:
         parent = PARENTS[parent]

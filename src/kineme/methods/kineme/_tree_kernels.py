@@ -22,6 +22,7 @@ def similarity_band(features, unit, start, stop, similarity):
         for lag in range(width):
             j = i + lag
             if j >= n:
+                # Beyond the last sample there is nothing to be similar to.
                 similarity[i, lag] = 0.0
                 continue
             square = np.float32(0.0)
@@ -29,6 +30,30 @@ def similarity_band(features, unit, start, stop, similarity):
                 difference = features[i, d] - features[j, d]
                 square += difference * difference
             similarity[i, lag] = one - np.sqrt(square) * units
+
+
+@njit("float64[::1](float32[:, ::1], int64[::1], int64)", **OPTIONS)
+def near_distances(features, chosen, width):
+    """Distances of the chosen samples, ascending, of which two are less than `width` apart."""
+    count = 0
+    for i in range(len(chosen)):
+        for j in range(i + 1, len(chosen)):
+            if chosen[j] - chosen[i] >= width:
+                break
+            count += 1
+    found = np.empty(count)
+    at = 0
+    for i in range(len(chosen)):
+        for j in range(i + 1, len(chosen)):
+            if chosen[j] - chosen[i] >= width:
+                break
+            square = 0.0
+            for d in range(features.shape[1]):
+                difference = np.float64(features[chosen[i], d]) - features[chosen[j], d]
+                square += difference * difference
+            found[at] = np.sqrt(square)
+            at += 1
+    return found
 
 
 @njit("int64[::1](float32[:, ::1], float64)", **OPTIONS)
@@ -94,10 +119,11 @@ def mean_distances(features, chosen, borders, start, stop, means):
 
 @njit("float64(float64[:, ::1], float64[::1], int64, int64, float64)", **OPTIONS)
 def _distance(sums, lengths, g, h, spread_share):
-    """The mean distance of two clusters, less a share of the mean distance within them.
+    """Return the mean distance of two clusters, less a share of the mean distance within them.
 
     ``sums`` are summed distances of the samples of each two clusters, ``lengths`` their numbers.
     """
+    # `sums[g, g]` has all n² ordered pairs, those of a sample with itself included.
     within = sums[g, g] / lengths[g] ** 2 + sums[h, h] / lengths[h] ** 2
     return sums[g, h] / (lengths[g] * lengths[h]) - spread_share * within / 2
 
@@ -107,8 +133,9 @@ def _distance(sums, lengths, g, h, spread_share):
     **OPTIONS,
 )
 def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
-    """The cluster whose distance to cluster g is least, and that distance."""
+    """Return the cluster whose distance to cluster g is least, and that distance."""
     apart[g] = np.inf
+    # A cluster is alive if it is named after itself.
     for h in range(len(lengths)):
         if h != g and owner[h] == h:
             distance = _distance(sums, lengths, g, h, spread_share)
@@ -122,7 +149,7 @@ def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
     **OPTIONS,
 )
 def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share, labels):
-    """The least cost of a grouping of segments; `labels` gets the grouping.
+    """Return the least cost of a grouping of segments; `labels` gets the grouping.
 
     The two clusters that are nearest are joined, again and again: by their mean distance,
     less `spread_share` of the mean of the distances within them. A grouping costs half the
@@ -145,6 +172,7 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_sh
             for g in range(k):
                 if owner[g] == g:
                     cost += sums[g, g] / (2 * lengths[g])
+                # Neighbours of one cluster are one segment.
                 if g == 0 or owner[g] != owner[g - 1]:
                     cost += segment_cost
             if cost < cheapest:
@@ -156,9 +184,11 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_sh
         # Join the two nearest clusters: h becomes part of g.
         g = int(np.argmin(apart))
         h = nearest[g]
+        # The smaller number stays the owner.
         if h < g:
             g, h = h, g
         lengths[g] += lengths[h]
+        # Never the nearest any more: h is a part of g.
         apart[h] = np.inf
         for other in range(k):
             sums[g, other] += sums[h, other]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from kineme.methods.base import Columns
 from kineme.methods.doubts import doubts
 from kineme.methods.kineme import tree
-from kineme.methods.kineme.borders import in_samples
+from kineme.methods.kineme.borders import convert_to_samples
 from kineme.methods.kineme.confidence import Confidence, Evidence, confidence
 from kineme.methods.kineme.primitives import Segments
 from kineme.methods.levels import DETAILS, FineSegments, clusters_at, tables_at
@@ -21,7 +21,6 @@ from kineme.methods.segments import make_columns
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
-    from kineme.methods.region_growing.neighbors import NeighborGraph
 
 Frames = NDArray[np.int64]
 
@@ -110,24 +109,17 @@ class KinemeFound:
     def _fine_segments(self) -> tuple[FineSegments, Frames]:
         """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
         n, per_sample = len(self.features), self.preset.working_fps / self.preset.rate
-        coarse = in_samples(self.borders, self.preset, n)
+        coarse = convert_to_samples(self.borders, self.preset, n)
         nearest = np.rint(self.fine[:-1] / per_sample).astype(np.int64)
         fine = np.unique(np.append(np.minimum(nearest, n - 1), n))
-        found = tree.levels(fine, tree.between_segments(self.features, fine, self.unit))
+        found = tree.levels(fine, tree.sum_between_segments(self.features, fine, self.unit))
         most = min(len(found), EACH * len(coarse), max(MOST, len(coarse)))
         borders = np.unique(np.concatenate([coarse, fine[found[most - 1]]]))
         frames = np.rint(borders * per_sample).astype(np.int64)
         frames[np.searchsorted(borders, coarse)] = self.borders
         parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
-        sums = tree.between_segments(self.features, borders, self.unit) / 2
+        sums = tree.sum_between_segments(self.features, borders, self.unit) / 2
         return FineSegments(borders, np.arange(len(parents)), parents, sums), frames
-
-    @cached_property
-    def graph(self) -> NeighborGraph:
-        """Neighbours of every sample, for pictures: within half the median distance."""
-        from kineme.methods.region_growing.neighbors import neighbor_graph
-
-        return neighbor_graph(self.features, radius=0.5 * self.unit, k=PICTURED)
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
         """Return a sentence for each cluster, count or border of low confidence, at most five.

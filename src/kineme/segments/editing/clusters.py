@@ -8,25 +8,25 @@ from typing import get_args
 
 from kineme.errors import ParameterError
 from kineme.segments.editing.naming import (
-    changed,
+    change_columns,
     members_of,
     names_by_cluster,
-    with_cluster_names,
+    set_cluster_names,
 )
 from kineme.segments.editing.rows import (
     as_movement,
     as_transition,
-    joined,
-    renumbered,
+    join_rows,
+    renumber_clusters,
+    replace_rows,
     starting,
-    with_rows,
 )
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
 
 
 def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: int) -> Segmentation:
-    """The segment that starts at ``frame`` is in a cluster, and so no transition; -1: in none.
+    """Put the segment that starts at ``frame`` into a cluster, as no transition; -1: into none.
 
     The primitives of an activity that were in its cluster go with it. Who was called by
     the old cluster's name is called by the new one's.
@@ -57,6 +57,7 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     >>> again.activities[-1].label, again.repetitions()[3]
     ('jump', 8)
     """
+    # Numbers have no holes: only the next new one may be named.
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
     if not -1 <= cluster <= following:
         raise ParameterError(f"there is no cluster {cluster}; the next new one is {following}")
@@ -65,15 +66,16 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     if level == "activity":
         inside = segmentation.primitives.select(segmentation.primitives.activity == chosen.activity)
         members += [("primitive", row) for row in inside if row.cluster == chosen.cluster]
+    # Members that have their own name keep it, those called by their cluster's do not.
     moved = _moved_to(segmentation, members, cluster)
     become = as_transition if cluster < 0 and chosen.kind == "transition" else as_movement
     places = {(row.level, row.start_frame) for _, row in members}
     rows = [become(row) if (row.level, row.start_frame) in places else row for row in moved]
-    return with_rows(moved, rows, [])
+    return replace_rows(moved, rows, [])
 
 
 def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segmentation:
-    """The segments of one cluster are in another, and called by its name where it has one.
+    """Move the segments of a cluster into another, with its name where it has one.
 
     Parameters
     ----------
@@ -109,7 +111,7 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
 
 
 def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int]) -> Segmentation:
-    """The primitives of a cluster that start at ``frames`` are in a new cluster of their own.
+    """Move the primitives of a cluster that start at ``frames`` into a new cluster.
 
     So is an activity all of whose primitives of that cluster go.
 
@@ -146,6 +148,7 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
             f"{len(leavers)} of {len(members)} segments of cluster {cluster} are chosen: "
             "choose some of them, not all"
         )
+    # An activity moves only if none of its primitives of the cluster stays.
     staying = {row.activity for row in members if row.start_frame not in chosen}
     leaving = {row.activity for row in leavers} - staying
     moved: list[tuple[Level, Segment]] = [(row.level, row) for row in leavers]
@@ -190,7 +193,7 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
     new = {cluster: number for number, cluster in enumerate(order)}
     names = names_by_cluster(segmentation)
     renamed = {new[cluster]: name for cluster, name in names.items()}
-    return with_cluster_names(renumbered(segmentation, new), renamed)
+    return set_cluster_names(renumber_clusters(segmentation, new), renamed)
 
 
 def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -> Segmentation:
@@ -233,15 +236,16 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     activities, primitives = list(segmentation.activities), list(segmentation.primitives)
     if level == "primitive":
         primitives = [become(row) if row.start_frame == frame else row for row in primitives]
-        return with_rows(segmentation, activities, primitives)
+        return replace_rows(segmentation, activities, primitives)
     inside = [i for i, row in enumerate(primitives) if row.activity == chosen.activity]
     if inside and kind == "transition":
-        primitives = joined(primitives, inside[0], inside[-1], inside[0])
+        # Its primitives become one, which is a transition.
+        primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
         inside = inside[:1]
     for i in inside:
         primitives[i] = become(primitives[i])
     activities = [become(row) if row.start_frame == frame else row for row in activities]
-    return with_rows(segmentation, activities, primitives)
+    return replace_rows(segmentation, activities, primitives)
 
 
 def _moved_to(
@@ -252,6 +256,7 @@ def _moved_to(
     """Return the members in another cluster, called by its name unless they have their own."""
     names = names_by_cluster(segmentation)
     moved = segmentation
+    # First those called by the cluster's name, then those with a name of their own.
     for inherits in (True, False):
         some = [
             (level, row)
@@ -260,5 +265,6 @@ def _moved_to(
         ]
         label = {"label": names.get(cluster, "")} if inherits else {}
         if some:
-            moved = changed(moved, some, cluster=cluster, confidence=math.nan, **label)
-    return with_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)
+            moved = change_columns(moved, some, cluster=cluster, confidence=math.nan, **label)
+    # A cluster that was nameless is said to be, so that labels of members do not name it.
+    return set_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)

@@ -14,7 +14,7 @@ from dataclasses import replace
 from typing import Any
 
 from kineme.errors import ParameterError
-from kineme.segments.editing.rows import starting, with_columns
+from kineme.segments.editing.rows import replace_columns, starting
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -51,8 +51,9 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     """
     row, names = starting(segmentation, level, frame), names_by_cluster(segmentation)
     label = label or names.get(row.cluster, "")
-    named = changed(segmentation, [(level, row)], label=label)
-    return named if row.cluster < 0 else with_cluster_names(named, {row.cluster: ""} | names)
+    named = change_columns(segmentation, [(level, row)], label=label)
+    # The cluster is said to have no name unless it has: one label must not name it.
+    return named if row.cluster < 0 else set_cluster_names(named, {row.cluster: ""} | names)
 
 
 def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmentation:
@@ -90,7 +91,9 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
         for row in members_of(segmentation, cluster)
         if row.label in ("", names.get(cluster, ""))
     ]
-    return with_cluster_names(changed(segmentation, called, label=label), names | {cluster: label})
+    return set_cluster_names(
+        change_columns(segmentation, called, label=label), names | {cluster: label}
+    )
 
 
 def cluster_names(segmentation: Segmentation) -> dict[int, str]:
@@ -115,8 +118,8 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
     return {cluster: name for cluster, name in names_by_cluster(segmentation).items() if name}
 
 
-def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
-    """The same segments, whose clusters have these names and no others; labels stay as they are.
+def set_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
+    """Give the clusters these names and no others; labels stay as they are.
 
     The name of a cluster is empty if it has none, whatever its segments are called.
     """
@@ -130,7 +133,9 @@ def names_by_cluster(segmentation: Segmentation) -> dict[int, str]:
     """Return the names of clusters by number; empty for those that are said to have none."""
     clusters, labels = segmentation.table.cluster.tolist(), segmentation.table.label.tolist()
     sizes = Counter(clusters)
+    # How often each label occurs in each cluster.
     called = Counter(zip(clusters, labels, strict=True)).items()
+    # Names that people gave count more than those of most segments.
     names = {
         cluster: label for (cluster, label), count in called if label and 2 * count > sizes[cluster]
     } | segmentation.annotation.cluster_names
@@ -143,7 +148,7 @@ def members_of(segmentation: Segmentation, cluster: int) -> list[Segment]:
     return [*table.select(table.cluster == cluster)] if cluster >= 0 else []
 
 
-def changed(
+def change_columns(
     segmentation: Segmentation, members: Sequence[tuple[Level, Segment]], **columns: object
 ) -> Segmentation:
     """Return the members with other values in these columns."""
@@ -153,7 +158,8 @@ def changed(
     rows = [i for i, place in enumerate(places) if place in chosen]
     values: dict[str, Any] = table.columns()
     for name, value in columns.items():
+        # Lists, since texts in a fixed-width array would be cut.
         values[name] = values[name].tolist()
         for row in rows:
             values[name][row] = value
-    return with_columns(segmentation, values)
+    return replace_columns(segmentation, values)
