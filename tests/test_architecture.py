@@ -97,7 +97,7 @@ ROOMS = {
     ),
     "web": Room(
         "sources of the pages, the built pages, and what they are told",
-        "cycles features formats labels recordings segments",
+        "cycles features labels recordings segments",
     ),
     "report": Room(
         "one page of HTML that shows a recording, or compares two sessions",

@@ -18,7 +18,6 @@ import kineme
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read_motion
 from kineme.formats.arrays.amass import smpl_skeleton
-from kineme.formats.marker_sets import TABLE, find_body, plain
 
 JOINTS = ["pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head", "left_wrist"]
 JOINTS += ["right_wrist", "nose"]
@@ -391,35 +390,6 @@ def test_positions_round_trip(suffix: str, fps: float, frames: int) -> None:
     assert again.fps == fps
     assert again.skeleton.names == motion.skeleton.names
     assert np.abs(again.positions - motion.positions).max() < 1e-8
-
-
-@pytest.mark.parametrize(
-    ("names", "found"),
-    [
-        (["LANK", "L_Ankle", "ankle.L", "AnkleLeft"], ["LANK", "LANKLE", "LANKLE", "LANKLE"]),
-        (["R.Wrist.Med", "r_wrist_med", "ASISr"], ["RWRISTMED", "RWRISTMED", "RASIS"]),
-        (
-            ["V.Sacral", "Top.Head", "T10", "WaistLFront"],
-            ["VSACRAL", "TOPHEAD", "T10"] + ["LWAISTFRONT"],
-        ),
-    ],
-)
-def test_plain_names(names: list[str], found: list[str]) -> None:
-    assert [plain(name) for name in names] == found
-
-
-def test_left_and_right_are_made_of_the_same_markers() -> None:
-    usable = [i for i, name in enumerate(PLUG_IN_GAIT) if name != "LWRB"]
-    made = find_body(PLUG_IN_GAIT, usable)
-    assert [PLUG_IN_GAIT[i] for i in made["left_wrist"]] == ["LWRA"]
-    assert [PLUG_IN_GAIT[i] for i in made["right_wrist"]] == ["RWRA"]
-
-
-def test_each_line_of_the_marker_table_can_be_reached() -> None:
-    for lines in TABLE.values():
-        for i, line in enumerate(lines):
-            wanted = set(line.split())
-            assert not any(set(before.split()) <= wanted for before in lines[:i]), line
 
 
 @pytest.mark.parametrize("name", ["subject01_walk.trc", "markers.trc"])

@@ -20,7 +20,7 @@ from kineme.clips.root_motion import (
     straighten,
 )
 from kineme.cycles.contacts import stands_from_positions
-from kineme.cycles.landmarks import SIDES, landmarks
+from kineme.cycles.landmarks import find_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import PARTS, body_frame, end_effectors
 from kineme.recordings import Motion
@@ -183,13 +183,8 @@ def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[
 
 def planted_feet(motion: Motion) -> Feet:
     """When each foot is planted, in frames; nothing where no foot is found."""
-    joints, feet = landmarks(motion), dict[str, tuple[tuple[int, ...], Masks]]()
-    for side in SIDES:
-        heel = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
-        if heel is None:
-            continue
-        # The keys of a dict are unique: a foot without a toe has its heel only once.
-        points = tuple(dict.fromkeys([heel, joints.get(f"{side}_toe", heel)]))
+    feet: dict[str, tuple[tuple[int, ...], Masks]] = {}
+    for side, points in find_feet(motion).items():
         stands = stands_from_positions([motion.positions[:, j] for j in points], motion.fps)
         mask = np.zeros(motion.n_frames, bool)
         for start, stop in np.rint(stands * motion.fps).astype(int).tolist():

@@ -15,24 +15,23 @@ knee that is not bent in the recording has no such point.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme.cycles.angles import normalize, remove_along
-from kineme.cycles.landmarks import SIDES
-from kineme.features.naming import part_and_side
 from kineme.recordings import Motion, Skeleton
+from kineme.recordings.joint_names import SIDES, find_joints, simplify_name
 
 LEAST = 3
 """Markers of a rigid body."""
-FRONT, BACK = ("asis", "asi", "ias", "fwt"), ("psis", "psi", "ips", "bwt")
-SACRUM = ("vsacral", "sacr", "sacral")
-"""Names of markers on the pelvis."""
-HIP, ANKLE = ("hjc",), ("ank", "ankleout", "anklelat", "lmal", "fal", "lm")
-"""Names of centres of hips in a file, and of markers at the outer side of an ankle."""
+MARKERS = (
+    *(("*_hip_centre",), ("*_outer_ankle",)),
+    *(("*_waist_front",), ("*_waist_back",), ("sacrum",)),
+)
+"""Markers and centres from which those of hips and knees are made, as in `joint_names`."""
 DEPTH, WIDTH_DOWN, WIDTH_OUT = (-0.24, -0.0099), (-0.30, -0.0109), (0.33, 0.0073)
 """How far ahead, up and to its side a hip is of the middle of the front: factor, and metres."""
 PULL = 0.05
@@ -56,13 +55,15 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     joints : mapping of str to int
         As `kineme.cycles.landmarks` has them.
     """
-    names = [part_and_side(name) for name in motion.skeleton.names]
+    names = [simplify_name(name.rpartition(":")[2]) for name in motion.skeleton.names]
+    found = find_joints(motion.skeleton.names, MARKERS, exact=True, single=True)
+    marker = {joint: points[0] for joint, points in found.items()}
     places = motion.positions
     made: dict[str, Floats] = {}
     # A skeleton with rotations has its joints at their centres; only markers need this.
     if motion.rotations is not None:
         return motion, dict(joints)
-    centres = _hips(places, names)
+    centres = _hips(places, marker)
     # Without pelvis markers, joints that are named hips serve.
     hips = centres or {
         side: places[:, joints[f"{side}_hip"]] for side in SIDES if f"{side}_hip" in joints
@@ -74,16 +75,17 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     # From here per side: which ankle marker and which knee belong together.
     for side in SIDES:
         ankle = joints.get(f"{side}_ankle")
-        bodies = [[j for j, (part, of) in enumerate(names) if of == side and part.startswith(word)]
-                  for word in ("thigh", "shank")]  # fmt: skip
+        letter = side[0].upper()
+        bodies = [[j for j, name in enumerate(names) if name.startswith(letter + word)]
+                  for word in ("THIGH", "SHANK")]  # fmt: skip
         if f"{side}_knee" in joints:
             # Only with markers on the skin: knee and ankle are then both at the outer side.
-            marker = _first(names, ANKLE, side) if centres else -1
-            chosen |= {f"{side}_ankle": marker} if marker >= 0 else {}
+            outer = marker.get(f"{side}_outer_ankle") if centres else None
+            chosen |= {} if outer is None else {f"{side}_ankle": outer}
         elif ankle is not None and min(map(len, bodies)) >= LEAST:
             ends = hips[side], places[:, ankle]
-            found = _knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
-            made |= {} if found is None else {f"{side}_knee": found}
+            knee = _knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
+            made |= {} if knee is None else {f"{side}_knee": knee}
     if not made and not centres:
         return motion, chosen
     # Computed hips are added after the knees; `n + place` below relies on this order.
@@ -101,8 +103,11 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     for side in SIDES:
         if f"{side}_knee" in chosen:
             hip, knee = (positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
-            markers = [j for j, (part, of) in enumerate(names)
-                       if of == side and "thi" in part and j not in chosen.values()]  # fmt: skip
+            markers = [
+                j
+                for j, name in enumerate(names)
+                if name[:1] == side[0].upper() and "THI" in name[1:] and j not in chosen.values()
+            ]
             # Vectors from the line through hip and knee to each marker.
             aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
             far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
@@ -112,17 +117,17 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     return replace(motion, skeleton=extended, positions=positions), chosen
 
 
-def _hips(places: Floats, names: Sequence[tuple[str, str]]) -> dict[str, Floats]:
+def _hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
     """Both centres, from the file or the markers of the pelvis; none where these are not there."""
-    given = [_first(names, HIP, side) for side in SIDES]
+    given, fronts, backs = (
+        [marker.get(f"{side}_{part}", -1) for side in SIDES]
+        for part in ("hip_centre", "waist_front", "waist_back")
+    )
     if min(given) >= 0:
         return {side: places[:, j] for side, j in zip(SIDES, given, strict=True)}
-    fronts = [_first(names, FRONT, side) for side in SIDES]
-    backs = [_first(names, BACK, side) for side in SIDES]
-    sacrum = _first(names, SACRUM, "")
     # A marker on the sacrum replaces the two at the back.
     if min(backs) < 0:
-        backs = [sacrum]
+        backs = [marker.get("sacrum", -1)]
     if min(fronts + backs) < 0:
         return {}
     front, back = places[:, fronts].mean(axis=1), places[:, backs].mean(axis=1)
@@ -137,10 +142,6 @@ def _hips(places: Floats, names: Sequence[tuple[str, str]]) -> dict[str, Floats]
     middle = middle + (WIDTH_DOWN[0] * width + WIDTH_DOWN[1]) * up
     aside = (WIDTH_OUT[0] * width + WIDTH_OUT[1]) * left
     return {"left": middle + aside, "right": middle - aside}
-
-
-def _first(names: Sequence[tuple[str, str]], words: Sequence[str], side: str) -> int:
-    return next((names.index((word, side)) for word in words if (word, side) in names), -1)
 
 
 def _knee(

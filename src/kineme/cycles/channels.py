@@ -42,12 +42,13 @@ from kineme.cycles.angles import (
 )
 from kineme.cycles.centres import add_joint_centres
 from kineme.cycles.events import foot_of, stance_of
-from kineme.cycles.landmarks import SIDES, landmarks
+from kineme.cycles.landmarks import landmarks
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import body_frame, heading
 from kineme.features.feet import speed_of
-from kineme.recordings import Motion, Signals, Skeleton
-from kineme.recordings.kinematics import world_rotations
+from kineme.recordings import Motion, Signals
+from kineme.recordings.joint_names import SIDES
+from kineme.recordings.kinematics import place_at_rest, world_rotations
 
 Compute = Callable[[], Floats]
 Add = Callable[[str, str, str, Sequence[str | int], Compute], None]
@@ -336,18 +337,10 @@ def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) ->
     turned = world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
     # The thigh as the pelvis sees it: rotated by the inverse of its rotation.
     thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])
-    rest = _measure_rest(skeleton, knee) - _measure_rest(skeleton, hip)
-    to_left = _measure_rest(skeleton, hips[0]) - _measure_rest(skeleton, hips[1])
+    places = place_at_rest(skeleton)
+    rest, to_left = places[knee] - places[hip], places[hips[0]] - places[hips[1]]
     # A right-handed turn about the axis to the left swings a hanging thigh back, hence the minus.
     return -measure_turn(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
-
-
-def _measure_rest(skeleton: Skeleton, joint: int) -> Floats:
-    place = np.zeros(3)
-    while joint >= 0:
-        place = place + skeleton.offsets[joint]
-        joint = skeleton.parents[joint]
-    return place
 
 
 def _trunk(places: Floats, hips: Sequence[int], shoulders: Sequence[int]) -> Floats:

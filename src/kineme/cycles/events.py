@@ -7,7 +7,6 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -21,10 +20,12 @@ from kineme.cycles.contacts import (
     stands_from_positions,
     swings_from_gyroscope,
 )
-from kineme.cycles.landmarks import SIDES, landmarks
+from kineme.cycles.landmarks import find_feet
 from kineme.cycles.table import Columns
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Motion, Signals
+from kineme.recordings.coordinates import COORDINATE
+from kineme.recordings.joint_names import GYROSCOPE, SIDES, has_word, mentions
 from kineme.segments.segmentation import Segmentation
 
 STRIKE, OFF = "foot strike", "foot off"
@@ -34,11 +35,6 @@ STANCE, ASYMMETRY = (40.0, 85.0), 50.0
 """Per cent of a stride, and of the mean of both feet, that a walk stays within."""
 NAMED = 20
 """Channels that a message names before it only counts."""
-_FOOT = {"left": ("lf", "leftfoot", "footleft", "lfoot", "footl"),
-         "right": ("rf", "rightfoot", "footright", "rfoot", "footr")}  # fmt: skip
-_SHANK = {"left": ("ls", "leftshank", "shankleft", "lshank", "shankl"),
-          "right": ("rs", "rightshank", "shankright", "rshank", "shankr")}  # fmt: skip
-_GYROSCOPE = ("gyr", "gyro", "gyroscope", "omega", "angularvelocity")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -228,14 +224,7 @@ def _of_body(motion: Motion, side: str, pattern: str | None) -> Found | None:
 
 
 def _points(motion: Motion, side: str) -> list[str]:
-    """Return the joints that tell whether a foot stands: heel and toe, or the ankle; or none."""
-    joints = landmarks(motion)
-    heel = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
-    if heel is None:
-        return []
-    # The keys of a dict are unique: a foot without a toe has its heel only once.
-    chosen = dict.fromkeys([heel, joints.get(f"{side}_toe", heel)])
-    return [motion.skeleton.names[joint] for joint in chosen]
+    return [motion.skeleton.names[joint] for joint in find_feet(motion).get(side, ())]
 
 
 def _stands(motion: Motion, points: Sequence[str]) -> Floats:
@@ -320,24 +309,17 @@ def _channels(names: Sequence[str], side: str, pattern: str | None) -> list[str]
                 f"{join_names(names, NAMED)}: three axes of a gyroscope are needed, or one force"
             )
         return chosen
-    for words in (_FOOT[side], _SHANK[side]):
-        chosen = [name for name in names if _is_gyroscope(name, words)]
+    for place in ("*_foot_sensor", "*_shank_sensor"):
+        chosen = [name for name in names if _is_gyroscope(name, place, side)]
         if len(chosen) == 3:
             return chosen
     return None
 
 
-def _is_gyroscope(name: str, places: Sequence[str]) -> bool:
-    """Return whether a name is an axis of a gyroscope at one of these places, as ``lf_gyr_x``."""
-    # Words of a name in camel case or with separators; capitals in a row are one word.
-    words = [word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)]
-    # Neighbouring words are also tried together: `left_foot` is `leftfoot`.
-    joined = {a + b for a, b in pairwise(words)} | set(words)
-    return (
-        words[-1:] in (["x"], ["y"], ["z"])
-        and bool(joined.intersection(places))
-        and bool(joined.intersection(_GYROSCOPE))
-    )
+def _is_gyroscope(name: str, place: str, side: str) -> bool:
+    """Return whether a name is an axis of a gyroscope at this place, as ``lf_gyr_x``."""
+    is_axis = COORDINATE.fullmatch(name) is not None
+    return is_axis and has_word(name, GYROSCOPE) and mentions(name, place, side=side)
 
 
 def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
@@ -467,18 +449,15 @@ def _strides(events: Events, side: str, recording: Motion | Signals | None) -> C
         # Two steps per stride, 60 seconds per minute.
         "cadence_per_min": 120 / stride,
     }
-    if isinstance(recording, Motion):
-        joints = landmarks(recording)
-        foot = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
-        if foot is not None:
-            frames = np.clip(np.rint(np.stack([start, stop]) * recording.fps), 0,
-                             recording.n_frames - 1).astype(np.intp)  # fmt: skip
-            # (2, strides, 3): the foot at both strikes.
-            ends = recording.positions[frames, foot]
-            ground = ground_velocity(_paths(recording, _points(recording, side)), recording.fps)
-            # On a treadmill the belt carried the foot back meanwhile.
-            walked = (ends[1] - ends[0]) - stride[:, None] * ground
-            # Axes 0 and 2 are level.
-            found["stride_m"] = np.linalg.norm(walked[:, [0, 2]], axis=1)
-            found["speed_m_per_s"] = found["stride_m"] / stride
+    if isinstance(recording, Motion) and (foot := find_feet(recording).get(side)):
+        frames = np.clip(np.rint(np.stack([start, stop]) * recording.fps), 0,
+                         recording.n_frames - 1).astype(np.intp)  # fmt: skip
+        # (2, strides, 3): the foot at both strikes.
+        ends = recording.positions[frames, foot[0]]
+        ground = ground_velocity(_paths(recording, _points(recording, side)), recording.fps)
+        # On a treadmill the belt carried the foot back meanwhile.
+        walked = (ends[1] - ends[0]) - stride[:, None] * ground
+        # Axes 0 and 2 are level.
+        found["stride_m"] = np.linalg.norm(walked[:, [0, 2]], axis=1)
+        found["speed_m_per_s"] = found["stride_m"] / stride
     return found

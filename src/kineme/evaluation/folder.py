@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from kineme._version import __version__
-from kineme.errors import EndEffectorError
+from kineme.errors import MotionError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
 from kineme.evaluation.recordings import Answer, Job, Reading, Sides, answers_to, check_method
 from kineme.evaluation.score import Ratio, pool_scores, results_of, scores, value_of
@@ -263,7 +263,7 @@ def _check_one_kind(
     motions = [motion for job in jobs if isinstance(motion := job.reading.read(job.path), Motion)]
     try:
         return share_clusters(motions, segmentations)
-    except EndEffectorError:  # no body whose movements could be compared
+    except MotionError:  # no body whose movements could be compared
         return _all_apart(segmentations)
 
 

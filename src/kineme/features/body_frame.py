@@ -105,8 +105,8 @@ def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats
 
 def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]:
     """Joint where the legs part, and the left and right joint where they first lie apart."""
-    left = _ancestry(skeleton, effectors.left_ankle)
-    right = _ancestry(skeleton, effectors.right_ankle)
+    left = skeleton.ancestry(effectors.left_ankle)
+    right = skeleton.ancestry(effectors.right_ankle)
     # Both chains begin at the root and are equal down to the joint where the legs part.
     shared = sum(1 for a, b in zip(left, right, strict=False) if a == b)
     if shared == 0:
@@ -121,19 +121,11 @@ def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]
     )
 
 
-def _ancestry(skeleton: Skeleton, joint: int) -> list[int]:
-    """Return the joints from the root down to ``joint``."""
-    chain = [joint]
-    while skeleton.parents[chain[-1]] >= 0:
-        chain.append(skeleton.parents[chain[-1]])
-    return chain[::-1]
-
-
 def _at_rest(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip: int) -> Floats:
     """From the right hip to the left, in the pelvis's own frame, at rest."""
 
     def from_pelvis(joint: int) -> Floats:
-        chain = _ancestry(skeleton, joint)
+        chain = skeleton.ancestry(joint)
         # Offsets below the pelvis only: they are in the pelvis's own axes at rest.
         return np.asarray(skeleton.offsets[chain[chain.index(pelvis) + 1 :]].sum(axis=0))
 
@@ -149,7 +141,7 @@ def _turned_axis(
     # The coordinate axis nearest to the line of the hips, with its sign.
     axis[np.argmax(np.abs(rest))] = np.sign(rest[np.argmax(np.abs(rest))])
     # Local rotations from the pelvis up to the root bring the axis into the world.
-    for joint in reversed(_ancestry(skeleton, pelvis)):
+    for joint in reversed(skeleton.ancestry(pelvis)):
         axis = rot.rotate(rotations[:, joint], axis)
     return axis
 

@@ -4,8 +4,7 @@ Section 3.1 of Voegele, Krueger and Klein (2014) describes a pose by five points
 that move most: both feet, the head and both hands. They are found
 
 1. where the user says they are;
-2. by the usual names (CMU and HDM05 ASF, cgspeed, Mixamo, HumanIK, Perception
-   Neuron, SMPL, Xsens, Rokoko, Biped, Unreal, Kinect, ...), see ``naming``;
+2. by the usual names, see `kineme.recordings.joint_names`;
 3. by the shape of the skeleton, see ``topology``.
 
 For the names of CMU's ASF files the points are those of the authors' program:
@@ -21,20 +20,19 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.checks import check_type, is_one_of
+from kineme._util.checks import check_type, is_one_of, join_names
 from kineme.errors import EndEffectorError
-from kineme.features.naming import find_by_name, words_of
 from kineme.features.topology import find_by_shape
 from kineme.recordings import Motion, Skeleton
+from kineme.recordings.joint_names import CROWN, find_joints, find_rig_joints, has_word
+from kineme.recordings.kinematics import place_at_rest
 
 PARTS = ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist")
 Names = Mapping[str, str] | Sequence[str]
 
-# Joint at the tip of each of the bones that the authors' program follows.
-_ASF_TIPS = dict(zip(PARTS, ("lfoot", "rfoot", "head_end", "lhand", "rhand"), strict=True))
-_ASF_BONES = frozenset({"ltibia", "rtibia", "head", "lradius", "lwrist", "rwrist"})
-_WORDS = {"ankle": ("ankle", "foot"), "head": ("head",), "wrist": ("wrist", "hand")}
-_CROWN = frozenset({"end", "top", "tip", "nub", "crown", "site"})
+SHOWN = 60
+"""Joints that a message names before it only counts."""
+_NAMED = (("*_ankle", "*_foot"), ("head",), ("*_wrist", "*_hand"))
 
 
 @dataclass(frozen=True)
@@ -104,16 +102,17 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     """
     check_type(source, (Motion, Skeleton), "end_effectors", "kineme.read(path) gives a motion")
     skeleton = source.skeleton if isinstance(source, Motion) else source
-    # The first source that names a part wins: the user, ASF names, usual names, shape.
-    found = {part: (joint, "as named") for part, joint in _named(skeleton, names).items()}
-    _add(found, _find_by_asf_names(skeleton), "by ASF name")
-    _add(found, _find_by_names(skeleton), "by name")
-    if len(found) < len(PARTS):
-        _add(found, find_by_shape(skeleton.parents, _upright_pose(source)), "by shape")
+    # The first source that names a part wins: the user, the rig, usual names, shape.
+    rig, of_rig = find_rig_joints(skeleton.names)
+    ways = [(_named(skeleton, names), "as named"), (of_rig, f"by {rig} name"),
+            (_find_by_names(skeleton), "by name")]  # fmt: skip
+    if len({part for joints, _ in ways for part in joints}) < len(PARTS):
+        ways.append((find_by_shape(skeleton.parents, _upright_pose(source)), "by shape"))
+    found = {part: (at, how) for joints, how in reversed(ways) for part, at in joints.items()}
     missing = [part.replace("_", " ") for part in PARTS if part not in found]
     if missing:
         raise EndEffectorError(
-            f"{_listed(missing)} not found among the joints {_joint_list(skeleton)}; "
+            f"{_listed(missing)} not found among the joints {join_names(skeleton.names, SHOWN)}; "
             + remedy(skeleton),
             reason=f"no {_listed(missing, 'or')} among the joints",
         )
@@ -144,22 +143,13 @@ def _listed(words: list[str], last: str = "and") -> str:
     return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
-def _add(found: dict[str, tuple[int, str]], more: Mapping[str, int], how: str) -> None:
-    for part, joint in more.items():
-        found.setdefault(part, (joint, how))
-
-
-def _are_five(names: object) -> bool:
-    if isinstance(names, str) or not isinstance(names, Collection):
-        return False
-    return len(names) == len(PARTS)
-
-
 def _named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
     if names is None:
         return {}
     if not isinstance(names, Mapping):
-        if not _are_five(names):
+        given: object = names
+        is_list = isinstance(given, Collection) and not isinstance(given, str)
+        if not is_list or len(names) != len(PARTS):
             raise EndEffectorError(
                 f"five joint names are needed ({', '.join(PARTS)}), not {names!r}"
             )
@@ -169,26 +159,16 @@ def _named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
             raise EndEffectorError(f"no part is called {part!r}; there are {', '.join(PARTS)}")
         if not is_one_of(name, skeleton.names):
             raise EndEffectorError(
-                f"no joint is called {name!r} (given for {part}); there are {_joint_list(skeleton)}"
+                f"no joint is called {name!r} (given for {part}); there are "
+                + join_names(skeleton.names, SHOWN)
             )
     return {part: skeleton.names.index(name) for part, name in names.items()}
 
 
-def _find_by_asf_names(skeleton: Skeleton) -> dict[str, int]:
-    names = skeleton.names
-    if not _ASF_BONES.issubset(names):
-        return {}
-    return {part: names.index(tip) for part, tip in _ASF_TIPS.items() if tip in names}
-
-
 def _find_by_names(skeleton: Skeleton) -> dict[str, int]:
-    found = {}
-    for part in PARTS:
-        side, _, kind = part.rpartition("_")
-        joint = find_by_name(skeleton.names, _WORDS[kind], side or None)
-        if joint is not None:
-            found[part] = _crown(skeleton, joint) if kind == "head" else joint
-    return found
+    named = find_joints(skeleton.names, _NAMED, single=True)
+    found = {part: points[0] for part, points in named.items()}
+    return found | {"head": _crown(skeleton, found["head"])} if "head" in found else found
 
 
 def _crown(skeleton: Skeleton, head: int) -> int:
@@ -197,7 +177,7 @@ def _crown(skeleton: Skeleton, head: int) -> int:
         joint
         for joint, parent in enumerate(skeleton.parents)
         if parent == head
-        and (joint in skeleton.end_sites or _CROWN.intersection(words_of(skeleton.names[joint])))
+        and (joint in skeleton.end_sites or has_word(skeleton.names[joint], CROWN))
     ]
     # Of several ends the farthest one is the crown.
     return max(leaves, key=lambda j: float(np.linalg.norm(skeleton.offsets[j])), default=head)
@@ -209,15 +189,4 @@ def _upright_pose(source: Skeleton | Motion) -> NDArray[np.float64]:
         # The frame with the largest difference in height.
         upright: NDArray[np.float64] = source.positions[np.ptp(heights, axis=1).argmax()]
         return upright
-    pose = source.offsets.copy()
-    # Parents come before children, so each is placed already.
-    for joint, parent in enumerate(source.parents):
-        if parent >= 0:
-            pose[joint] += pose[parent]
-    return pose
-
-
-def _joint_list(skeleton: Skeleton, most: int = 60) -> str:
-    shown = ", ".join(skeleton.names[:most])
-    hidden = len(skeleton.names) - most
-    return shown if hidden <= 0 else f"{shown} and {hidden} more"
+    return place_at_rest(source)

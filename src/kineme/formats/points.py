@@ -1,7 +1,7 @@
 """From named points over time (markers, keypoints, joint positions) to a motion.
 
 The motion has no rotations. Its skeleton is the small tree of
-`kineme.formats.marker_sets` (pelvis, hips, ankles, head, wrists), as far as the
+`kineme.recordings.joint_names` (pelvis, hips, ankles, head, wrists), as far as the
 points tell where these are, with all points as children of the pelvis; points
 that make up no pelvis with hips each stand alone. Offsets are those of the
 frame in which the body stands highest.
@@ -24,11 +24,11 @@ from kineme._util.checks import format_count, join_names
 from kineme.errors import ReadError
 from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, fill_gaps, mark_spans
-from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
 from kineme.formats.persons import chosen_person
 from kineme.formats.plausibility import doubt_rigid, drop_implausible
 from kineme.formats.units import scale_of, up_axis, upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
+from kineme.recordings.joint_names import PARENTS, find_body
 
 Body = dict[str, tuple[int, ...]]
 Spans = tuple[tuple[int, int], ...]
@@ -83,7 +83,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     """
     path = provenance.path or "recording"
     given = [name.strip() or "point" for name in points.names]
-    names, subjects = of_one_subject(given, points.person)
+    names, subjects = split_subjects(given, points.person)
     names = unique(names)
     if len(subjects) > 1:
         subject = _subjects_note(path, subjects, points.person)
@@ -120,8 +120,34 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     positions *= scale
     skeleton, positions = _tree(names, upright(positions, up), body, kept, is_visible)
     if "pelvis" in body:
-        notes.append(f"{BODY}: {described(body, names)}")
+        notes.append(f"{BODY}: {describe_body(body, names)}")
     return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)
+
+
+def split_subjects(names: Sequence[str], person: str | None = None) -> tuple[list[str], list[str]]:
+    """Return the names without the subject's, and the subjects whose points make up a pelvis.
+
+    ``Ann:LANK`` becomes ``LANK`` for that person of those subjects, else the first, or where
+    all names begin with the same one; points of others keep their full names.
+    """
+    points: dict[str, list[int]] = {}
+    for i, name in enumerate(names):
+        points.setdefault(name.rpartition(":")[0], []).append(i)
+    short = [name.rpartition(":")[2] for name in names]
+    subjects = [who for who, members in points.items() if "pelvis" in find_body(short, members)]
+    chosen = names[0].rpartition(":")[0] if len(points) == 1 else ""
+    if subjects:
+        chosen = person if person in subjects else subjects[0]
+    members = set(points.get(chosen, ()))
+    return [short[i] if i in members else name for i, name in enumerate(names)], subjects
+
+
+def describe_body(body: Body, names: Sequence[str]) -> str:
+    """Return one line for people: ``left ankle from LANK, ...``."""
+    return ", ".join(
+        f"{joint.replace('_', ' ')} from {' '.join(names[i] for i in made_of)}"
+        for joint, made_of in body.items()
+    )
 
 
 def _subjects_note(path: str, subjects: list[str], person: str | None) -> Note:

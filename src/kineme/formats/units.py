@@ -17,6 +17,7 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.recordings import Note, Skeleton
+from kineme.recordings.joint_names import mentions
 from kineme.recordings.kinematics import place_at_rest
 
 Body = Mapping[str, tuple[int, ...]]
@@ -59,8 +60,6 @@ METRIC = ("m", "cm", "mm")
 """Units of markers and of most files."""
 
 _METRES = re.compile("(centi|milli)?met(?:er|re)s?")
-_HEAD = re.compile("head", re.IGNORECASE)
-_FOOT = re.compile("foot|feet|toe|ankle", re.IGNORECASE)
 _HEIGHT = 1.7  # metres, given to a body measured in pixels
 
 
@@ -253,8 +252,8 @@ def lying_axis(skeleton: Skeleton, positions: Floats) -> str | None:
 def ends_of_body(skeleton: Skeleton) -> tuple[list[int], list[int]]:
     """Return the joints of feet and head by their names."""
     feet, head = (
-        [i for i, name in enumerate(skeleton.names) if pattern.search(name)]
-        for pattern in (_FOOT, _HEAD)
+        [i for i, name in enumerate(skeleton.names) if mentions(name, *parts)]
+        for parts in (("*_ankle", "*_foot", "*_toe"), ("head",))
     )
     return feet, head
 

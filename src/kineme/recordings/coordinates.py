@@ -11,6 +11,8 @@ import re
 from collections.abc import Iterable, Iterator
 from itertools import islice
 
+from kineme.recordings.joint_names import SENSOR
+
 COORDINATE = re.compile(
     r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:(?:[\s_]*[\[(]|[\s_]+)(m|cm|mm|px)[\])]?)?"
 )
@@ -18,11 +20,6 @@ COORDINATE = re.compile(
 
 _WORD = re.compile(r"[A-Z]?[a-z]+\d*|[A-Z]+\d*(?![a-z])|\d+")
 _MOST_WORDS = 8
-_SENSOR = re.compile(
-    r"acc(el\w*)?|gyr(o\w*)?|mag(net\w*)?|imu|emg|grf|forces?|moments?|torques?|cop|gravity|"
-    r"angular|angles?|rot(ation)?|euler|attitude|velocity|vel|quat(ernion)?|orient(ation)?|[agwm]",
-    re.IGNORECASE,
-)
 
 
 def axes_by_point(columns: Iterable[str]) -> dict[str, dict[str, str]]:
@@ -55,7 +52,7 @@ def is_body(name: str) -> bool:
     (True, False)
     """
     joint = name.rpartition(":")[2]
-    return not any(_SENSOR.fullmatch(word) for word in _WORD.findall(joint))
+    return not any(SENSOR.fullmatch(word) for word in _WORD.findall(joint))
 
 
 def beginnings(name: str) -> Iterator[str]:

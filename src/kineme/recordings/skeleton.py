@@ -122,6 +122,14 @@ class Skeleton:
                 lists[parent].append(joint)
         return tuple(map(tuple, lists))
 
+    def ancestry(self, joint: int) -> list[int]:
+        """Return the joints from the root down to ``joint``; none for -1."""
+        chain = []
+        while joint >= 0:
+            chain.append(joint)
+            joint = self.parents[joint]
+        return chain[::-1]
+
     @cached_property
     def carrier(self) -> int:
         """Return the joint that carries the body: the hips, also where root bones lie above them.

@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme.errors import MotionError
 from kineme.features import PARTS, Names, end_effectors, heading
-from kineme.formats.marker_sets import PARENTS
 from kineme.recordings import Motion
+from kineme.recordings.joint_names import PARENTS
 from kineme.web.messages import MotionHead
 
 RATE = 30.0  # poses per second: what a page plays without visible steps

@@ -1,23 +1,23 @@
-"""Which points of any body are its hips, knees, ankles, shoulders, elbows, wrists and head.
+"""Find hips, knees, ankles, shoulders, elbows, wrists and head of any body.
 
 Ankles, wrists and head are found as everywhere (see `kineme.features.effectors`). The joints
 between come from the skeleton, where it has limbs. A leg goes from the pelvis to an ankle, an arm
 from where the arms part to a wrist. In each, the longest and most equal pair of bones begins at hip
 and knee, or at shoulder and elbow. Markers and keypoints, which hang on nothing, are found by their
-usual names.
+usual names (see `kineme.recordings.joint_names`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from itertools import combinations
 
 import numpy as np
 
 from kineme.errors import MotionError
-from kineme.features.effectors import Names, end_effectors
-from kineme.features.naming import part_and_side, words_of
+from kineme.features.effectors import PARTS, Names, end_effectors
 from kineme.recordings import Motion, Skeleton
+from kineme.recordings.joint_names import SIDES, TWIST, find_joints, has_word
 from kineme.recordings.motion import check_motion
 
 Points = tuple[int, ...]
@@ -27,15 +27,16 @@ JOINTS = (
     *("left_shoulder", "left_elbow", "left_wrist"),
     *("right_shoulder", "right_elbow", "right_wrist", "head"),
 )
-
-# Markers and keypoints without their side, the preferred ones first; a joint is their middle.
-_MARKERS = {
-    "hip": ("hip", "hjc"),
-    "knee": ("knee", "kjc", "kneelat kneemed", "kneeout kneein", "fle fme", "kne", "kneeout"),
-    "shoulder": ("shoulder", "sjc", "sho", "shouldertop", "acromion", "acromium", "acr"),
-    "elbow": ("elbow", "ejc", "elbowlat elbowmed", "elbowout elbowin", "hle hme", "elb"),
-}
-_TWISTS = frozenset({"twist", "roll"})
+LIMBS = (("hip", "knee", "ankle"), ("shoulder", "elbow", "wrist"))
+"""Top, middle and end of a leg and of an arm."""
+_NAMED = (
+    ("*_hip", "*_hip_centre", "*_thigh"),
+    ("*_knee", "*_shank"),
+    ("*_ankle", "*_foot"),
+    ("*_shoulder", "*_upper_arm"),
+    ("*_elbow", "*_forearm"),
+    ("*_wrist", "*_hand"),
+)
 
 
 def canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[str, Points]:
@@ -62,52 +63,51 @@ def canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[
     """
     check_motion(motion, "canonical_joints")
     ends = end_effectors(motion, names=effectors)
-    skeleton = motion.skeleton
-    legs = _limbs(skeleton, ends.left_ankle, ends.right_ankle)
-    arms = _limbs(skeleton, ends.left_wrist, ends.right_wrist)
-    limbs = {
-        **_named(("hip", "knee", "ankle"), legs),
-        **_named(("shoulder", "elbow", "wrist"), arms),
-        "head": (ends.head,),
-    }
-    named_points = _named_points(skeleton.names)
-    found = {joint: limbs.get(joint) or named_points.get(joint) for joint in JOINTS}
-    for side in ("left", "right"):
-        if not found[f"{side}_hip"]:
+    found = find_limbs(motion.skeleton, dict(zip(PARTS, ends.indices, strict=True)))
+    found["head"] = (ends.head,)
+    for side in SIDES:
+        if f"{side}_hip" not in found:
             raise MotionError(f"the {side} leg has no hip: nothing joins it to a pelvis")
-    return {joint: points for joint, points in found.items() if points}
+    return {joint: found[joint] for joint in JOINTS if joint in found}
 
 
-def _named(parts: tuple[str, str, str], limbs: Sequence[Sequence[int]]) -> dict[str, Points]:
-    """Return the joints of a left and a right limb by name; a limb may lack what comes first."""
-    return {
-        f"{side}_{part}": (joint,)
-        for side, limb in zip(("left", "right"), limbs, strict=True)
-        for part, joint in zip(parts, limb, strict=True)
-        if joint >= 0
-    }
+def find_limbs(
+    skeleton: Skeleton, ends: Mapping[str, int], *, single: bool = False
+) -> dict[str, Points]:
+    """Return the joints of arms and legs; those that are not found are left out.
 
-
-def _limbs(skeleton: Skeleton, left: int, right: int) -> list[tuple[int, int, int]]:
-    """Top, middle and end of both limbs; -1 where the skeleton has no such joint."""
-    chains = [_ancestry(skeleton, end) for end in (left, right)]
-    # Equal joints from the root on: the limbs part below the last of these.
-    shared = sum(1 for a, b in zip(*chains, strict=False) if a == b)
-    return [(*_top_and_middle(skeleton, chain[shared:]), chain[-1]) for chain in chains]
-
-
-def _ancestry(skeleton: Skeleton, joint: int) -> list[int]:
-    """Return the joints from the root down to ``joint``."""
-    chain = [joint]
-    while skeleton.parents[chain[-1]] >= 0:
-        chain.append(skeleton.parents[chain[-1]])
-    return chain[::-1]
+    Parameters
+    ----------
+    skeleton : Skeleton
+    ends : mapping of str to int
+        The ankles and wrists; those that are not there are looked for by name.
+    single : bool
+        Return one point for each joint, and none that is the middle of several.
+    """
+    named = find_joints(skeleton.names, _NAMED, single=single)
+    found: dict[str, Points] = {}
+    for top, middle, end in LIMBS:
+        tips = [
+            ends.get(joint, named.get(joint, (-1,))[0]) for joint in (f"left_{end}", f"right_{end}")
+        ]
+        chains = [skeleton.ancestry(tip) for tip in tips]
+        # Equal joints from the root on: the limbs part below the last of these.
+        shared = sum(1 for a, b in zip(*chains, strict=False) if a == b)
+        for side, tip, chain in zip(SIDES, tips, chains, strict=True):
+            places = (*_top_and_middle(skeleton, chain[shared:]), tip)
+            for part, place in zip((top, middle, end), places, strict=True):
+                joint = f"{side}_{part}"
+                points = (place,) if place >= 0 else named.get(joint)
+                if points:
+                    found[joint] = points
+    return found
 
 
 def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
-    """Where the two long bones of a chain begin: the longest pair, and the most equal one.
+    """Return where the two long bones of a chain begin, -1 where it has no such joint.
 
-    Not where the limbs part: there left and right are one.
+    They are the longest pair, and the most equal one. Where the limbs part, left and right are one:
+    that joint is none of them.
     """
     # Length of the chain from where the limbs part down to each joint.
     below = np.cumsum(np.linalg.norm(skeleton.offsets[chain], axis=1))
@@ -115,8 +115,7 @@ def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
         place
         for place, joint in enumerate(chain[:-1])
         # Joints with a bone of some length above and below, unless they only turn a bone.
-        if 0 < below[place] < below[place + 1]
-        and not _TWISTS.intersection(words_of(skeleton.names[joint]))
+        if 0 < below[place] < below[place + 1] and not has_word(skeleton.names[joint], TWIST)
     ]
     if len(inner) < 2:
         return (chain[inner[0]] if inner else -1), -1
@@ -128,21 +127,3 @@ def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
 
     top, middle = min(combinations(inner, 2), key=unlikely)
     return chain[top], chain[middle]
-
-
-def _named_points(names: Sequence[str]) -> dict[str, Points]:
-    """Joints of the limbs that are markers or keypoints, by their names."""
-    at: dict[tuple[str, str], int] = {}
-    for point, name in enumerate(names):
-        # The first point of a name is kept; later ones of the same name are duplicates.
-        at.setdefault(part_and_side(name), point)
-    found: dict[str, Points] = {}
-    for part, choices in _MARKERS.items():
-        for side in ("left", "right"):
-            for choice in choices:
-                keys = [(word, side) for word in choice.split()]
-                if all(key in at for key in keys):
-                    # `setdefault` keeps the preferred choice; a choice of two words is the middle
-                    # of both markers.
-                    found.setdefault(f"{side}_{part}", tuple(at[key] for key in keys))
-    return found

@@ -25,13 +25,13 @@ import re
 from kineme.errors import ReadError
 from kineme.formats.channels.reading import ChannelTable, asked_for, columns_read, to_signals
 from kineme.formats.files import FileContent, unique
-from kineme.formats.marker_sets import is_nameless
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
 from kineme.formats.units import AXES, unit_named
 from kineme.recordings import Motion, Signals
+from kineme.recordings.joint_names import is_nameless
 
 _MODELLED = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
 _EMG = re.compile(r"emg|electromyo\w*|myo", re.IGNORECASE)

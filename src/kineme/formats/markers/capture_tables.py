@@ -29,11 +29,11 @@ from kineme._util.checks import format_count
 from kineme.formats.delimited import DelimitedText, cells_of, is_number, separator_of
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
-from kineme.formats.marker_sets import is_nameless
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.units import unit_named
 from kineme.recordings import Motion
+from kineme.recordings.joint_names import is_nameless
 
 CHAPTERS = ("trajectories", "devices", "model outputs", "joints", "segments", "events")
 """First lines of Nexus's tables, in lower case."""
