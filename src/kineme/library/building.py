@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,7 @@ from kineme.library.edits import read_edits
 from kineme.library.executors import Executor, Progress, connected, processes
 from kineme.library.gathering import gather
 from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, opened, plan_of
-from kineme.library.settings import VOCABULARY, Settings
+from kineme.library.settings import Settings
 from kineme.library.sources import listed, names_of
 from kineme.library.storage.analyses import KEY_LENGTH, has_analysis, is_analysis
 from kineme.library.storage.index import write_index
@@ -32,8 +32,9 @@ from kineme.library.storage.layout import (
     writer_lock,
 )
 from kineme.library.storage.places import lies_in, place, reaching
+from kineme.library.storage.removed import read_removed, write_removed
 from kineme.library.storage.tables import is_table, is_tables, read_table, write_tables
-from kineme.library.vocabulary.numbering import read_removed, removed_after, write_removed
+from kineme.transfer.clusters import CONSTANTS
 
 Head = Mapping[str, Any]
 """What ``library.json`` says; nothing where there is none yet."""
@@ -167,7 +168,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
     with writer_lock(plan.folder, "build", LOCK_EDITS):
-        tables = _written(plan, head, before, entries, failed, executor, progress)
+        tables = _written(plan, head, before, entries, failed, progress)
     _clean(plan.folder, {key for _, _, key in entries}, tables)
     return Built(
         plan.folder,
@@ -206,7 +207,6 @@ def _written(
     before: Former,
     entries: Sequence[Entry],
     failed: Mapping[Path, str],
-    executor: Executor,
     progress: Progress,
 ) -> str:
     """The name of the tables of these recordings, which the head of the library tells now."""
@@ -216,11 +216,11 @@ def _written(
         "settings": plan.settings.to_json(),
         "sources": [str(source) for source in plan.sources],
         "recursive": plan.recursive,
-        "vocabulary": dict(VOCABULARY.parameters()),
+        "clustering": asdict(CONSTANTS),
         "failed": {str(path): reason for path, reason in sorted(failed.items())},
     }
     same = {path: (name, key) for name, path, key in entries} == before
-    if same and all(head.get(name) == content[name] for name in ("kineme", "vocabulary")):
+    if same and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         following, tables = head["following"], head["tables"]
     else:
         from kineme.library.compiling import activities_in, compiled
@@ -233,11 +233,11 @@ def _written(
             name: removed[key] for name, _, key in entries if key in removed and name not in former
         }
         made, following = compiled(
-            plan.folder, entries, {**returned, **former}, following, executor, progress
+            plan.folder, entries, {**returned, **former}, following, progress
         )
         keys = dict(before.values())
         by_key = {keys[name]: spans for name, spans in former.items() if name in keys}
-        write_removed(plan.folder, removed_after(removed, by_key, (key for _, _, key in entries)))
+        write_removed(plan.folder, removed, by_key, (key for _, _, key in entries))
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**content, "following": following, "tables": tables}

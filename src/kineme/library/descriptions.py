@@ -172,9 +172,5 @@ def analysis_of(
 def _channel_samples(signals: Signals) -> NDArray[np.float32]:
     from kineme.transfer.channel_samples import channel_samples
 
-    found = channel_samples(signals)
-    columns = np.column_stack([found.frames / signals.fps, found.means, found.deviations])
-    clipped: NDArray[np.float32] = np.clip(columns, -LARGEST_SAMPLE, LARGEST_SAMPLE).astype(
-        np.float32
-    )
-    return clipped
+    rows = channel_samples(signals).rows
+    return np.clip(rows, -LARGEST_SAMPLE, LARGEST_SAMPLE).astype(np.float32)
