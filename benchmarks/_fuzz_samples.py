@@ -29,7 +29,7 @@ from kineme.library import Library, build
 from kineme.library.storage.layout import STATES
 from kineme.recordings import Motion
 from kineme.segments import editing
-from kineme.segments.editing.annotating import marked
+from kineme.segments.editing.annotating import find_marked
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.journal import Journal
 from kineme.studio.storage.listed import ListedRecording
@@ -211,7 +211,7 @@ def _write_on(root: Path, path: Path) -> object:
     for name in ("boris", "babel", "clips", "csv"):
         known = labels.label_formats()[name]
         kineme.write_segments(found, folder / f"{name}{known.written_suffix}", format=name)
-    return marked(found, "checked"), editing.cluster_names(found), editing.comments(found)
+    return find_marked(found, "checked"), editing.cluster_names(found), editing.comments(found)
 
 
 def _labels_of_many(path: Path) -> object:

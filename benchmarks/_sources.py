@@ -1,7 +1,7 @@
 """Recordings of every kind that people cut, tagged or counted: one source after the other.
 
 A source yields `Sample`s: a recording, and how a segmentation of it is judged. Figures of a
-source are those of `kineme.evaluation.score.over_all`: ratios are summed, numbers averaged.
+source are those of `kineme.evaluation.score.pool_scores`: ratios are summed, numbers averaged.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from _sparse_recordings import SparseCase, found_units, matches, sparse_events
 from kineme.evaluation import evaluate_segmentation
 from kineme.evaluation.comparison import UNLABELLED, Comparison, compare
 from kineme.evaluation.recordings import recordings_below
-from kineme.evaluation.score import Ratio, over_all, scores
+from kineme.evaluation.score import Ratio, pool_scores, scores
 from kineme.labels.collections import LabelSource, labels_of
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.segments.segmentation import Segmentation
@@ -272,7 +272,7 @@ def by_person(name: str, every: int) -> Iterator[Sample]:
             for part, clusters in each
             if (known := part.truth != UNLABELLED).any()
         ]
-        return {name: over_all(one[name] for one in judged) for name in LABELLED}
+        return {name: pool_scores(one[name] for one in judged) for name in LABELLED}
 
     for who, parts in list(people.items())[::every]:
         yield Sample(who, joined([part.recording for part in parts]), partial(judge, parts=parts))

@@ -18,7 +18,7 @@ from scipy.optimize import linear_sum_assignment
 
 from _options import few
 from _recordings import ACTORS, exercises, subject_86
-from kineme.datasets.sequences import joined
+from kineme.datasets.sequences import join_recordings
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut
 from kineme.segments.segmentation import Segmentation
@@ -81,7 +81,7 @@ def _recording(actor: str, rng: np.random.Generator) -> tuple[Motion, tuple[Even
         name, take = order[i]
         marked.append((len(parts), name))
         parts += [take, _between(actor, singles, rng)]
-    motion, starts, _ = joined(parts)
+    motion, starts, _ = join_recordings(parts)
     events = (Event(name, int(starts[i]), int(starts[i + 1])) for i, name in marked)
     return motion, tuple(events)
 

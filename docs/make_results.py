@@ -18,7 +18,7 @@ from pathlib import Path
 from string import Template
 
 from kineme._version import __version__
-from kineme.evaluation.tables import shown
+from kineme.evaluation.tables import format_score
 from kineme_reproduction.benchmark import METHODS, mean_scores, run
 from kineme_reproduction.figures import make_figures
 from kineme_reproduction.trials import find_folder, load_trials
@@ -35,7 +35,7 @@ def main() -> None:
     tables = make_figures(results, data, PICTURES)
     means = mean_scores(results)
     scores = {
-        f"{method}_{name}": shown(value)
+        f"{method}_{name}": format_score(value)
         for method, row in means.items()
         for name, value in row.items()
     }

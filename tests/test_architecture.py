@@ -66,7 +66,6 @@ ROOMS = {
         "`cycles()`: each repetition measured, mean curves, foot contacts",
         "features labels recordings segments",
     ),
-    "plot": Room("pictures, each on given axes", "methods recordings segments"),
     "clips": Room(
         "a file per segment, loops that close, ranked; manifests of them",
         "cycles features formats labels recordings segments",
@@ -83,6 +82,7 @@ ROOMS = {
         "`MotionGraph`, routes through it, new motion from them",
         "features formats methods recordings segments transfer",
     ),
+    "plot": Room("pictures, each on given axes", "cycles methods recordings segments synthesis"),
     "library": Room(
         "collections of recordings, segmented once, with clusters in common, searched by example",
         "clips features formats labels methods plot recordings segments transfer",
@@ -101,7 +101,7 @@ ROOMS = {
     ),
     "report": Room(
         "one page of HTML that shows a recording, or compares two sessions",
-        "cycles features segments web",
+        "cycles features plot segments web",
     ),
     "studio": Room(
         "a local server and its page: recordings looked at, tables corrected and kept",

@@ -11,7 +11,7 @@ import pytest
 from msgspec import Struct
 
 import kineme
-from kineme._util.json import DEEPEST, decoded, loaded
+from kineme._util.json import DEEPEST, decode_json, load_json
 from kineme.datasets import bundled_truth
 from kineme.errors import ParameterError, ReadError
 from kineme.evaluation import Truth
@@ -47,22 +47,22 @@ class Offset(Struct):
 )
 def test_what_is_no_such_thing_is_one_sentence(text: str, said: str) -> None:
     with pytest.raises(ReadError, match=said) as caught:
-        decoded(text, "walk.bvh.video.json", Offset)
+        decode_json(text, "walk.bvh.video.json", Offset)
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 200
 
 
 def test_what_is_sound_comes_out_with_what_is_not_known_left_out() -> None:
-    assert decoded('{"offset_s": 2, "new": {"a": []}}', "a.json", Offset) == Offset(2.0)
+    assert decode_json('{"offset_s": 2, "new": {"a": []}}', "a.json", Offset) == Offset(2.0)
     deepest = "[" * DEEPEST + "]" * DEEPEST
-    assert json.dumps(decoded(deepest, "a.json")) == deepest
+    assert json.dumps(decode_json(deepest, "a.json")) == deepest
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
 def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "labels.json")
     with pytest.raises(ReadError, match="is a pipe"):
-        loaded(tmp_path / "labels.json")
+        load_json(tmp_path / "labels.json")
 
 
 PROVENANCES: list[dict[str, Any]] = [

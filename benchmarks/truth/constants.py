@@ -25,7 +25,7 @@ import kineme
 from _figures import add_option, record
 from _options import DATA, command_line, few, needed
 from _sources import SOURCES, Judged
-from kineme.evaluation.score import over_all
+from kineme.evaluation.score import pool_scores
 from kineme.methods.kineme.preset import KINEME, OF_SENSORS, SENSORS, KinemePreset
 from kineme.recordings import Signals
 from sources import summary
@@ -161,7 +161,9 @@ def figured(source: str, every: int, changes: list[Change]) -> Figured:
 
 def _summary(judged: list[Judged]) -> float:
     names = judged[0] if judged else ()
-    return summary({name: over_all([one[name] for one in judged if name in one]) for name in names})
+    return summary(
+        {name: pool_scores([one[name] for one in judged if name in one]) for name in names}
+    )
 
 
 def show(changes: list[Change], lost: np.ndarray, sources: list[str]) -> None:

@@ -27,7 +27,7 @@ from _rival_presets import register_rivals
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.folder import joined_comparisons
 from kineme.evaluation.recordings import Answer, Job, Reading, recordings_below, worked_out
-from kineme.evaluation.score import over_all, scores
+from kineme.evaluation.score import pool_scores, scores
 from kineme.evaluation.tables import markdown
 from kineme.labels.collections import labels_of
 
@@ -60,7 +60,7 @@ def row(name: str, compared: Sequence[Comparison]) -> list[str]:
     """The figures of a table, each recorded by its name."""
     cells = []
     for key in (*SHARES, *OTHERS):
-        value = over_all([scores()[key].function(one) for one in compared])
+        value = pool_scores([scores()[key].function(one) for one in compared])
         value *= 100 if key in SHARES else 1
         record(f"sets.{name}.{key}", round(value, 3))
         cells.append(f"{value:.1f}" if key in SHARES else f"{value:.2f}")

@@ -30,7 +30,7 @@ from _figures import add_option, record
 from _guises import agreement, guises
 from _options import DATA, command_line, few, skip
 from _sources import SOURCES, Judged
-from kineme.evaluation.score import over_all
+from kineme.evaluation.score import pool_scores
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
 
@@ -63,7 +63,7 @@ def figures_of(work: Work) -> list[Figures]:
         for judged, preset in zip(found, work.presets, strict=True):
             judged.append(sample.judge(kineme.segment(sample.recording, preset=preset)))
     return [
-        {name: over_all([one[name] for one in judged if name in one]) for name in judged[0]}
+        {name: pool_scores([one[name] for one in judged if name in one]) for name in judged[0]}
         for judged in found
     ]
 

@@ -5,8 +5,3 @@ that their authors chose per trial, and the published tables (`kineme_reproducti
 the figures. Scores are those of `kineme.evaluation`. ``kineme evaluate cmu86`` finds
 `kineme_reproduction.command` by its entry point.
 """
-
-from kineme_reproduction.benchmark import published
-from kineme_reproduction.trials import load_trials
-
-__all__ = ["load_trials", "published"]

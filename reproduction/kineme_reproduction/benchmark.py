@@ -26,7 +26,7 @@ from typing import Any, Literal, TypedDict
 import numpy as np
 
 from kineme._util.arrays import Ints
-from kineme._util.json import loaded
+from kineme._util.json import load_json
 from kineme.errors import ReadError
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.frames import one_to_one_accuracy
@@ -216,7 +216,7 @@ def score_published_cuts(folder: Path) -> list[PublishedCuts]:
     truths = read_truths(folder)
     if not path.exists():
         raise ReadError(path, "no published cuts here: there is no such file")
-    stored = loaded(path, _Stored)
+    stored = load_json(path, _Stored)
     try:
         return [
             _published_cuts(method, trial, truth, stored)

@@ -63,7 +63,7 @@ class FileError(KinemeError):
 
 
 class ReadError(FileError):
-    """The file cannot be read, or what it holds cannot be understood.
+    """Raised where a file cannot be read, or what it holds cannot be understood.
 
     Examples
     --------
@@ -77,7 +77,7 @@ class ReadError(FileError):
 
 
 class SeveralPeopleError(ReadError):
-    """The file holds several people and none of them was chosen; ``people`` are their names."""
+    """Raised where a file holds several people and none was chosen; ``people`` are their names."""
 
     def __init__(self, path: str | PathLike[str], reason: str, people: Iterable[str]):
         self.people = tuple(people)
@@ -85,7 +85,7 @@ class SeveralPeopleError(ReadError):
 
 
 class WriteError(FileError):
-    """The file cannot be written; nothing was left behind.
+    """Raised where a file cannot be written; nothing was left behind.
 
     Examples
     --------

@@ -6,7 +6,7 @@ import pytest
 
 import kineme
 from bundled import copy_of_bundled
-from kineme.segments.editing.annotating import marked
+from kineme.segments.editing.annotating import find_marked
 from screen import Screen, until
 from studio_server import StudioServer, saved_table
 
@@ -65,7 +65,7 @@ def test_the_folder_is_a_page_and_a_review_goes_through_it_with_keys(new_tab, se
     page.keyboard.press("j")
     screen.wait("k.name === 'a.bvh' && k.selected?.start_frame === 1000")
     corrected = saved_table(several.folder / "b.bvh")
-    assert marked(corrected, "checked") == {("activity", 1010, 2000)}
+    assert find_marked(corrected, "checked") == {("activity", 1010, 2000)}
     assert corrected.activities.label.tolist() == ["", "hop", ""]
 
     page.get_by_role("button", name="Folder", exact=True).click()

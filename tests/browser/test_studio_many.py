@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 
 import kineme
-from kineme.segments.editing.annotating import marked
+from kineme.segments.editing.annotating import find_marked
 from screen import Screen, until
 from studio_server import saved_table
 
@@ -55,13 +55,13 @@ def test_the_queue_shows_the_least_sure_first_and_a_new_segmentation_leaves_what
     screen.saved()
     screen.wait(f"k.selected && k.selected.start_frame !== {first['start_frame']}")
     span = (first["level"], first["start_frame"], first["stop_frame"])
-    assert marked(saved_table(take), "checked") == {span}
+    assert find_marked(saved_table(take), "checked") == {span}
     page.get_by_label("Preset", exact=True).select_option("voegele2014")
     page.get_by_role("button", name="Apply").click()
     screen.wait("k.other === null && k.unsent.length === 0")
     spans = [(r["level"], r["start_frame"], r["stop_frame"]) for r in screen.state["segments"]]
     assert span in spans
-    assert marked(saved_table(take), "checked") == {span}
+    assert find_marked(saved_table(take), "checked") == {span}
 
 
 def test_a_segment_has_one_confidence_in_queue_panel_and_table(page):

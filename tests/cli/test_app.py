@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 import kineme as package
 from kineme.cli.app import app
-from kineme.cli.options.method import constants_of, shown
+from kineme.cli.options.method import constants_of, format_value
 from kineme.datasets import bundled_recording
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
@@ -131,7 +131,7 @@ def test_the_constants_of_a_preset_are_listed(kineme, preset: Preset) -> None:
     assert [*told] == [each.name for each in sorted(preset.constants(), key=lambda c: c.fine)]
     for each in preset.constants():
         value, unit, allowed, _, fine, meaning = told[each.name]
-        assert (value, unit, meaning) == (shown(each.value), each.unit, each.help)
+        assert (value, unit, meaning) == (format_value(each.value), each.unit, each.help)
         assert (fine == "fine") == each.fine
         if each.limits is not None:
             assert f"{each.limits.minimum:g} to " in allowed

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.clips.loops import Carry, carry_of, loop
 from kineme.clips.quality import distances, loop_quality, usual_steps
-from kineme.clips.root_motion import root_motion, straightened, without_root_motion
+from kineme.clips.root_motion import remove_root_motion, root_motion, straighten
 from kineme.clips.split import split
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
@@ -94,7 +94,7 @@ def test_loops_in_place_close_where_they_are_and_their_root_motion_brings_them_b
 ) -> None:
     for clip in repetitions(motion, truth):
         closed, carry = loop(clip)
-        still, root = without_root_motion(closed, carry)
+        still, root = remove_root_motion(closed, carry)
         n, fps = closed.n_frames, closed.fps
         step = np.linalg.norm(still.positions[0] - still.positions[-1], axis=-1).max()
         assert step <= 1.1 * np.linalg.norm(np.diff(still.positions, axis=0), axis=-1).max()
@@ -121,7 +121,7 @@ def test_loops_in_place_close_where_they_are_and_their_root_motion_brings_them_b
 @given(st.floats(-3.1, 3.1), st.floats(-3, 3), st.floats(-3, 3))
 def test_a_straightened_loop_goes_on_as_it_begins(motion, turn, x, z) -> None:
     clip = cut(motion, 354, 414)
-    straight, carry = straightened(clip, Carry(turn, x, z))
+    straight, carry = straighten(clip, Carry(turn, x, z))
     before, after = root_motion(clip, Carry(turn, x, z)), root_motion(straight, carry)
     assert carry.turn == 0
     assert after.speed == pytest.approx(before.speed, abs=1e-6)

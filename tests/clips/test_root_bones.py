@@ -9,7 +9,7 @@ import pytest
 
 import kineme
 from kineme.clips.loops import carry_of
-from kineme.clips.root_motion import root_motion, without_root_motion
+from kineme.clips.root_motion import remove_root_motion, root_motion
 from kineme.clips.shaping import loop_qualities, planted_feet
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.features import body_size
@@ -74,7 +74,7 @@ def test_clips_in_place_and_their_motion_are_the_same(motion, rooted) -> None:
             (with_bone.turn, with_bone.x, with_bone.z), abs=1e-9
         )
         assert root_motion(clip, carry).speed == pytest.approx(root_motion(other, carry).speed)
-        still, still_rooted = (without_root_motion(each, carry)[0] for each in (clip, other))
+        still, still_rooted = (remove_root_motion(each, carry)[0] for each in (clip, other))
         body = still_rooted.positions[:, rooted.skeleton.body]
         np.testing.assert_allclose(body, still.positions, atol=1e-9)
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import kineme
 from kineme.cycles import channels_of
-from kineme.cycles.align import ALIGNMENTS, aligned
+from kineme.cycles.align import ALIGNMENTS, align_curves
 from kineme.cycles.measure import measured_anew
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
@@ -36,7 +36,7 @@ def unsteady(n: int, deviation: float, seed: int = 0) -> np.ndarray:
 @pytest.mark.parametrize("alignment", ["landmarks", "warp"])
 def test_the_mean_is_as_high_as_the_cycles_and_as_late(alignment: str) -> None:
     curves = unsteady(30, 0.04)
-    flat, found = curves.mean(axis=0)[0], aligned(curves, alignment)
+    flat, found = curves.mean(axis=0)[0], align_curves(curves, alignment)
     mean = found.mean(axis=0)[0]
     assert flat.max() < 0.9 * HIGH
     assert mean.max() == pytest.approx(HIGH, rel=0.02)
@@ -48,26 +48,26 @@ def test_the_mean_is_as_high_as_the_cycles_and_as_late(alignment: str) -> None:
 @settings(max_examples=30)
 def test_ends_stay_and_nothing_is_made_up(n, deviation, seed, alignment) -> None:
     curves = unsteady(n, deviation, seed)
-    found = aligned(curves, alignment)
+    found = align_curves(curves, alignment)
     np.testing.assert_allclose(found[:, :, [0, -1]], curves[:, :, [0, -1]], atol=1e-9)
     assert (found.max(axis=2) <= curves.max(axis=2) + 1e-9).all()
     assert (found.min(axis=2) >= curves.min(axis=2) - 1e-9).all()
-    np.testing.assert_allclose(aligned(curves[::-1], alignment), found[::-1], atol=1e-6)
+    np.testing.assert_allclose(align_curves(curves[::-1], alignment), found[::-1], atol=1e-6)
 
 
 @pytest.mark.parametrize("alignment", ALIGNMENTS)
 def test_cycles_with_gaps_and_single_ones_stay(alignment: str) -> None:
     curves = unsteady(5, 0.03)
     curves[2, 1, 40] = np.nan
-    np.testing.assert_array_equal(aligned(curves, alignment)[2], curves[2])
-    np.testing.assert_array_equal(aligned(curves[:1], alignment), curves[:1])
-    assert aligned(curves[:0], alignment).shape == (0, 2, 101)
+    np.testing.assert_array_equal(align_curves(curves, alignment)[2], curves[2])
+    np.testing.assert_array_equal(align_curves(curves[:1], alignment), curves[:1])
+    assert align_curves(curves[:0], alignment).shape == (0, 2, 101)
 
 
 def test_equal_cycles_stay_as_they_are() -> None:
     curves = np.repeat(unsteady(1, 0.03), 4, axis=0)
     for alignment in ALIGNMENTS:
-        np.testing.assert_allclose(aligned(curves, alignment), curves, atol=0.5)
+        np.testing.assert_allclose(align_curves(curves, alignment), curves, atol=0.5)
 
 
 def test_cycles_of_a_recording_come_in_step(walks: SyntheticRecording) -> None:

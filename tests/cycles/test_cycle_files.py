@@ -11,8 +11,9 @@ import pytest
 from scipy.io import loadmat
 
 import kineme
-from kineme.cycles import Cycles, plot_curves, write_cycles, write_table
+from kineme.cycles import Cycles, write_cycles, write_table
 from kineme.errors import MissingDependencyError, ParameterError, WriteError
+from kineme.plot import plot_curves
 
 
 @pytest.fixture(scope="module")

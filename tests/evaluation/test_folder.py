@@ -16,7 +16,7 @@ from kineme.evaluation.score import (
     SCORES,
     Ratio,
     Score,
-    over_all,
+    pool_scores,
     register,
     results_of,
     scores,
@@ -120,9 +120,9 @@ def test_each_score_of_a_small_example_by_hand() -> None:
 
 
 def test_over_a_folder_ratios_add_up_and_numbers_are_averaged() -> None:
-    assert over_all([Ratio(9, 10), Ratio(0, 90)]) == pytest.approx(0.09)
-    assert over_all([0.2, math.nan, 0.4]) == pytest.approx(0.3)
-    assert math.isnan(over_all([]))
+    assert pool_scores([Ratio(9, 10), Ratio(0, 90)]) == pytest.approx(0.09)
+    assert pool_scores([0.2, math.nan, 0.4]) == pytest.approx(0.3)
+    assert math.isnan(pool_scores([]))
 
 
 def test_frames_without_a_label_count_in_nothing() -> None:
@@ -174,14 +174,14 @@ def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> Non
     assert [path.name for path in sources] == ["a.csv", "b.csv"]
     result = evaluate_folder(sources, ["uniform"], processes=1)
     assert [one.error for one in result.methods["uniform"]] == ["", ""]
-    assert result.over_all("uniform")["cut_ratio"] == 79.0
+    assert result.pool_scores("uniform")["cut_ratio"] == 79.0
 
 
 def test_clusters_are_joined_for_one_mapping(corpus) -> None:
     sources = labels_of(recordings_below(corpus), corpus / "labels.csv")
     given = {"mapping": "folder", "reading": Reading(without=("emg*",)), "processes": 1}
     result = evaluate_folder(sources, ["uniform"], n_clusters=2, **given)  # clusters of no meaning
-    assert result.over_all("uniform")["mof"] > 0.95
+    assert result.pool_scores("uniform")["mof"] > 0.95
     assert [bool(one.error) for one in result.methods["uniform"]] == [False, False, True]
 
 
@@ -237,6 +237,6 @@ def test_the_figures_of_a_set_with_human_labels_come_out(data_dir, name) -> None
         pytest.skip(f"no {home}")
     sources = labels_of(recordings_below(home), home / "labels.csv")
     result = evaluate_folder(sources, ["kineme"], reading=Reading(without=("emg*",)), processes=1)
-    found = result.over_all("kineme")
+    found = result.pool_scores("kineme")
     for score, value in SETS[name].items():
         assert found[score] == pytest.approx(value, abs=0.002), score

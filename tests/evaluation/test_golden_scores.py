@@ -31,7 +31,7 @@ from kineme.evaluation import (
     strict_and_tolerant,
 )
 from kineme.evaluation.annotations import read_trials
-from kineme_reproduction import published
+from kineme_reproduction.benchmark import published
 
 of = Comparison.of
 

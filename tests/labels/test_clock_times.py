@@ -9,7 +9,7 @@ import pytest
 
 import kineme
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.labels.clock_times import by_clock
+from kineme.labels.clock_times import convert_clock_times
 from kineme.labels.collections import LabelSource, labels_of
 from kineme.labels.spans import Labels, Span
 from kineme.recordings.clock import Clock
@@ -154,7 +154,7 @@ def test_where_the_clock_is_set_back_the_first_of_two_is_meant() -> None:
     clock = Clock([0.0, 100.0], [0.0, 50.0])
     assert clock.second([40.0, 70.0, 120.0]).tolist() == [40.0, 70.0, 170.0]
     labels = Labels([Span(60, 90, "walk"), Span(110, 120, "run")])
-    assert [span[:2] for span in by_clock(labels, clock, length_s=200).spans] == [
+    assert [span[:2] for span in convert_clock_times(labels, clock, length_s=200).spans] == [
         (60, 90), (160, 170),
     ]  # fmt: skip
 

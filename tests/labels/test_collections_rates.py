@@ -13,7 +13,7 @@ import kineme
 from growth import LINEAR, times_longer
 from kineme._util.checks import format_count
 from kineme.errors import ReadError
-from kineme.labels.collections import in_frames, labels_of
+from kineme.labels.collections import convert_to_frames, labels_of
 from kineme.labels.spans import Labels, Span
 from kineme.segments.segmentation import Segmentation
 
@@ -40,7 +40,7 @@ def labels(draw: st.DrawFn) -> Labels:
 
 @given(labels())
 def test_a_frame_has_the_last_of_the_labels_that_cover_it(given_labels: Labels) -> None:
-    found = in_frames(given_labels, 10, n_frames=25)
+    found = convert_to_frames(given_labels, 10, n_frames=25)
     for level in ("activity", "primitive"):
         mine, theirs = (
             [
@@ -65,7 +65,7 @@ def test_a_frame_has_the_last_of_the_labels_that_cover_it(given_labels: Labels) 
 def test_labels_by_the_ten_thousands_are_laid_out_in_no_time() -> None:
     def laid_out(n: int) -> None:
         many = Labels([Span(i / 2, i / 2 + 3, "a") for i in range(n)], "frames")
-        assert len(in_frames(many, 10, n_frames=n).spans) == n // 2 + 1
+        assert len(convert_to_frames(many, 10, n_frames=n).spans) == n // 2 + 1
 
     assert times_longer(laid_out, 40_000) < LINEAR
 
@@ -76,7 +76,7 @@ def test_a_count_is_of_a_label_that_is_in_one_part() -> None:
         Span(4, 6, "wave", repetitions=2),
         Span(8, 12, "run"),
     ]
-    found = in_frames(Labels(spans, "frames"), 10, n_frames=12).spans
+    found = convert_to_frames(Labels(spans, "frames"), 10, n_frames=12).spans
     assert [(s.text, s.start, s.stop, s.repetitions) for s in found] == [
         *(("walk", 0, 4, None), ("walk", 6, 8, None), ("wave", 4, 6, 2), ("run", 8, 12, None)),
     ]

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 import kineme
 from kineme.errors import ParameterError
-from kineme.plot.timeline import matched_clusters
+from kineme.plot.timeline import match_clusters
 from kineme.segments.colors import cluster_color
 from kineme.segments.editing import name_segment
 from kineme.segments.segmentation import Segmentation
@@ -46,7 +46,7 @@ def rows_of(axes: object) -> list[list[tuple[float, float, str]]]:
 @given(segmentations())
 def test_every_result_is_drawn_segment_by_segment(found: Segmentation) -> None:
     given_axes = Figure().add_subplot()
-    assert found.plot(ax=given_axes) is given_axes
+    assert kineme.plot_timeline(found, ax=given_axes) is given_axes
     levels = [rows for rows in (found.activities, found.primitives) if len(rows)]
     for table, bars in zip(levels, rows_of(given_axes), strict=True):
         starts, stops, colors = zip(*bars)
@@ -69,7 +69,7 @@ def test_a_label_is_no_formula() -> None:
     found = result([40], [0])
     priced = name_segment(found, "activity", 0, "$5 and $")
     figure = Figure()
-    axes = priced.plot(ax=figure.add_subplot())
+    axes = kineme.plot_timeline(priced, ax=figure.add_subplot())
     assert axes.texts[0].get_text() == r"\$5 and \$"
     figure.canvas.draw()
 
@@ -77,7 +77,7 @@ def test_a_label_is_no_formula() -> None:
 def test_compared_clusters_take_the_colours_of_those_they_share_time_with() -> None:
     first = result([30, 60, 90], [0, 1, 0])
     other = result([280, 600, 900, 1000], [7, 2, 7, 4], fps=100.0)
-    assert matched_clusters(first.table, other.table) == {7: 0, 2: 1, 4: 2}
+    assert match_clusters(first.table, other.table) == {7: 0, 2: 1, 4: 2}
     axes = kineme.compare([first, other], ax=Figure().add_subplot())
     top, below = rows_of(axes)
     assert [color for *_, color in top] == [cluster_color(c) for c in (0, 1, 0)]

@@ -18,7 +18,7 @@ import kineme
 from kineme.datasets import bundled_recording
 from kineme.errors import ParameterError, WriteError
 from kineme.recordings import Signals
-from kineme.report.page import filled, write_report
+from kineme.report.page import fill_template, write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
 from kineme.web.display import display_motion
@@ -93,7 +93,7 @@ def test_the_page_asks_for_nothing_from_elsewhere(tmp_path: Path) -> None:
 def test_texts_stay_inside_their_element() -> None:
     shown = page_data(RECORDING)
     message = recording_message(shown, labelled(NASTY), name=NASTY + BREAKS)
-    page = filled(TEMPLATE, message, shown.binary, {})
+    page = fill_template(TEMPLATE, message, shown.binary, {})
     assert page.isascii()
     parsed = Scripts(page)
     assert parsed.tags == ["body", "script", "script", "script"]
@@ -112,7 +112,7 @@ def test_names_that_are_not_unicode_are_shown(tmp_path: Path) -> None:
 def test_a_name_like_a_place_for_data_is_not_filled() -> None:
     shown = page_data(RECORDING)
     message = recording_message(shown, SEGMENTS, name="<!--kineme:tiles-->")
-    page = Scripts(filled(TEMPLATE, message, shown.binary, {"0/0/0": b"tile"}))
+    page = Scripts(fill_template(TEMPLATE, message, shown.binary, {"0/0/0": b"tile"}))
     assert json.loads(page.texts["kineme-recording"])["name"] == "<!--kineme:tiles-->"
     assert page.tags.count("script") == 3
 

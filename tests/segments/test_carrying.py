@@ -10,13 +10,13 @@ from test_editing import EDITS, spans, walk_pause_jump
 
 from kineme.errors import ParameterError
 from kineme.segments import editing
-from kineme.segments.editing.annotating import marked, noted, span_of
+from kineme.segments.editing.annotating import find_marked, mark_edited, span_of
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 
 
 def by_hand(segmentation: Segmentation, edit: str, *arguments: object) -> Segmentation:
-    return noted(segmentation, getattr(editing, edit)(segmentation, *arguments))
+    return mark_edited(segmentation, getattr(editing, edit)(segmentation, *arguments))
 
 
 def other_way() -> Segmentation:
@@ -38,7 +38,7 @@ def other_way() -> Segmentation:
 
 def test_numbers_and_names_go_to_the_clusters_and_segments_that_match() -> None:
     before = editing.name_cluster(walk_pause_jump(), 1, "jump")
-    result = editing.carried(before, other_way())
+    result = editing.carry_corrections(before, other_way())
     assert spans(result.segmentation, "activity") == "0-33 c0 walk | 33-38 t | 38-60 c1 jump"
     assert spans(result.segmentation, "primitive") == (
         "0-11 c0 walk | 11-22 c0 limp | 22-33 c0 walk | 33-38 t | 38-60 c1 jump"
@@ -48,27 +48,27 @@ def test_numbers_and_names_go_to_the_clusters_and_segments_that_match() -> None:
 
 def test_names_that_match_nothing_are_listed() -> None:
     before = editing.name_segment(walk_pause_jump(), "primitive", 50, "hop")
-    result = editing.carried(before, other_way())  # no half of 38-60 is 50-60
+    result = editing.carry_corrections(before, other_way())  # no half of 38-60 is 50-60
     assert result.lost == ["the name “hop” of the primitive at 1.67 s: no segment matches it"]
 
 
 def test_what_was_made_by_hand_stays_as_it_was_made() -> None:
     before = by_hand(walk_pause_jump(), "move_border", "activity", 30, 28)
-    result = editing.carried(before, other_way())
+    result = editing.carry_corrections(before, other_way())
     assert spans(result.segmentation, "activity") == "0-28 c0 walk | 28-40 t | 40-60 c1"
     assert spans(result.segmentation, "primitive") == (
         "0-11 c0 walk | 11-20 c0 limp | 20-28 c0 walk | 28-40 t | 40-60 c1"
     )
     assert result.corrections == 4
-    assert marked(result.segmentation, "by_hand") == marked(before, "by_hand")
-    again = editing.carried(result.segmentation, walk_pause_jump())
+    assert find_marked(result.segmentation, "by_hand") == find_marked(before, "by_hand")
+    again = editing.carry_corrections(result.segmentation, walk_pause_jump())
     assert again.corrections == 4
     assert spans(again.segmentation, "activity").startswith("0-28 c0 walk | 28-40 t | ")
 
 
 def test_a_cluster_given_by_hand_is_kept_though_none_matches() -> None:
     before = by_hand(walk_pause_jump(), "set_cluster", "primitive", 10, 2)
-    result = editing.carried(before, other_way())
+    result = editing.carry_corrections(before, other_way())
     assert "10-20 c2 limp" in spans(result.segmentation, "primitive")
 
 
@@ -83,7 +83,7 @@ def test_what_is_left_beside_a_checked_primitive_stays_in_its_activity() -> None
     found = Segmentation.from_columns(columns, n_frames=60, fps=30.0)
     before = editing.split(editing.split(found, "primitive", 12), "primitive", 29)
     checked = editing.check(before, "primitive", [12], True)
-    result = editing.carried(checked, found)
+    result = editing.carry_corrections(checked, found)
     assert spans(result.segmentation, "primitive") == "0-12 | 12-29 | 29-30 | 30-60"
 
 
@@ -95,7 +95,7 @@ def test_checked_segments_are_never_changed(before, found, data) -> None:
     for i in chosen:
         row = before.table[i]
         before = editing.check(before, row.level, [row.start_frame], True)
-    result = editing.carried(before, found)
+    result = editing.carry_corrections(before, found)
     there = {span_of(row): row.kind for row in result.segmentation}
     for i in chosen:
         row = before.table[i]
@@ -112,10 +112,10 @@ def test_carrying_over_to_the_same_segments_changes_none(before, edits) -> None:
     now = before
     for edit, *arguments in edits:
         try:
-            now = noted(now, edit(now, *arguments))
+            now = mark_edited(now, edit(now, *arguments))
         except ParameterError:
             continue
-    result = editing.carried(now, now)
+    result = editing.carry_corrections(now, now)
     assert result.lost == []
     for name in ("level", "kind", "start_frame", "stop_frame", "cluster"):
         assert (getattr(result.segmentation.table, name) == getattr(now.table, name)).all()
@@ -123,10 +123,10 @@ def test_carrying_over_to_the_same_segments_changes_none(before, edits) -> None:
 
 def test_a_mark_holds_for_the_frames_that_it_was_made_for() -> None:
     checked = editing.check(walk_pause_jump(), "primitive", [0, 10], True)
-    assert marked(checked, "checked") == {("primitive", 0, 10), ("primitive", 10, 20)}
+    assert find_marked(checked, "checked") == {("primitive", 0, 10), ("primitive", 10, 20)}
     moved = editing.move_border(checked, "primitive", 20, 18)
-    assert marked(moved, "checked") == {("primitive", 0, 10)}
-    assert marked(editing.check(checked, "primitive", [0], False), "checked") == {
+    assert find_marked(moved, "checked") == {("primitive", 0, 10)}
+    assert find_marked(editing.check(checked, "primitive", [0], False), "checked") == {
         ("primitive", 10, 20)
     }
 

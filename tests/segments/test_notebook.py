@@ -7,10 +7,10 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from hypothesis import given, settings
 
-from kineme.segments import timeline
+from kineme.segments import html
 from kineme.segments.colors import cluster_color, label_colors
+from kineme.segments.html import FIRST_ROWS
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.timeline import FIRST_ROWS
 from segmentations import segmentations
 
 
@@ -38,7 +38,7 @@ def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None
     bars = page.findall(".//rect")
     colors = {bar.get("fill") for bar in bars}
     labels = label_colors(result)
-    assert colors <= {timeline.segment_color(segment, labels) for segment in result}
+    assert colors <= {html.segment_color(segment, labels) for segment in result}
     assert len(bars) == len(result)
     for table in (result.table, result.activities, result.table[:0]):
         parsed(table._repr_html_())
@@ -61,7 +61,7 @@ def test_a_day_of_segments_stays_small() -> None:
     result = long_result(86_400)
     html = result._repr_html_()
     bars = parsed(html).findall(".//rect")
-    assert len(bars) <= 1 + timeline.WIDTH
+    assert len(bars) <= 1 + html.WIDTH
     assert len(html) < 200_000
     assert f"and {86_401 - FIRST_ROWS} more" in result.table._repr_html_()
 

@@ -19,7 +19,7 @@ from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions, sketch
 from kineme.methods.kineme import primitives
 from kineme.segments import editing
-from kineme.studio.downloads import exported
+from kineme.studio.downloads import export_download
 from kineme.studio.folder import Folder
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
@@ -88,7 +88,7 @@ def test_segments_that_take_long_are_waited_for_by_files_and_not_by_pages(tmp_pa
     (name,) = recordings.folder.recordings()
     assert recordings.message(name).finding
     threading.Timer(0.2, wanted.set).start()
-    _, content = exported(recordings.get(name), "csv", None)
+    _, content = export_download(recordings.get(name), "csv", None)
     assert len(content.splitlines()) > 10
     assert not recordings.message(name).finding
 

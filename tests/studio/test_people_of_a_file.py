@@ -118,7 +118,7 @@ def test_the_side_file_of_people_is_read_once_for_a_list(duet: Studio, monkeypat
 
     def loaded(path: Path, shape: Any) -> Any:
         read.append(path)
-        return _json.loaded(path, shape)
+        return _json.load_json(path, shape)
 
     monkeypatch.setattr(sidecars, "loaded", loaded)
     assert [each.person for each in sidecars.listed_in([duet.path])] == ["Anna", "Bob"]

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.recordings import Motion, Skeleton
-from kineme.web.display import bones, display_motion, encode, sampled
+from kineme.web.display import bones, display_motion, encode, sample_poses
 from kineme.web.messages import MotionHead
 
 RECORDING = kineme.read(bundled_recording())
@@ -52,7 +52,7 @@ def test_slow_recordings_keep_their_rate() -> None:
 @pytest.mark.parametrize("fps", [29.97, 40.0, 59.94, 100.0, 119.88, 1000.0])
 def test_samples_lie_on_the_line_between_frames(fps: float) -> None:
     line = np.linspace(0, 1, 500)[:, None, None] * np.array([1.0, 2.0, -3.0])
-    found = sampled(moving(line, fps), min(fps, 30.0))
+    found = sample_poses(moving(line, fps), min(fps, 30.0))
     times = np.arange(len(found)) / min(fps, 30.0)
     np.testing.assert_allclose(found[:, 0, 1], 2 * times * fps / 499, atol=1e-9)
     assert times[-1] <= 499 / fps < times[-1] + 1 / 30 + 1e-9

@@ -9,7 +9,7 @@ import numpy as np
 
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.published import strict_and_tolerant
-from kineme.evaluation.tables import markdown, score_rows, shown
+from kineme.evaluation.tables import format_score, markdown, score_rows
 from kineme.evaluation.truth import Labelling
 from kineme_reproduction.benchmark import (
     PublishedCuts,
@@ -115,7 +115,7 @@ def _uniform_table(trials: Sequence[Trial]) -> str:
             found = Labelling.from_cuts(cuts, frames=trial.truth.frames, fps=trial.truth.fps)
             scores.append(strict_and_tolerant(Comparison.of(trial.truth, found)))
         strict, tolerant = np.mean(scores, axis=0)
-        rows.append([f"{step / FPS:.2f} s", shown(strict), shown(tolerant)])
+        rows.append([f"{step / FPS:.2f} s", format_score(strict), format_score(tolerant)])
     return markdown(["a cut every", "strict", "tolerant"], rows)
 
 
@@ -133,10 +133,13 @@ def _published_table(found: Sequence[PublishedCuts]) -> str:
             )
         )
         for trial, scores, printed in lines:
-            cells = [shown(scores[n]) for n in names] + [shown(printed[n]) for n in names]
+            cells = [format_score(scores[n]) for n in names] + [
+                format_score(printed[n]) for n in names
+            ]
             cells += [f"{printed[n] - scores[n]:+.3f}" for n in names]
             cells += [
-                shown(scores.get(n, np.nan)) or "–" for n in ("one_to_one", "one_to_one_agreed")
+                format_score(scores.get(n, np.nan)) or "–"
+                for n in ("one_to_one", "one_to_one_agreed")
             ]
             rows.append([f"{method.upper()} {trial}", *cells])
     header = [

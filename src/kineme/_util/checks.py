@@ -150,7 +150,10 @@ def as_floats(
 
 
 def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64]:
-    """The values as float64 (frames, dims) without gaps in memory; ParameterError unless finite."""
+    """Return the values as float64 (frames, dims) without gaps in memory.
+
+    ParameterError unless finite.
+    """
     # Compiled code is typed for arrays that may be written to, whether it does or not.
     array = np.require(as_floats(values, name), requirements=("C", "W"))
     if array.ndim != 2 or 0 in array.shape:
@@ -171,7 +174,7 @@ def format_count(n: int, one: str) -> str:
 
     Examples
     --------
-    >>> counted(1, "gap"), counted(0, "gap"), format_count(2, "activity")
+    >>> format_count(1, "gap"), format_count(0, "gap"), format_count(2, "activity")
     ('1 gap', '0 gaps', '2 activities')
     """
     return f"{n} {one if n == 1 else MANY.get(one, f'{one}s')}"
@@ -182,7 +185,7 @@ def join_names(names: Sequence[str], most: int = 8) -> str:
 
     Examples
     --------
-    >>> listed(["hip", "knee", "toe"], most=2), join_names(["hip", "knee"])
+    >>> join_names(["hip", "knee", "toe"], most=2), join_names(["hip", "knee"])
     ('hip, knee and 1 more', 'hip, knee')
     """
     more = len(names) - most

@@ -28,11 +28,11 @@ Shape = TypeVar("Shape")
 
 
 @overload
-def loaded(path: Path) -> Any: ...
+def load_json(path: Path) -> Any: ...
 @overload
-def loaded(path: Path, shape: type[Shape]) -> Shape: ...
-def loaded(path: Path, shape: Any = Any) -> Any:
-    """Return what a JSON file holds, as `decoded`; ReadError where it cannot be read."""
+def load_json(path: Path, shape: type[Shape]) -> Shape: ...
+def load_json(path: Path, shape: Any = Any) -> Any:
+    """Return what a JSON file holds, as `decode_json`; ReadError where it cannot be read."""
     try:
         refuse_pipe(path)
         text = path.read_text(encoding="utf-8-sig")
@@ -41,14 +41,14 @@ def loaded(path: Path, shape: Any = Any) -> Any:
     except (OSError, ValueError) as error:  # ValueError: a null byte in the name
         reason = getattr(error, "strerror", None) or error
         raise ReadError(path, f"cannot be read: {reason}") from error
-    return decoded(text, path, shape)
+    return decode_json(text, path, shape)
 
 
 @overload
-def decoded(text: str | bytes, path: AnyPath) -> Any: ...
+def decode_json(text: str | bytes, path: AnyPath) -> Any: ...
 @overload
-def decoded(text: str | bytes, path: AnyPath, shape: type[Shape]) -> Shape: ...
-def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
+def decode_json(text: str | bytes, path: AnyPath, shape: type[Shape]) -> Shape: ...
+def decode_json(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
     """What a JSON text of this path holds, in a shape that msgspec knows; other names are left out.
 
     ReadError where it is no JSON, holds too much inside one another, or numbers that are none or
@@ -56,7 +56,7 @@ def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
 
     Examples
     --------
-    >>> decoded('{"offset_s": 2}', "walk.bvh.video.json", dict[str, float])
+    >>> decode_json('{"offset_s": 2}', "walk.bvh.video.json", dict[str, float])
     {'offset_s': 2.0}
     """
     try:
@@ -71,12 +71,12 @@ def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
     if shape is Any:
         return found
     try:
-        return converted(found, shape)
+        return convert_json(found, shape)
     except ValueError as error:
         raise ReadError(path, f"is not as it was written: {error}") from error
 
 
-def converted(found: Any, shape: type[Shape]) -> Shape:
+def convert_json(found: Any, shape: type[Shape]) -> Shape:
     """What JSON holds, in a shape that msgspec knows; ValueError in words where it has another."""
     import msgspec  # which `import kineme` does without
 

@@ -87,15 +87,15 @@ def to_euler_zyx(q: Floats) -> Floats:
     cz_cy, sz_cy = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
     about_z = np.arctan2(sz_cy, cz_cy)
     sin, cos = np.sin(about_z), np.cos(about_z)
-    about_y = np.arctan2(2 * (w * y - x * z), cos * cz_cy + sin * sz_cy)
+    rotate_about_y = np.arctan2(2 * (w * y - x * z), cos * cz_cy + sin * sz_cy)
     about_x = np.arctan2(
         sin * 2 * (x * z + w * y) - cos * 2 * (y * z - w * x),
         cos * (1 - 2 * (x * x + z * z)) - sin * 2 * (x * y - w * z),
     )
-    return join(about_z, about_y, about_x)
+    return join(about_z, rotate_about_y, about_x)
 
 
-def about_y(angle: ArrayLike) -> Floats:
+def rotate_about_y(angle: ArrayLike) -> Floats:
     """Rotations about the vertical, by angles in radians."""
     half = np.asarray(angle, np.float64) / 2
     still = np.zeros_like(half)
@@ -117,12 +117,12 @@ def exponential(vectors: Floats) -> Floats:
     return np.concatenate([np.cos(half), vectors * np.sinc(half / np.pi) / 2], axis=-1)
 
 
-def between(a: Floats, b: Floats, share: Floats) -> Floats:
+def slerp(a: Floats, b: Floats, share: Floats) -> Floats:
     """So large a share of the way from rotations ``a`` to ``b``, along the shorter arc."""
     return multiply(a, exponential(share * logarithm(multiply(conjugate(a), b))))
 
 
-def normalized(q: Floats) -> Floats:
+def normalize(q: Floats) -> Floats:
     """Return the quaternions at length one; no rotation where they have none."""
     norm = np.linalg.norm(q, axis=-1, keepdims=True)
     return np.where(norm > 0, q / np.where(norm > 0, norm, 1.0), IDENTITY)

@@ -1,4 +1,4 @@
-"""The command line: ``kineme segment``, ``kineme info``, ``kineme demo``.
+"""Command line: ``kineme segment``, ``kineme info``, ``kineme demo``.
 
 Exit codes: 0; 1 for bad input, with one sentence on standard error; 2 for a
 command that makes no sense; 130 after Ctrl-C. With several files, one that
@@ -14,7 +14,7 @@ FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO})
 
 
 def main() -> None:
-    """The console script."""
+    """Run the command line."""
     try:
         try:
             _run()

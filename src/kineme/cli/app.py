@@ -1,4 +1,4 @@
-"""The application: its commands, and the options of ``kineme`` itself."""
+"""Application: its commands, and the options of ``kineme`` itself."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from kineme._version import __version__
-from kineme.cli.help import on_demand
+from kineme.cli.help import make_lazy_group
 
 COMMANDS = (
     "segment",
@@ -32,7 +32,7 @@ COMMANDS = (
 
 app = typer.Typer(
     name="kineme",
-    cls=on_demand({name: f"kineme.cli.{name}" for name in COMMANDS}),
+    cls=make_lazy_group({name: f"kineme.cli.{name}" for name in COMMANDS}),
     help="Cut recordings of human motion into activities, transitions and repeated primitives.\n\n"
     "Begin with `kineme demo`, then `kineme segment FILE` on your own.",
     no_args_is_help=True,

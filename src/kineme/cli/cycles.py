@@ -129,14 +129,14 @@ def cycles(
 
     for path in batch.paths:
         batch.each_person(path, request, read_one, tables=("--segments", segments))
-    read = _of_most_channels(read, batch)
+    read = _keep_common_channels(read, batch)
     recordings, tables = [each.recording for each in read], [each.segments for each in read]
     failures = Failures()
     if recordings:
         with failures.caught(""):
             analog = _analog(batch.paths, recordings, request) if names else []
             if sides is not None:
-                names = _with_stance(recordings, names)
+                names = _choose_channels(recordings, names)
             found = measured(
                 recordings,
                 tables,
@@ -146,7 +146,7 @@ def cycles(
                 common=common,
                 align=align,
             )
-            found = _excluded(found, exclude or [])
+            found = _count_excluded(found, exclude or [])
             sessions = _sessions(found) if compare is not None else []
             if output is not None:
                 write_cycles(found, output, ends=ends)
@@ -182,7 +182,7 @@ def _channels_of(recording: Motion | Signals, names: list[str] | None) -> tuple[
     return tuple(channel.name for channel in channels_of(recording, names))
 
 
-def _of_most_channels(read: list[_Read], batch: Batch) -> list[_Read]:
+def _keep_common_channels(read: list[_Read], batch: Batch) -> list[_Read]:
     """Those that have the channels that most have; the others are left out, and this is said."""
     counts = Counter(each.channels for each in read)
     most = counts.most_common(1)[0][0] if counts else ()
@@ -226,7 +226,7 @@ def _check_targets(
             raise typer.BadParameter(f"{path} must end in {', '.join(suffixes)}", param_hint=name)
 
 
-def _excluded(cycles: Cycles, rules: list[str]) -> Cycles:
+def _count_excluded(cycles: Cycles, rules: list[str]) -> Cycles:
     for rule in rules:
         if rule == FAR:
             cycles = cycles.exclude_far()
@@ -267,7 +267,9 @@ def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
     write_table(curves, path.with_suffix(f".curves{path.suffix}"))
 
 
-def _with_stance(recordings: list[Motion | Signals], names: list[str] | None) -> list[str] | None:
+def _choose_channels(
+    recordings: list[Motion | Signals], names: list[str] | None
+) -> list[str] | None:
     """Return the channels to measure, and when each foot stands if all recordings tell it."""
     from kineme.cycles.channels import channels_of, contacts_of
 
@@ -283,8 +285,9 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
     from matplotlib.figure import Figure
 
     from kineme._util.files import atomic_write
-    from kineme.cycles import compare_curves, plot_curves, plot_sessions, plot_sides
+    from kineme.cycles import compare_curves
     from kineme.cycles.sides import sides_of
+    from kineme.plot import plot_curves, plot_sessions, plot_sides
 
     groups, pairs, channels = cycles.groups, sides_of(cycles.channels), cycles.channels
     panels: list[tuple[Callable[..., Axes], tuple[Any, ...]]]
@@ -323,7 +326,7 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     """Print a line for each group, of two sessions for each of both, and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import OF_COUNTS, PER_CENT, in_per_cent, keep_if_filled, new_table
+    from kineme.cli.tables import OF_COUNTS, PER_CENT, format_per_cent, keep_if_filled, new_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
@@ -335,16 +338,16 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     table = new_table(*first, *names, *ranges)
     without: list[str] = []
     for each in sessions or [cycles]:
-        values = _by_measure(each, ends=ends)
+        values = _tabulate_measures(each, ends=ends)
         name = [str(each.columns["recording"][0])] if sessions else []
         for group in each.groups:
             n, mean, sd, cv = values[group, "duration_s"]
             per_min = values[group, "cadence_per_min"][1]
             cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
-            cells += [_with_deviation(*values[group, f"{channel}.range"][1:3]) for channel in shown]
+            cells += [_format_mean(*values[group, f"{channel}.range"][1:3]) for channel in shown]
             count = int((each.columns["group"] == group).sum())
-            head = group, str(count), in_per_cent(each.count_confidence(group)), str(n)
-            table.add_row(*name, *head, *(_filled(cell) for cell in cells))
+            head = group, str(count), format_per_cent(each.count_confidence(group)), str(n)
+            table.add_row(*name, *head, *(_format_cell(cell) for cell in cells))
             if n == 0:
                 without.append(group)
     probable = keep_if_filled(table, PER_CENT)
@@ -369,7 +372,9 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
         console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
 
 
-def _by_measure(cycles: Cycles, *, ends: bool) -> dict[tuple[str, str], tuple[int, Any, Any, Any]]:
+def _tabulate_measures(
+    cycles: Cycles, *, ends: bool
+) -> dict[tuple[str, str], tuple[int, Any, Any, Any]]:
     """Number, mean, deviation and its share of the mean, of each group and measure."""
     summary = cycles.summary(ends=ends)
     rows = zip(
@@ -388,7 +393,7 @@ def _liveliest(cycles: Cycles, *, ends: bool) -> list[str]:
 
     if len(set(cycles.units)) > 1:
         return [*cycles.channels[:SHOWN]]
-    values = _by_measure(cycles, ends=ends)
+    values = _tabulate_measures(cycles, ends=ends)
     pairs = sides_of(cycles.channels)
     opposite = dict(pairs) | {right: left for left, right in pairs}
 
@@ -401,7 +406,7 @@ def _liveliest(cycles: Cycles, *, ends: bool) -> list[str]:
     return sorted([*names][:SHOWN], key=cycles.channels.index)
 
 
-def _with_deviation(mean: float, sd: float) -> str:
+def _format_mean(mean: float, sd: float) -> str:
     """Both with as many digits after the point as the mean is told with."""
     if isfinite(mean) and mean and not PLAIN[0] <= abs(mean) < PLAIN[1]:
         return f"{mean:.4g} ± {sd:.2g}"
@@ -409,6 +414,6 @@ def _with_deviation(mean: float, sd: float) -> str:
     return f"{mean:.{digits}f} ± {sd:.{digits}f}"
 
 
-def _filled(cell: str) -> str:
+def _format_cell(cell: str) -> str:
     """Return a cell; nothing where there is no number to tell."""
     return "" if cell == "nan" else cell.replace(" ± nan", "").replace("nan", "")

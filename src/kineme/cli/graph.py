@@ -89,7 +89,7 @@ def graph(
         made = replace(made, sources=tuple(replace(s, options=stored) for s in made.sources))
         write_graph(made, output)
         if plot is not None:
-            from kineme.synthesis.picture import plot_graph
+            from kineme.plot.graph import plot_graph
 
             plot_graph(made, plot)
         if not quiet:

@@ -70,7 +70,7 @@ class Command(TyperCommand):
         super().format_help(ctx, formatter)
 
 
-def on_demand(homes: Mapping[str, str]) -> type[TyperGroup]:
+def make_lazy_group(homes: Mapping[str, str]) -> type[TyperGroup]:
     """Return a class of command groups that import each command from its module when called."""
 
     class OnDemand(TyperGroup):

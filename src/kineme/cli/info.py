@@ -67,7 +67,7 @@ def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
         "notes": list(map(str, source.notes)),
     }
     if isinstance(recording, Motion):
-        return _with_body(facts, recording, effectors)
+        return _add_body(facts, recording, effectors)
     return facts | {"channels": list(recording.names)}
 
 
@@ -88,7 +88,7 @@ def _measures(path: Path, recording: Motion | Signals, request: Request) -> list
     ]
 
 
-def _with_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
+def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
     from kineme.features import PARTS, end_effectors
 
     skeleton = motion.skeleton
@@ -142,11 +142,11 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
         }
         below = columns_of(names) if many else None
     if "measures" in facts:
-        below = _listed(facts["measures"])
+        below = _list_names(facts["measures"])
     show_facts(facts | {"notes": notes}, lines | {"SHA-256": facts["sha256"]}, below=below)
 
 
-def _listed(measures: list[Facts]) -> Any:
+def _list_names(measures: list[Facts]) -> Any:
     from kineme.cli.tables import new_table
 
     table = new_table("channel", "unit", "group", "from")

@@ -57,7 +57,7 @@ def label(
     added: dict[Path, KnowledgeBase] = {}
     for path, table in zip(batch.paths, tables, strict=True):
         with batch.caught(path), batch.progress(path) as stage:
-            added[path] = _labelled(request, path, table, stage)
+            added[path] = _label_primitives(request, path, table, stage)
     with failures.caught(knowledge):
         if added:
             merged = KnowledgeBase.merged(*bases, *added.values())
@@ -68,7 +68,9 @@ def label(
     failures.exit()
 
 
-def _labelled(request: Request, path: Path, labels: Path | None, stage: Stage) -> KnowledgeBase:
+def _label_primitives(
+    request: Request, path: Path, labels: Path | None, stage: Stage
+) -> KnowledgeBase:
     """Return the primitives of a recording, called as its labels say."""
     from kineme.transfer import KnowledgeBase, name_primitives
 

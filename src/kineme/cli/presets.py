@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme.cli.options.method import shown
+from kineme.cli.options.method import format_value
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT, PRESETS, resolve_preset
 
@@ -61,14 +61,14 @@ def _write_rows(constants: Sequence[Constant]) -> None:
     """A line for each constant, with tabs between the cells."""
     typer.echo("constant\tvalue\tunit\trange\tdefault\tfine\tmeaning")
     for each in constants:
-        cells = shown(each.value), each.unit, each.allowed, _default(each)
+        cells = format_value(each.value), each.unit, each.allowed, _default(each)
         typer.echo("\t".join((each.name, *cells, "fine" if each.fine else "", each.help)))
 
 
 def _show(title: str, constants: Sequence[Constant]) -> None:
     """Two lines for each constant: what it is and may be, and below it what it means."""
     rows = [
-        (each.name, f"{shown(each.value)} {each.unit}", each.allowed, _default(each))
+        (each.name, f"{format_value(each.value)} {each.unit}", each.allowed, _default(each))
         for each in constants
     ]
     head = ("constant", "value", "may be", "default")
@@ -88,4 +88,4 @@ def _show(title: str, constants: Sequence[Constant]) -> None:
 
 def _default(constant: Constant) -> str:
     """Return what the method has where a preset says nothing; empty where each preset has to."""
-    return "" if constant.default is MISSING else shown(constant.default)
+    return "" if constant.default is MISSING else format_value(constant.default)

@@ -76,7 +76,7 @@ def segment(
         with batch.progress(path) as stage:
             stage("reading")
             recording = asked.read(path)
-            result = _segmented(recording, asked, targets, stage)
+            result = _segment_one(recording, asked, targets, stage)
         print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
@@ -84,10 +84,10 @@ def segment(
     batch.exit()
 
 
-def _segmented(
+def _segment_one(
     recording: Motion | Signals, request: Request, targets: Sequence[Path | None], stage: Stage
 ) -> Segmentation:
-    """The segments of a recording, written as table, picture and page where these are wanted."""
+    """Return the segments of a recording; write table, picture and page where these are wanted."""
     table, picture, page = targets
     result, found = request.segment(recording, stage)
     write_results(result, found, table, picture)
@@ -101,7 +101,7 @@ def _segmented(
 def write_results(
     result: Segmentation, found: Found, table: Path | None, picture: Path | None
 ) -> None:
-    """The table and the picture, where wanted."""
+    """Write the table and the picture, where wanted."""
     if table is not None:
         from kineme.labels import write_segments
 
@@ -121,7 +121,7 @@ def print_segments(
     json: bool,
     quiet: bool,
 ) -> None:
-    """The segments as JSON, or as a table above the files that were written."""
+    """Print the segments as JSON, or as a table above the files that were written."""
     if json:
         from kineme.labels.json_table import as_object
 

@@ -10,7 +10,7 @@ import typer
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.reading import BODY, Effectors
-from kineme.cli.options.request import Request, asks, of_everybody
+from kineme.cli.options.request import Request, asks, split_everybody
 from kineme.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -58,13 +58,13 @@ def studio(
     """
     failures = Failures()
     with failures.caught("studio"):
-        root, recordings = _opened(files or [Path()])
+        root, recordings = _open_folder(files or [Path()])
         from kineme.formats import ReadOptions
         from kineme.library.storage.layout import HEAD
         from kineme.studio.reading import ReadingOptions
         from kineme.studio.server import serve
 
-        everybody, reading = of_everybody(request.reading)
+        everybody, reading = split_everybody(request.reading)
         options = ReadingOptions(ReadOptions(**reading), request.effectors)
         if everybody:
             _tell_apart(recordings, options)
@@ -102,7 +102,7 @@ def _tell_apart(recordings: list[Path] | None, options: ReadingOptions) -> None:
             present.read_as(listed.id, options_of(listed.path), everybody=True)
 
 
-def _opened(given: list[Path]) -> tuple[Path, list[Path] | None]:
+def _open_folder(given: list[Path]) -> tuple[Path, list[Path] | None]:
     """Return the folder, and the recordings where not all of it are wanted."""
     for path in given:
         if not path.exists():

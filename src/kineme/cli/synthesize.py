@@ -71,7 +71,7 @@ def synthesize(
                 made,
                 motions,
                 synthesis.parse_line(path),
-                actions=_without_counts(named),
+                actions=_drop_counts(named),
                 tolerance=tolerance,
             )
         elif named:
@@ -86,7 +86,7 @@ def synthesize(
     failures.exit()
 
 
-def _without_counts(actions: list[tuple[str, int]]) -> list[str]:
+def _drop_counts(actions: list[tuple[str, int]]) -> list[str]:
     for name, count in actions:
         if count > 1:
             raise ParameterError(

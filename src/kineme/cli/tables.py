@@ -140,7 +140,7 @@ def _activity_rows(segmentation: Segmentation) -> Table:
         probability = count_confidence(
             primitives.confidence[repeated], primitives.border_confidence[repeated]
         )
-        cells = count, in_per_cent(probability), cluster_cell(row.cluster), row.label
+        cells = count, format_per_cent(probability), cluster_cell(row.cluster), row.label
         table.add_row(*_span(number, row), *cells, style=_style(row))
     if any("+" in str(cell) for cell in table.columns[5].cells):
         captions.append("(+n): primitives of the activity that are in other clusters, or in none")
@@ -151,7 +151,7 @@ def _activity_rows(segmentation: Segmentation) -> Table:
     return table
 
 
-def in_per_cent(probability: float) -> str:
+def format_per_cent(probability: float) -> str:
     """Return a probability in per cent; nothing where there is none."""
     return "" if isnan(probability) else f"{100 * probability:.0f}"
 

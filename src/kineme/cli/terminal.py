@@ -34,7 +34,10 @@ class Console(rich.console.Console):
     def render(
         self, renderable: RenderableType, options: ConsoleOptions | None = None
     ) -> Iterable[Segment]:
-        """The segments of a renderable; rich's own control codes are segments of their own."""
+        """Return the segments of a renderable.
+
+        Rich's own control codes are segments of their own.
+        """
         for segment in super().render(renderable, options):
             text = segment.text if segment.control else harmless(segment.text)
             yield segment if text == segment.text else segment._replace(text=text)

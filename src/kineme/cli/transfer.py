@@ -86,7 +86,7 @@ def transfer(
             with batch.progress(path) as stage:
                 stage("reading")
                 motion = request.read_motion(path)
-                result = _named(request, motion, base, options, stage)
+                result = _name_segments(request, motion, base, options, stage)
             if table is not None:
                 from kineme.labels import write_segments
 
@@ -95,7 +95,7 @@ def transfer(
     batch.exit()
 
 
-def _named(
+def _name_segments(
     request: Request, motion: Motion, base: KnowledgeBase, options: dict[str, Any], stage: Stage
 ) -> Segmentation:
     """Return the segments of a recording, labelled."""

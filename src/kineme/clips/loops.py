@@ -55,7 +55,7 @@ class Carry:
     @property
     def rotation(self) -> Floats:
         """Return the turn as a quaternion."""
-        return rot.about_y(self.turn)
+        return rot.rotate_about_y(self.turn)
 
     @property
     def shift(self) -> Floats:
@@ -101,7 +101,7 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
     return Motion(skeleton, positions, fps, rotations, provenance), carry
 
 
-def with_first_again(motion: Motion, carry: Carry) -> Motion:
+def repeat_first_frame(motion: Motion, carry: Carry) -> Motion:
     """Return the loop and, after its last frame, its first one carried on, as engines want it."""
     again, rotations = carry.apply(motion.positions[:1]), motion.rotations
     if rotations is not None:
@@ -138,10 +138,10 @@ def seam_sides(values: Floats, fps: float) -> tuple[Floats, Floats]:
     ``values`` (frames, ...) are two frames at least.
     """
     near = min(len(values), max(FEWEST, round(NEAR_S * fps)))
-    return _at_seam(values[-near:], 0.5 - near), _at_seam(values[:near], 0.5)
+    return _extrapolate_seam(values[-near:], 0.5 - near), _extrapolate_seam(values[:near], 0.5)
 
 
-def _at_seam(values: Floats, first: float) -> Floats:
+def _extrapolate_seam(values: Floats, first: float) -> Floats:
     """Value, speed and acceleration at 0 of the parabola nearest to values from ``first`` on."""
     frames = first + np.arange(len(values))
     degree = 2 if len(frames) >= FEWEST else 1
@@ -166,11 +166,13 @@ def _closed_rotations(
     gaps = after - before
     gaps[0] = rot.logarithm(rot.multiply(rot.conjugate(left), right))
     added = np.tensordot(_shares(len(rotations), fps), gaps, axes=1)
-    return rot.normalized(rot.multiply(rotations, rot.exponential(added)))
+    return rot.normalize(rot.multiply(rotations, rot.exponential(added)))
 
 
 def _closed_places(places: Floats, fps: float, carry: Carry, free: NDArray[np.bool_]) -> Floats:
-    """The same for places; those that are ``free`` are carried on, the others hang on a parent.
+    """Return the same for places.
+
+    Those that are ``free`` are carried on, the others hang on a parent.
 
     What is added to the free ones turns with the carry, so that it fits at both ends.
     """

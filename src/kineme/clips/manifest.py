@@ -109,7 +109,7 @@ def _as_json(clip: Clip) -> dict[str, Any]:
         "poses": clip.poses,
         "changes": clip.changes,
     }
-    return {name: _rounded(value) for name, value in content.items()}
+    return {name: _round_numbers(value) for name, value in content.items()}
 
 
 def _quality(quality: LoopQuality) -> dict[str, float]:
@@ -125,12 +125,12 @@ def _root(root: RootMotion) -> dict[str, float]:
     }
 
 
-def _rounded(value: Any) -> Any:
+def _round_numbers(value: Any) -> Any:
     """JSON with `DIGITS` after the point; null for what is not a number."""
     if isinstance(value, Mapping):
-        return {name: _rounded(each) for name, each in value.items()}
+        return {name: _round_numbers(each) for name, each in value.items()}
     if isinstance(value, tuple | list | np.ndarray):
-        return [_rounded(each) for each in value]
+        return [_round_numbers(each) for each in value]
     if isinstance(value, float):
         return round(float(value), DIGITS) if math.isfinite(value) else None
     return int(value) if isinstance(value, np.integer) else value

@@ -38,7 +38,7 @@ def safe_name(stem: str, number: int, text: str) -> str:
     'clip_86_01_0012_walk_n2024'
     """
     middle = f"_{number:04d}_"
-    label = _without_numbers(_ascii(text))[:LONGEST_TEXT].strip("_") or "clip"
+    label = _protect_numbers(_ascii(text))[:LONGEST_TEXT].strip("_") or "clip"
     first = _ascii(stem)
     if not first[:1].isalpha():
         first = f"clip_{first}".rstrip("_")
@@ -54,7 +54,7 @@ def file_name(stem: str, number: int, text: str) -> str:
     >>> file_name("Take 1", 3, "Äpfel/Birnen")
     'Take_1_0003_Äpfel_Birnen'
     """
-    return f"{plain(stem)}_{number:04d}_{plain(_without_numbers(_plain_letters(text)))}"
+    return f"{plain(stem)}_{number:04d}_{plain(_protect_numbers(_plain_letters(text)))}"
 
 
 def unlike(stem: str, first: int, others: Container[str]) -> str:
@@ -81,7 +81,7 @@ def _plain_letters(text: str) -> str:
     return "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in text)
 
 
-def _without_numbers(text: str) -> str:
+def _protect_numbers(text: str) -> str:
     """Words between ``_`` that have four digits or more and nothing else get a letter."""
     return re.sub(r"(?<![^_])([0-9]{4,})(?![^_])", r"n\1", text)
 

@@ -87,7 +87,7 @@ def loop_quality(
     feet: Sequence[tuple[Sequence[int], Masks]] = (),
     unlike: float = math.nan,
 ) -> LoopQuality:
-    """The quality of a loop, from positions of the clip and of the loop alone, metres with y up.
+    """Return quality of a loop, from positions of the clip and of the loop alone, metres with y up.
 
     ``carry`` takes one round to the next; ``usual`` are the `usual_steps` of the recording;
     ``feet`` has the points of each foot and when it is planted; ``unlike`` is as `distances` has
@@ -127,7 +127,7 @@ def distances(shapes: Sequence[Floats]) -> list[float]:
     """
     if len(shapes) < 2:
         return [math.nan] * len(shapes)
-    sampled = np.stack([_sampled(each) for each in shapes])
+    sampled = np.stack([_sample_phases(each) for each in shapes])
     typical = np.median(sampled, axis=0)
     return [_size(each - typical) for each in sampled]
 
@@ -162,7 +162,7 @@ def _slide(
     return float(np.mean(speeds)) if speeds else math.nan
 
 
-def _sampled(shape: Floats) -> Floats:
+def _sample_phases(shape: Floats) -> Floats:
     """Return a motion at `PHASES` of its round."""
     at = np.linspace(0, len(shape) - 1, PHASES)
     low = np.minimum(at.astype(int), max(len(shape) - 2, 0))

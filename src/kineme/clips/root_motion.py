@@ -50,18 +50,18 @@ class RootMotion:
 
 
 def root_motion(motion: Motion, carry: Carry) -> RootMotion:
-    """The even motion of the body that goes round with this carry, in the axes of the recording."""
-    shift, seconds = _generator(_about(carry, _start(motion))), motion.n_frames / motion.fps
+    """Return the even motion of the body with this carry, in the axes of the recording."""
+    shift, seconds = _generator(_move_origin(carry, _start(motion))), motion.n_frames / motion.fps
     return RootMotion(shift[0] / seconds, shift[2] / seconds, carry.turn / seconds)
 
 
-def without_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion]:
-    """The motion in place, at the origin and facing +z, and what was taken out, in its axes."""
+def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion]:
+    """Return motion in place, at the origin and facing +z, and what was taken out, in its axes."""
     start = root_motion(motion, carry)
-    unmoved = _on_path(motion, carry, np.zeros(3))
+    unmoved = _follow_path(motion, carry, np.zeros(3))
     x, _, z = unmoved.positions[:, motion.skeleton.carrier].mean(axis=0)
     facing, center = _facing(unmoved), np.array([x, 0.0, z])
-    settled = _turned(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
+    settled = _turn_frames(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
     # The speed of the point that comes to lie at the origin, not that of the root in frame 0.
     arm = center - _start(motion)
     across, ahead = start.x + start.turn * arm[2], start.z - start.turn * arm[0]
@@ -70,32 +70,32 @@ def without_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotio
         across * sin(facing) + ahead * cos(facing),
         start.turn,
     )
-    return _noted(settled, "root motion taken out, put to the origin"), removed
+    return _add_note(settled, "root motion taken out, put to the origin"), removed
 
 
-def straightened(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
+def straighten(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
     """Return the motion with its turn taken out, so that the body goes on as it begins."""
-    shift = _generator(_about(carry, _start(motion)))
-    straight = _noted(_on_path(motion, carry, shift), "turn taken out")
+    shift = _generator(_move_origin(carry, _start(motion)))
+    straight = _add_note(_follow_path(motion, carry, shift), "turn taken out")
     return straight, Carry(0.0, float(shift[0]), float(shift[2]))
 
 
-def _on_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
+def _follow_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
     """Without its root motion, but with an even shift instead."""
     start = _start(motion)
-    about = _about(carry, start)
+    about = _move_origin(carry, start)
     speed = _generator(about)
     shares = np.linspace(0.0, 1.0, motion.n_frames, endpoint=False)
     path: Floats = np.array(
         [share * (_arc(share * about.turn) @ speed) for share in shares.tolist()]
     )
     target = start + shares[:, None] * shift
-    return _turned(motion, shares * -about.turn, start + path, target)
+    return _turn_frames(motion, shares * -about.turn, start + path, target)
 
 
-def _turned(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> Motion:
+def _turn_frames(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> Motion:
     """Return each frame turned about the vertical through its center, which goes to its target."""
-    quaternions = rot.about_y(turns)[:, None]
+    quaternions = rot.rotate_about_y(turns)[:, None]
     centers, targets = (np.broadcast_to(each, (motion.n_frames, 3)) for each in (centers, targets))
     positions = rot.rotate(quaternions, motion.positions - centers[:, None]) + targets[:, None]
     rotations = motion.rotations
@@ -106,7 +106,7 @@ def _turned(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> 
     return replace(motion, positions=positions, rotations=rotations)
 
 
-def _about(carry: Carry, place: Floats) -> Carry:
+def _move_origin(carry: Carry, place: Floats) -> Carry:
     """Return the carry as seen from a place on the floor."""
     shift = carry.apply(place) - place
     return Carry(carry.turn, float(shift[0]), float(shift[2]))
@@ -141,5 +141,5 @@ def _start(motion: Motion) -> Floats:
     return np.array([x, 0.0, z])
 
 
-def _noted(motion: Motion, note: str) -> Motion:
+def _add_note(motion: Motion, note: str) -> Motion:
     return replace(motion, provenance=motion.provenance.noted(note))

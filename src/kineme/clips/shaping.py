@@ -11,13 +11,13 @@ import numpy as np
 
 from kineme._util.arrays import Masks
 from kineme._util.checks import check_flag, is_number
-from kineme.clips.loops import Carry, carry_of, loop, with_first_again
+from kineme.clips.loops import Carry, carry_of, loop, repeat_first_frame
 from kineme.clips.quality import LoopQuality, distances, loop_quality, ranks, usual_steps
 from kineme.clips.root_motion import (
     RootMotion,
+    remove_root_motion,
     root_motion,
-    straightened,
-    without_root_motion,
+    straighten,
 )
 from kineme.cycles.contacts import stands_from_positions
 from kineme.cycles.landmarks import SIDES, landmarks
@@ -98,15 +98,18 @@ class ShapedClip:
     poses: Mapping[str, Mapping[str, Any]] | None = field(default=None, repr=False)
 
 
-def shaped(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterator[ShapedClip]:
-    """The segments as clips one by one, in their order; of loops those that were asked for."""
+def shape_clips(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterator[ShapedClip]:
+    """Return the segments as clips one by one, in their order.
+
+    Of loops those that were asked for.
+    """
     feet = planted_feet(motion)
     qualities = loop_qualities(motion, rows, feet) if shape.loops else {}
     places = _places(rows, qualities)
     for index, row in enumerate(rows):
         rank = places.get(index)
         if shape.best is None or (rank is not None and rank <= shape.best):
-            yield _shaped(motion, index, row, shape, feet, qualities.get(index), rank)
+            yield _shape_clip(motion, index, row, shape, feet, qualities.get(index), rank)
 
 
 @dataclass(frozen=True)
@@ -142,7 +145,7 @@ def played_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
     It is the loop that is written without further changes.
     """
     closed, carry = loop(cut(motion, row.start_frame, row.stop_frame))
-    return with_first_again(closed, carry), carry
+    return repeat_first_frame(closed, carry), carry
 
 
 def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
@@ -153,7 +156,7 @@ def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[
         shapes = []
         for index in members:
             clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
-            shapes.append(without_root_motion(clip, carry_of(clip))[0].positions[:, body])
+            shapes.append(remove_root_motion(clip, carry_of(clip))[0].positions[:, body])
         for index, unlike in zip(members, distances(shapes), strict=True):
             row = rows[index]
             clip = cut(motion, row.start_frame, row.stop_frame)
@@ -207,7 +210,7 @@ def _places(rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]) -> di
     return places
 
 
-def _shaped(
+def _shape_clip(
     motion: Motion,
     index: int,
     row: Segment,
@@ -222,14 +225,14 @@ def _shaped(
         clip, carry = loop(clip)
     root = root_motion(clip, carry)
     if shape.straight:
-        clip, carry = straightened(clip, carry)
+        clip, carry = straighten(clip, carry)
         root = root_motion(clip, carry)
     if shape.in_place:
-        clip, root = without_root_motion(clip, carry)
+        clip, root = remove_root_motion(clip, carry)
         carry = Carry(0.0, 0.0, 0.0)
     poses = _poses(clip)
     if shape.close and quality is not None:
-        clip = with_first_again(clip, carry)
+        clip = repeat_first_frame(clip, carry)
     return ShapedClip(
         index,
         row,

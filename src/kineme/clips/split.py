@@ -36,7 +36,7 @@ from kineme._util.checks import is_number, is_one_of
 from kineme._util.files import atomic_folder
 from kineme.clips.manifest import Clip, write_manifests
 from kineme.clips.names import file_name, safe_name, unlike
-from kineme.clips.shaping import Shape, ShapedClip, shaped
+from kineme.clips.shaping import Shape, ShapedClip, shape_clips
 from kineme.errors import MotionError, ParameterError
 from kineme.features import mirror as mirrored
 from kineme.formats import write
@@ -171,7 +171,7 @@ def write_clips(
                 entries += _write_rows(run, recording, rows)
                 continue
             motion = mirrored(recording) if mirror else recording
-            made = shaped(motion, rows, shape)
+            made = shape_clips(motion, rows, shape)
             if chosen is not None and chosen.write_animations is not None:
                 file = unlike(run.stem, run.first, files)
                 files.add(file.casefold())
@@ -211,7 +211,7 @@ def _format(suffix: str | None) -> Format | None:
 
 @dataclass(frozen=True)
 class _Run:
-    """The clips of one recording, numbered from ``first`` in their folder."""
+    """Clips of one recording, numbered from ``first`` in their folder."""
 
     recording: Motion | Signals
     first: int

@@ -7,7 +7,7 @@ import sys
 from types import ModuleType
 from typing import Any
 
-from kineme.cycles.angles import bend, between, cardan
+from kineme.cycles.angles import bend, cardan, measure_angle
 from kineme.cycles.channels import Channel, channels_of
 from kineme.cycles.contacts import (
     stands_from_force,
@@ -18,7 +18,6 @@ from kineme.cycles.events import Events, foot_events, gait, strides
 from kineme.cycles.export import write_cycles, write_table
 from kineme.cycles.landmarks import landmarks
 from kineme.cycles.measure import cycles
-from kineme.cycles.picture import plot_curves, plot_sessions, plot_sides
 from kineme.cycles.sessions import compare_curves, compare_sessions
 from kineme.cycles.sides import compare_sides
 from kineme.cycles.table import Cycles
@@ -28,7 +27,6 @@ __all__ = [
     "Cycles",
     "Events",
     "bend",
-    "between",
     "cardan",
     "channels_of",
     "compare_curves",
@@ -38,9 +36,7 @@ __all__ = [
     "foot_events",
     "gait",
     "landmarks",
-    "plot_curves",
-    "plot_sessions",
-    "plot_sides",
+    "measure_angle",
     "stands_from_force",
     "stands_from_positions",
     "strides",

@@ -41,22 +41,24 @@ BLOCK = 256
 """Cycles that are warped at a time."""
 
 
-def aligned(curves: Floats, alignment: str) -> Floats:
+def align_curves(curves: Floats, alignment: str) -> Floats:
     """Curves (cycles, channels, points) of one group, in step; those with gaps as they were."""
     complete = np.isfinite(curves).all(axis=(1, 2))
     if alignment == LINEAR or complete.sum() < 2:
         return curves
     shares = np.linspace(0, 1, curves.shape[2])
     grid = np.linspace(0, 1, GRID)
-    sampled = _at(curves[complete], shares, np.broadcast_to(grid, (int(complete.sum()), GRID)))
-    phases = _by_landmarks(sampled[:, 0]) if alignment == LANDMARKS else _by_warping(sampled)
+    sampled = _sample_curves(
+        curves[complete], shares, np.broadcast_to(grid, (int(complete.sum()), GRID))
+    )
+    phases = _align_landmarks(sampled[:, 0]) if alignment == LANDMARKS else _warp_to_mean(sampled)
     phases = np.array([np.interp(shares, grid, each) for each in phases])
     moved = curves.copy()
-    moved[complete] = _at(curves[complete], shares, phases)
+    moved[complete] = _sample_curves(curves[complete], shares, phases)
     return moved
 
 
-def _at(curves: Floats, shares: Floats, phases: Floats) -> Floats:
+def _sample_curves(curves: Floats, shares: Floats, phases: Floats) -> Floats:
     """Return the curves, known at shares of the cycle, at a phase of each for each point."""
     return np.array(
         [[np.interp(phase, shares, channel) for channel in curve]
@@ -64,7 +66,7 @@ def _at(curves: Floats, shares: Floats, phases: Floats) -> Floats:
     )  # fmt: skip
 
 
-def _by_landmarks(curves: Floats) -> Floats:
+def _align_landmarks(curves: Floats) -> Floats:
     """(cycles, GRID): the phase of each cycle at each time of the common one."""
     mean, grid = curves.mean(axis=0), np.linspace(0, 1, GRID)
     reach, margin = round(NEAR * GRID), round(INSIDE * GRID)
@@ -85,23 +87,23 @@ def _by_landmarks(curves: Floats) -> Floats:
     return phases
 
 
-def _by_warping(curves: Floats) -> Floats:
+def _warp_to_mean(curves: Floats) -> Floats:
     """Return the same, warped to the mean."""
     grid = np.linspace(0, 1, GRID)
     deviation = curves.std(axis=(0, 2), keepdims=True)
     scaled = curves / np.where(deviation > 0, deviation, 1.0)
     phases = np.tile(grid, (len(curves), 1))
     for _ in range(ROUNDS):
-        mean = _at(scaled, grid, phases).mean(axis=0)
+        mean = _sample_curves(scaled, grid, phases).mean(axis=0)
         blocks = range(0, len(scaled), BLOCK)
-        phases = np.concatenate([_warped(mean, scaled[at : at + BLOCK]) for at in blocks])
+        phases = np.concatenate([_warp_cycle(mean, scaled[at : at + BLOCK]) for at in blocks])
         usual = phases.mean(axis=0)
         phases = np.array([np.interp(grid, usual, each) for each in phases])
     return phases
 
 
-def _warped(mean: Floats, curves: Floats) -> Floats:
-    """The phase of each cycle at each time of the mean, on the cheapest path within a band."""
+def _warp_cycle(mean: Floats, curves: Floats) -> Floats:
+    """Return phase of each cycle at each time of the mean, on the cheapest path within a band."""
     n, band = len(curves), round(BAND * GRID)
     cost = np.full((n, GRID + 1, GRID + 1), np.inf)
     cost[:, 0, 0] = 0

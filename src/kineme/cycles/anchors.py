@@ -26,7 +26,7 @@ _EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
 _CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")
 
 
-def anchored(
+def anchor_repetitions(
     found: Sequence[Repetition],
     recordings: Sequence[Motion | Signals],
     groups: Sequence[Mapping[int | str, Hashable]],

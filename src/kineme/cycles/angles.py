@@ -35,10 +35,10 @@ def bend(before: Floats, joint: Floats, after: Floats) -> Floats:
     >>> bend(np.array([[0, 2.0, 0]]), np.array([[0, 1.0, 0]]), np.array([[0, 1.0, 1]])).round(6)
     array([90.])
     """
-    return between(joint - before, after - joint)
+    return measure_angle(joint - before, after - joint)
 
 
-def between(first: Floats, second: Floats) -> Floats:
+def measure_angle(first: Floats, second: Floats) -> Floats:
     """Return the angle between vectors, degrees from 0 to 180; nan where one has no length.
 
     Parameters
@@ -51,7 +51,7 @@ def between(first: Floats, second: Floats) -> Floats:
 
     Examples
     --------
-    >>> between(np.array([[0, 1.0, 0]]), np.array([[0, 0, 2.0]])).round(6)
+    >>> measure_angle(np.array([[0, 1.0, 0]]), np.array([[0, 0, 2.0]])).round(6)
     array([90.])
     """
     cross = np.linalg.norm(np.cross(first, second), axis=-1)
@@ -60,7 +60,7 @@ def between(first: Floats, second: Floats) -> Floats:
     return np.where((cross == 0) & (dot == 0), np.nan, angle)
 
 
-def about(axis: Floats, first: Floats, second: Floats) -> Floats:
+def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
     """By how much a vector is turned about an axis to lie in the direction of another.
 
     Parameters
@@ -76,7 +76,7 @@ def about(axis: Floats, first: Floats, second: Floats) -> Floats:
     Examples
     --------
     >>> x, y, z = np.eye(3)[:, None]
-    >>> about(x, y, z).round(6), about(x, z, y).round(6)
+    >>> measure_turn(x, y, z).round(6), measure_turn(x, z, y).round(6)
     (array([90.]), array([-90.]))
     """
     flat = [remove_along(vectors, axis) for vectors in (first, second)]

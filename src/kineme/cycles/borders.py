@@ -82,7 +82,10 @@ class Run:
         return (np.diff(self.borders) + self.period) / 2
 
     def at(self, cycles: Floats) -> Floats:
-        """The seconds at which so many cycles are done; beyond its ends at its own period."""
+        """Return the seconds at which so many cycles are done.
+
+        Beyond its ends at its own period.
+        """
         n = len(self.borders) - 1
         inside = np.interp(cycles, np.arange(n + 1), self.borders)
         beyond = np.maximum(cycles - n, 0) + np.minimum(cycles, 0)
@@ -104,7 +107,7 @@ def run_of(recording: int, borders: Floats) -> Run:
     return Run(recording, borders, np.full(len(borders), np.nan))
 
 
-def in_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
+def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
     """Return the runs of one cluster with borders at one phase, between two frames.
 
     Parameters
@@ -126,11 +129,12 @@ def in_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> lis
     >>> t = np.arange(0, 20, 0.01)
     >>> swing = np.stack([np.sin(2 * np.pi * t), np.cos(2 * np.pi * t)], axis=1)
     >>> grid = np.array([1, 2, 3.1, 3.9, 5])
-    >>> first, second = in_phase([run_of(0, grid), run_of(0, grid + 8.25)], [swing], [100.0])
+    >>> runs = [run_of(0, grid), run_of(0, grid + 8.25)]
+    >>> first, second = shift_to_common_phase(runs, [swing], [100.0])
     >>> np.diff(first.borders)[1:-1].round(3), round(second.turned, 2)
     (array([1., 1.]), -0.25)
     """
-    runs = _turned(runs, features, rates)
+    runs = _turn_borders(runs, features, rates)
     inner = sum(len(run.borders) - 2 for run in runs)
     if inner < 2:
         return runs
@@ -139,7 +143,7 @@ def in_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> lis
         template, weights = _template(runs, features, rates, offsets)
         reach = FARTHEST / 2**step
         moved = [
-            _moved(
+            _move_borders(
                 run,
                 features[run.recording],
                 rates[run.recording],
@@ -156,13 +160,13 @@ def in_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> lis
             for new, old in zip(moved, runs, strict=True)
         ])))  # fmt: skip
         runs = [replace(run, borders=run.borders - drift * run.period) for run in moved]
-    runs = _with_usual_ends(runs)
+    runs = _extend_ends(runs)
     by = _to_landmark(runs, features, rates)
     return [replace(run, borders=run.borders + by * run.period) for run in runs]
 
 
-def _with_usual_ends(runs: list[Run]) -> list[Run]:
-    """The runs with their ends drawn to where a repetition of usual length would have them."""
+def _extend_ends(runs: list[Run]) -> list[Run]:
+    """Return runs with their ends drawn to where a repetition of usual length would have them."""
     inner = [np.diff(run.borders)[1:-1] for run in runs]
     ratios = np.concatenate(
         [each / np.median(each) for each in inner if len(each) > 1] or [np.empty(0)]
@@ -197,17 +201,17 @@ def _to_landmark(runs: list[Run], features: list[Floats], rates: list[float]) ->
     if len(moves) == 0:
         return 0.0
     if moves[0] > 0 and moves[-1] < POINTS - 1:  # the border lies in a rest
-        return float(_wrapped((moves[0] + moves[-1] - POINTS) / 2 / POINTS))
+        return float(_wrap_phase((moves[0] + moves[-1] - POINTS) / 2 / POINTS))
     main = centred @ np.linalg.svd(centred, full_matrices=False)[2][0]
     slope = np.roll(main, -1) - np.roll(main, 1)
     after = np.roll(slope, -1)
     turns = np.flatnonzero(np.signbit(slope) != np.signbit(after))
     shares = slope[turns] / (slope[turns] - after[turns])
-    places = [_wrapped(place) for place in ((turns + shares) / POINTS).tolist()]
+    places = [_wrap_phase(place) for place in ((turns + shares) / POINTS).tolist()]
     return float(min(places, key=abs, default=0.0))
 
 
-def _turned(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
+def _turn_borders(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
     """Return the runs with their borders at about one phase."""
     repeated = [run for run in runs if len(run.borders) > 2]
     if len(repeated) < 2:
@@ -218,18 +222,18 @@ def _turned(runs: list[Run], features: list[Floats], rates: list[float]) -> list
     weights = {id(run): len(run.borders) - 1 for run in repeated}
 
     def moves(origin: float) -> float:
-        return sum(weights[key] * abs(_wrapped(late[key] - origin)) for key in late)
+        return sum(weights[key] * abs(_wrap_phase(late[key] - origin)) for key in late)
 
     origin = min(late.values(), key=moves)
     turned = []
     for run in runs:
-        by = _wrapped(late.get(id(run), origin) - origin)
+        by = _wrap_phase(late.get(id(run), origin) - origin)
         cycles = np.arange(len(run.borders), dtype=np.float64) + by
         turned.append(replace(run, borders=run.at(cycles), turned=by) if by else run)
     return turned
 
 
-def _wrapped(share: float) -> float:
+def _wrap_phase(share: float) -> float:
     """Return a share of a cycle from -1/2 to 1/2."""
     return (share + 0.5) % 1 - 0.5
 
@@ -238,7 +242,7 @@ def _mean_cycle(run: Run, features: list[Floats], rates: list[float]) -> Floats:
     """(points, dims): the mean of the repetitions of a run."""
     n = len(run.borders) - 1
     cycles = np.arange(n)[:, None] + np.arange(POINTS) / POINTS
-    values = sampled(features[run.recording], rates[run.recording], run.at(cycles))
+    values = sample_at(features[run.recording], rates[run.recording], run.at(cycles))
     return np.asarray(values.mean(axis=0))
 
 
@@ -257,7 +261,7 @@ def _lateness(mean: Floats, reference: Floats) -> float:
     if correlation[best] < SIMILAR or correlation[best] - correlation[0] < BETTER:
         return 0.0
     left, right = correlation[best - 1], correlation[(best + 1) % POINTS]
-    return _wrapped((best + _vertex(-left, -correlation[best], -right)) / POINTS)
+    return _wrap_phase((best + _vertex(-left, -correlation[best], -right)) / POINTS)
 
 
 def _template(
@@ -265,7 +269,7 @@ def _template(
 ) -> tuple[Floats, Floats]:
     """(window, dims): the mean about all inner borders; and (dims,): what share it explains."""
     windows = [
-        sampled(
+        sample_at(
             features[run.recording],
             rates[run.recording],
             np.array(
@@ -282,7 +286,7 @@ def _template(
     return template, shares
 
 
-def _moved(
+def _move_borders(
     run: Run,
     features: Floats,
     rate: float,
@@ -303,13 +307,13 @@ def _moved(
             used &= offsets <= 0
         pace = run.pace(i, offsets[used])
         times = border + shifts[:, None] * run.period + pace
-        left = ((sampled(features, rate, times) - template[used]) ** 2).sum(axis=1) @ weights
+        left = ((sample_at(features, rate, times) - template[used]) ** 2).sum(axis=1) @ weights
         best = int(left.argmin())
         shift = shifts[best]
         if 0 < best < len(shifts) - 1:
             shift += _vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
         borders[i] = border + shift * run.period
-        window = sampled(features, rate, borders[i] + pace)
+        window = sample_at(features, rate, borders[i] + pace)
         left = roots * (window - template[used])
         uncertainty[i] = _deviation(left, roots * slope[used]) * run.period
     return replace(run, borders=borders, uncertainty=uncertainty)
@@ -330,7 +334,7 @@ def _vertex(left: float, middle: float, right: float) -> float:
     return float(np.clip((left - right) / (2 * curvature), -0.5, 0.5)) if curvature > 0 else 0.0
 
 
-def sampled(values: Floats, rate: float, times: Floats) -> Floats:
+def sample_at(values: Floats, rate: float, times: Floats) -> Floats:
     """Values at any times in seconds, on straight lines between samples; the ends go on.
 
     Parameters

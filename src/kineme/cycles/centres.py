@@ -43,8 +43,8 @@ MOST = 4000
 """Frames that the common point is found from, at most."""
 
 
-def with_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
-    """The motion with centres of hips and knees as more joints, and the joints by part and side.
+def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
+    """Return motion with centres of hips and knees as more joints, and the joints by part and side.
 
     Both are as they were where nothing tells where centres are. Of markers on the skin,
     ``left_thigh`` is the point that tells with hip and knee how a thigh is turned: the marker of
@@ -147,7 +147,7 @@ def _knee(
     found = np.linalg.lstsq(
         np.concatenate([both, PULL * pulled]), np.concatenate([apart, PULL * apart / 2])
     )[0]
-    at = (_moved(upper, found[:3]) + _moved(lower, found[3:])) / 2
+    at = (_move_markers(upper, found[:3]) + _move_markers(lower, found[3:])) / 2
     axis = normalize(
         np.einsum("fji,fj->fi", upper[0], normalize(to_left)).mean(axis=0, keepdims=True)
     )[0]
@@ -160,7 +160,7 @@ Poses = tuple[Floats, Floats]
 """Rotations (frames, 3, 3) and places of the middle (frames, 3) of a rigid body."""
 
 
-def _moved(poses: Poses, point: Floats) -> Floats:
+def _move_markers(poses: Poses, point: Floats) -> Floats:
     return np.asarray(np.einsum("fij,j->fi", poses[0], point) + poses[1])
 
 

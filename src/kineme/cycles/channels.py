@@ -31,16 +31,16 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_texts
 from kineme.cycles.angles import (
-    about,
     bend,
-    between,
     cardan,
     continuous,
     hinge_axis,
+    measure_angle,
+    measure_turn,
     normalize,
     remove_along,
 )
-from kineme.cycles.centres import with_centres
+from kineme.cycles.centres import add_joint_centres
 from kineme.cycles.events import foot_of, stance_of
 from kineme.cycles.landmarks import SIDES, landmarks
 from kineme.errors import EndEffectorError, MotionError, ParameterError
@@ -138,10 +138,14 @@ def channels_of(
     >>> [channel.name for channel in channels_of(motion, ["knee_*", "Head.up"])]
     ['knee_l', 'knee_r', 'Head.up']
     """
-    every = of_motion(recording) if isinstance(recording, Motion) else _of_signals(recording)
+    every = (
+        make_motion_channels(recording)
+        if isinstance(recording, Motion)
+        else _make_signal_channels(recording)
+    )
     every += [each for each in contacts_of(recording) if each.name not in {c.name for c in every}]
     for signals in beside:
-        every += _of_signals(signals)
+        every += _make_signal_channels(signals)
     if names is None:
         usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
         return usual or [channel for channel in every if channel.group == "speed"]
@@ -161,7 +165,7 @@ def channels_of(
     return list(chosen.values())
 
 
-def _of_signals(signals: Signals) -> list[Channel]:
+def _make_signal_channels(signals: Signals) -> list[Channel]:
     columns = signals.values.T
     return [
         Channel(name, "", CHANNEL, name, signals.fps, partial(np.array, column), signals.gaps)
@@ -179,11 +183,11 @@ def contacts_of(recording: Motion | Signals) -> list[Channel]:
     ]  # fmt: skip
 
 
-def of_motion(motion: Motion) -> list[Channel]:
+def make_motion_channels(motion: Motion) -> list[Channel]:
     """Return every channel of a body: its angles first, after them rotations, positions, speeds."""
     channels: list[Channel] = []
     fps, gaps = motion.fps, motion.gaps
-    extended, parts = with_centres(motion, landmarks(motion))
+    extended, parts = add_joint_centres(motion, landmarks(motion))
     names = extended.skeleton.names
 
     def add(name: str, unit: str, group: str, of: Sequence[str | int], compute: Compute) -> None:
@@ -276,7 +280,7 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     for side, shoulder in zip(SIDES, shoulders, strict=True):
         elbow = joints.get(f"{side}_elbow")
         if elbow is not None:
-            compute = partial(_raised, places, shoulder, elbow, hips, shoulders)
+            compute = partial(_raise_error, places, shoulder, elbow, hips, shoulders)
             add(f"shoulder_{side[0]}", DEGREES, ANGLE, ["against the trunk", shoulder, elbow],
                 compute)  # fmt: skip
     for name, sideways in (("trunk_lean", False), ("trunk_side", True)):
@@ -316,9 +320,9 @@ def _flexion(places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[in
     axis = hinge_axis(hip, knee, ankle, places[:, thigh])
     alike = np.zeros(1) if axis is None else (axis * to_left).sum(axis=1)
     if axis is None or np.median(np.abs(alike)) < ALIKE:
-        return about(to_left, knee - hip, ankle - knee)
+        return measure_turn(to_left, knee - hip, ankle - knee)
     axis = axis * np.sign(alike)[:, None]  # in each frame: a thigh marker may be mistaken in some
-    return about(axis, knee - hip, ankle - knee)
+    return measure_turn(axis, knee - hip, ankle - knee)
 
 
 def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:
@@ -326,12 +330,12 @@ def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) ->
     skeleton = motion.skeleton
     turned = world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
     thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])
-    rest = _at_rest(skeleton, knee) - _at_rest(skeleton, hip)
-    to_left = _at_rest(skeleton, hips[0]) - _at_rest(skeleton, hips[1])
-    return -about(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
+    rest = _measure_rest(skeleton, knee) - _measure_rest(skeleton, hip)
+    to_left = _measure_rest(skeleton, hips[0]) - _measure_rest(skeleton, hips[1])
+    return -measure_turn(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
 
 
-def _at_rest(skeleton: Skeleton, joint: int) -> Floats:
+def _measure_rest(skeleton: Skeleton, joint: int) -> Floats:
     place = np.zeros(3)
     while joint >= 0:
         place = place + skeleton.offsets[joint]
@@ -348,13 +352,15 @@ def _against_trunk(
     places: Floats, hip: int, knee: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
     to_left = places[:, hips[0]] - places[:, hips[1]]
-    return -about(to_left, -_trunk(places, hips, shoulders), places[:, knee] - places[:, hip])
+    return -measure_turn(
+        to_left, -_trunk(places, hips, shoulders), places[:, knee] - places[:, hip]
+    )
 
 
-def _raised(
+def _raise_error(
     places: Floats, shoulder: int, elbow: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
-    return between(places[:, elbow] - places[:, shoulder], -_trunk(places, hips, shoulders))
+    return measure_angle(places[:, elbow] - places[:, shoulder], -_trunk(places, hips, shoulders))
 
 
 def _lean(
@@ -363,4 +369,4 @@ def _lean(
     trunk = _trunk(places, hips, shoulders)
     to_left = (places[:, hips[0]] - places[:, hips[1]]) * [1, 0, 1]
     up = np.broadcast_to([0.0, 1.0, 0.0], trunk.shape)
-    return about(np.cross(to_left, up) if sideways else to_left, up, trunk)
+    return measure_turn(np.cross(to_left, up) if sideways else to_left, up, trunk)

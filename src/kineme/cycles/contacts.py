@@ -94,14 +94,18 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     rises = sum(float(pitch[a : a + max(1, int(FIRST * (b - a)))].sum()) for a, b in moves)
     if rises > 0:
         pitch = -pitch  # the heel rises with a negative turn, the foot swings with a positive one
-    parts = [part for a, b in _joined(moves, pitch, fps) for part in _parts(pitch, a, b, fps)]
+    parts = [
+        part for a, b in _join_movements(moves, pitch, fps) for part in _parts(pitch, a, b, fps)
+    ]
     found = [(a, _swing(pitch[a:b])) for a, b in parts]
     swings = [(a + each[0], a + each[1]) for a, each in found if each is not None]
     seconds = np.array(swings, np.float64).reshape(-1, 2) / fps
     return seconds[np.diff(seconds, axis=1)[:, 0] >= SWING_S]
 
 
-def _joined(moves: Sequence[tuple[int, int]], pitch: Floats, fps: float) -> list[tuple[int, int]]:
+def _join_movements(
+    moves: Sequence[tuple[int, int]], pitch: Floats, fps: float
+) -> list[tuple[int, int]]:
     """Movements, joined where the foot did not stand between them.
 
     A foot that stood raises its heel first. Where it goes on forward, it was slow between heel

@@ -99,7 +99,7 @@ class Events:
         return {"time_s": self.times, "frame": self.times * self.fps, "event": self.names}
 
     def segmentation(self, name: str | None = None) -> Segmentation:
-        """The spans between events as activities, each called after the event that starts it.
+        """Return spans between events as activities, each called after the event that starts it.
 
         Parameters
         ----------
@@ -297,7 +297,10 @@ def _ends(stands: Floats, recording: Motion | Signals) -> tuple[list[float], lis
 
 
 def _channels(names: Sequence[str], side: str, pattern: str | None) -> list[str] | None:
-    """The three axes of the gyroscope of a foot, else of a shank; or what a pattern names."""
+    """Return the three axes of the gyroscope of a foot, else of a shank.
+
+    Or what a pattern names.
+    """
     if pattern is not None:
         chosen = [name for name in names if fnmatchcase(name, pattern)]
         if len(chosen) not in (1, 3):

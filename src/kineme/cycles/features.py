@@ -65,7 +65,7 @@ def fine_features(recording: Motion | Signals) -> FineFeatures:
     many = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
     rate = recording.fps / many
     found, comparable = _features(recording)
-    values = _averaged(found, many)
+    values = _average_frames(found, many)
     if isinstance(recording, Signals):
         deviation = values.std(axis=0)
         values = (values - values.mean(axis=0)) / np.where(deviation > 0, deviation, 1)
@@ -85,7 +85,7 @@ def _features(recording: Motion | Signals) -> tuple[Floats, bool]:
         return positions[:, 0] if single else distance_features(positions)[0], False
 
 
-def _averaged(values: Floats, many: int) -> Floats:
+def _average_frames(values: Floats, many: int) -> Floats:
     """Return the mean of the frames about every so many; the last may be of fewer."""
     if many == 1:
         return values

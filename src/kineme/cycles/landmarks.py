@@ -107,7 +107,9 @@ def _named(names: Sequence[str], part: str, side: str, but: int | None = None) -
 
 
 def _limb(skeleton: Skeleton, tip: int, other: int | None) -> tuple[int | None, int | None]:
-    """The middle and the upper joint of the limb that ends here; None twice where there is none.
+    """Return the middle and the upper joint of the limb that ends here.
+
+    None twice where there is none.
 
     Neither is a joint that the limb of the other side hangs on as well.
     """

@@ -20,8 +20,8 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_indices, check_flag, check_one_of, check_type
 from kineme._util.files import as_display_name, make_person_suffix
 from kineme._version import __version__
-from kineme.cycles.align import ALIGNMENTS, LINEAR, aligned
-from kineme.cycles.anchors import anchored
+from kineme.cycles.align import ALIGNMENTS, LINEAR, align_curves
+from kineme.cycles.anchors import anchor_repetitions
 from kineme.cycles.channels import Channel, channels_of
 from kineme.cycles.runs import Repetition, movement, repetitions
 from kineme.cycles.table import BY_HAND, INCOMPLETE, STATISTICS, Columns, Cycles
@@ -124,7 +124,7 @@ def cycles(
     if anchor is not None:
         if not isinstance(anchor, str) and len(given) > 1:
             raise ParameterError("seconds of events belong to one recording: name them instead")
-        found = anchored(found, given, groups, anchor, beside)
+        found = anchor_repetitions(found, given, groups, anchor, beside)
     columns = _columns(found, tables, names, groups)
     curves = np.empty((len(found), len(measured[0]), points))
     _measure([(each.recording, each.start, each.stop) for each in found], measured, columns, curves)
@@ -132,14 +132,14 @@ def cycles(
         columns,
         tuple(channel.name for channel in measured[0]),
         tuple(channel.unit for channel in measured[0]),
-        _in_step(curves, columns, align),
+        _align_groups(curves, columns, align),
         _provenance(given, tables, measured[0], found, columns, align),
     )
-    return with_left_out(cycles, tables)
+    return drop_left_out(cycles, tables)
 
 
-def with_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
-    """The same without those that people left out, as the annotations of their tables say."""
+def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
+    """Return same without those that people left out, as the annotations of their tables say."""
     left_out = [
         table.annotation.excludes(row.start_frame, row.stop_frame)
         for table in tables
@@ -174,7 +174,7 @@ def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
         columns,
         tuple(channel.name for channel in channels),
         tuple(channel.unit for channel in channels),
-        _in_step(curves, columns, cycles.provenance.get("align", LINEAR)),
+        _align_groups(curves, columns, cycles.provenance.get("align", LINEAR)),
         {**cycles.provenance, "channels": {channel.name: channel.source for channel in channels}},
     )
 
@@ -227,7 +227,7 @@ def _check_same(measured: Sequence[Sequence[Channel]], names: Sequence[str]) -> 
 
 
 def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
-    """The names of the files without suffix, with that of the person where equal ones differ by it.
+    """Return the files' names without suffix, with the person where equal names differ by it.
 
     Numbers where there are none, or still equal ones.
     """
@@ -324,7 +324,7 @@ def _measure(
             values = of_one[place].values()
             for row in rows:
                 _, start, stop = spans[row]
-                curves[row, place], statistics[row] = _of_cycle(
+                curves[row, place], statistics[row] = _measure_cycle(
                     values, channel.fps if number == 0 else of_one[place].fps, start, stop,
                     curves.shape[2],
                 )  # fmt: skip
@@ -332,16 +332,16 @@ def _measure(
             columns[f"{channel.name}.{name}"] = column
 
 
-def _in_step(curves: Floats, columns: Columns, align: str) -> Floats:
+def _align_groups(curves: Floats, columns: Columns, align: str) -> Floats:
     """Return the curves, those of each group in step; where nothing is measured, as they are."""
     if curves.shape[1]:
         for group in set(columns["group"].tolist()):
             rows = columns["group"] == group
-            curves[rows] = aligned(curves[rows], align)
+            curves[rows] = align_curves(curves[rows], align)
     return curves
 
 
-def _of_cycle(
+def _measure_cycle(
     values: Floats, fps: float, start: float, stop: float, points: int
 ) -> tuple[Floats, list[float]]:
     """A curve of so many points, and the statistics; nan where something was not recorded."""

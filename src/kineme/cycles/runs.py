@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kineme.cycles.borders import Run, in_phase, run_of
+from kineme.cycles.borders import Run, run_of, shift_to_common_phase
 from kineme.cycles.features import FineFeatures, fine_features
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
@@ -94,13 +94,13 @@ def repetitions(
     found: list[Repetition] = []
     features, rates = [each.values for each in fine], [each.rate for each in fine]
     for runs in members.values():
-        aligned = in_phase([run for run, _ in runs], features, rates)
+        aligned = shift_to_common_phase([run for run, _ in runs], features, rates)
         still = _stillness(aligned, fine)
         for run, (_, segments) in zip(aligned, runs, strict=True):
             each = _each(run, segments, tables[run.recording])
-            found += _without_pauses(each, fine[run.recording], still)
+            found += _trim_pauses(each, fine[run.recording], still)
     found.sort(key=lambda each: (each.recording, each.segment.start_frame))
-    return _numbered(found)
+    return _number_repetitions(found)
 
 
 def movement(segment: Segment) -> int | str:
@@ -171,7 +171,7 @@ def _stillness(runs: Sequence[Run], fine: Sequence[FineFeatures]) -> float:
     return STILL * float(np.sqrt(total / max(count, 1)))
 
 
-def _without_pauses(run: list[Repetition], fine: FineFeatures, still: float) -> list[Repetition]:
+def _trim_pauses(run: list[Repetition], fine: FineFeatures, still: float) -> list[Repetition]:
     """Return the repetitions of a run, from where movement begins to where it ends.
 
     Standing still counts as a pause where it lasts `PAUSE_S`, on both sides of a border together.
@@ -200,7 +200,7 @@ def _movement(each: Repetition, fine: FineFeatures, still: float) -> tuple[float
     return max(each.start, float(begins)), min(each.stop, float(ends))
 
 
-def _numbered(found: Sequence[Repetition]) -> list[Repetition]:
+def _number_repetitions(found: Sequence[Repetition]) -> list[Repetition]:
     """Return the repetitions counted from 0 in each activity."""
     counts: dict[tuple[int, int], int] = defaultdict(int)
     numbered = []

@@ -67,7 +67,7 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
                     cycles.columns[f"{name}.{measure}"][rows] for name in (left, right)
                 )
                 indexed = is_stance or measure == "range"
-                compared = _compared(of_left, of_right, measure, indexed=indexed)
+                compared = _compare_values(of_left, of_right, measure, indexed=indexed)
                 lines.append((group, left, right, measure, *compared))
     names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
              "difference", "low", "high", "symmetry_index")  # fmt: skip
@@ -76,18 +76,26 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
 
 
 def sides_of(channels: tuple[str, ...]) -> list[tuple[str, str]]:
-    """The channels of left sides with those of the right; without those that have no other side."""
+    """Return the channels of left sides with those of the right.
+
+    Without those that have no other side.
+    """
     pairs = ((name, right_of(name)) for name in channels)
     return [(left, right) for left, right in pairs if right != left and right in channels]
 
 
 def right_of(name: str) -> str:
-    """The channel of the right side to one of the left; the name itself where it is of no side."""
+    """Return the channel of the right side to one of the left.
+
+    The name itself where it is of no side.
+    """
     turned = re.sub("left", lambda found: _RIGHT.get(found[0], "right"), name, flags=re.IGNORECASE)
     return turned if turned != name else re.sub("_l$", "_r", name)
 
 
-def _compared(left: Floats, right: Floats, measure: str, *, indexed: bool) -> tuple[float, ...]:
+def _compare_values(
+    left: Floats, right: Floats, measure: str, *, indexed: bool
+) -> tuple[float, ...]:
     """Number, means, difference with bounds, symmetry index."""
     from scipy.special import stdtrit
 

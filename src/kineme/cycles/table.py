@@ -130,7 +130,7 @@ class Cycles:
         return counts if ends else counts & (self.columns["place"] == INNER)
 
     def exclude(self, rows: Collection[int], reason: str = BY_HAND) -> Cycles:
-        """The same where some cycles do not count in any mean, with the reason in their rows.
+        """Leave some cycles out of all means, with the reason in their rows.
 
         Parameters
         ----------
@@ -166,7 +166,7 @@ class Cycles:
         return replace(self, columns={**self.columns, "excluded": reasons.astype(np.str_)})
 
     def exclude_far(self, deviations: float = 4.0) -> Cycles:
-        """The same without cycles whose duration or curves are far from those of their group.
+        """Leave out cycles whose duration or curves are far from those of their group.
 
         Parameters
         ----------
@@ -259,7 +259,11 @@ class Cycles:
             for name in STATISTICS
         }
         lines = [
-            (group, measure, *_described(values[used & (self.columns["group"] == group)], measure))
+            (
+                group,
+                measure,
+                *_describe_values(values[used & (self.columns["group"] == group)], measure),
+            )
             for group in self.groups
             for measure, values in measures.items()
         ]
@@ -405,7 +409,7 @@ class Cycles:
 
 
 def count_confidence(confidence: Floats, borders: Floats) -> float:
-    """The probability that the number of these repetitions is right, the least one of several.
+    """Return probability that the number of these repetitions is right, the least one of several.
 
     nan where there is nothing to count, or where ``confidence`` is no probability: that of the
     published methods, which have none of ``borders``.
@@ -415,7 +419,7 @@ def count_confidence(confidence: Floats, borders: Floats) -> float:
     return float(np.nanmin(confidence))
 
 
-def _described(values: Floats, measure: str) -> tuple[float, ...]:
+def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
     """Number, mean, deviation, its share of the mean, median and quartiles; nan where too few."""
     values = values[np.isfinite(values)]
     n = len(values)

@@ -18,7 +18,7 @@ from typing import Annotated, NamedTuple
 
 from msgspec import Meta, Struct
 
-from kineme._util.json import decoded
+from kineme._util.json import decode_json
 from kineme.errors import KinemeWarning, ReadError
 
 TRIAL_FPS = 120.0
@@ -60,12 +60,12 @@ def read_actions(path: str | PathLike[str]) -> dict[str, list[Action]]:
     Known errors are mended, with a `KinemeWarning` for every row.
     """
     trials = _json_trials(path) if Path(path).suffix.lower() == ".json" else _text_trials(path)
-    return {name: _mended(name, rows) for name, rows in trials.items()}
+    return {name: _mend(name, rows) for name, rows in trials.items()}
 
 
 def _json_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
     try:
-        trials = decoded(_text(path), path, _File).trials
+        trials = decode_json(_text(path), path, _File).trials
     except ReadError as error:
         reason = f"no annotations.json of the benchmark: it {error.reason}"
         raise ReadError(path, reason, line=error.line) from error
@@ -95,7 +95,7 @@ def _text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
     return trials
 
 
-def _mended(trial: str, rows: list[Action]) -> list[Action]:
+def _mend(trial: str, rows: list[Action]) -> list[Action]:
     mended = []
     for number, row in enumerate(rows, 1):
         frames = CORRECTIONS.get((trial, number, row[1:]), row[1:])

@@ -1,4 +1,4 @@
-"""The recording that comes with the package.
+"""Recording that comes with the package.
 
 A synthetic figure walks, squats, circles its arms, jumps, runs and kicks; its
 true segments lie beside it. ``kineme.datasets.make_bundled`` made both.

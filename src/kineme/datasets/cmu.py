@@ -106,7 +106,7 @@ def fetch_subject(
     base = f"{site.rstrip('/')}/subjects/{subject:02d}/{subject:02d}"
 
     def get(url: str) -> Fetched | None:
-        return _checked(url, home, progress, timeout_s)
+        return _check_content(url, home, progress, timeout_s)
 
     skeleton = get(f"{base}.asf")
     if skeleton is None:
@@ -127,7 +127,9 @@ def fetch_subject(
         yield text
 
 
-def _checked(url: str, folder: Path, progress: Progress | None, timeout_s: float) -> Fetched | None:
+def _check_content(
+    url: str, folder: Path, progress: Progress | None, timeout_s: float
+) -> Fetched | None:
     """Return the file of this address, once its content has been read."""
     frames: list[int | None] = []
 

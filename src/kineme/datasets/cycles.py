@@ -71,7 +71,7 @@ class Cycle:
         return found
 
 
-def mirrored(angles: Mapping[str, Floats]) -> dict[str, Floats]:
+def mirror_posture(angles: Mapping[str, Floats]) -> dict[str, Floats]:
     """Return the same posture with left and right exchanged."""
     found = {}
     for name, values in angles.items():

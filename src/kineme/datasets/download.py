@@ -63,11 +63,11 @@ def fetch(
 
 
 class _MissingError(Exception):
-    """The server answers 404."""
+    """Raised where the server answers 404."""
 
 
 class _BrokenOffError(Exception):
-    """The connection ended early, but another attempt may get the rest."""
+    """Raised where the connection ended early, but another attempt may get the rest."""
 
 
 @dataclass

@@ -22,7 +22,7 @@ from kineme.recordings.kinematics import local_translations
 from kineme.recordings.operations import move, turn
 
 
-def joined(
+def join_recordings(
     motions: Sequence[Motion], join: float = 0.4
 ) -> tuple[Motion, NDArray[np.int64], list[int]]:
     """One motion of all, the first frame of each and the end, and half of each join in frames.

@@ -28,11 +28,13 @@ def make_bundled(folder: Path) -> None:
     recording = synthesize(actions, fps=60.0, seed=_SEED)
     bvh = folder / bundled_recording().name
     write(recording.motion, bvh)
-    bvh.write_text(_shortened(bvh.read_text(encoding="utf-8")), encoding="utf-8", newline="\n")
+    bvh.write_text(
+        _shorten_decimals(bvh.read_text(encoding="utf-8")), encoding="utf-8", newline="\n"
+    )
     write_segments(recording.truth, folder / bundled_truth().name)
 
 
-def _shortened(text: str) -> str:
+def _shorten_decimals(text: str) -> str:
     """Return the same BVH with fewer decimals in its frames."""
     head, timing, frames = text.partition("Frame Time:")
     step, *lines = frames.splitlines()

@@ -8,7 +8,7 @@ from scipy.ndimage import gaussian_filter1d
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.datasets.actions import ACTIONS
-from kineme.datasets.cycles import mirrored
+from kineme.datasets.cycles import mirror_posture
 from kineme.datasets.figure import ANGLES, joint_rotations
 from kineme.datasets.timeline import Part, phase_of, weight_of
 from kineme.recordings import Skeleton
@@ -38,7 +38,7 @@ def perform(
         cycle = ACTIONS[part.action.name]
         angles = cycle.angles_at(phase, size)
         if part.action.side == "left" and not cycle.gait:
-            angles = mirrored(angles)
+            angles = mirror_posture(angles)
         swaying = {name: angle + sway[name][span] for name, angle in angles.items()}
         weight = weight_of(part)
         turned = joint_rotations(skeleton, swaying, heading[span])

@@ -18,7 +18,7 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.datasets.joining import check_fit, joined
+from kineme.datasets.joining import check_fit, join_recordings
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.datasets.timeline import Row, segments_of
 from kineme.errors import ParameterError
@@ -145,7 +145,7 @@ def join_exercises(
     >>> join_exercises(parts).truth.activities.label.tolist()
     ['squat', '', 'jump']
     """
-    motion, starts, halves = joined([part.motion for part in parts], join)
+    motion, starts, halves = join_recordings([part.motion for part in parts], join)
     sentence = note or f"{len(parts)} exercises joined"
     provenance = Provenance(format="sequence").noted(sentence)
     truth = _truth(list(parts), starts, halves, motion.fps)

@@ -1,4 +1,4 @@
-"""The annotations of CMU subject 86 as truths: fourteen trials, each with three annotators.
+"""Annotations of CMU subject 86 as truths: fourteen trials, each with three annotators.
 
 At another rate than 120 Hz mark m is m × rate / 120, halves up, as in the evaluation of Vögele,
 Krüger, Klein 2014. Frame f counted from 1 is frame f - 1 here.
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme._util.json import decoded
+from kineme._util.json import decode_json
 from kineme.datasets.annotated_trials import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.truth import Truth, round_half_up
@@ -58,7 +58,7 @@ def is_annotations(path: Path) -> bool:
         text = path.read_text(encoding="utf-8-sig")
         if suffix == ".txt":
             return re.match(r"\s*\S*\b\d+_\d+\b", text) is not None
-        content = decoded(text, path)
+        content = decode_json(text, path)
     except (OSError, ValueError, ReadError):
         return False
     return isinstance(content, dict) and "trials" in content

@@ -276,7 +276,7 @@ Truths = Mapping[str, Mapping[str, Truth]]
 
 
 class _Sides:
-    """The classes of all frames as numbers: by names one for all, else one for each annotator."""
+    """Classes of all frames as numbers: by names one for all, else one for each annotator."""
 
     def __init__(self, truths: Truths, by: By):
         self._truths, self._by = truths, by
@@ -308,7 +308,7 @@ class _Sides:
             compared = self._compared(first, who)
             mappings[who] = self._mapping(compared) if compared else {}
         return {
-            name: np.array([_mapped(row, mappings.get(who, {})) for who, row in sides.items()])
+            name: np.array([_map_classes(row, mappings.get(who, {})) for who, row in sides.items()])
             for name, sides in self._classes.items()
         }
 
@@ -368,7 +368,7 @@ def _have_names_in_common(labelled: Labelled, truths: Truths) -> bool:
     return all(len(a & b) >= SHARED * min(len(a), len(b)) for a, b in pairs)
 
 
-def _mapped(classes: Ints, mapping: Mapping[int, int]) -> Ints:
+def _map_classes(classes: Ints, mapping: Mapping[int, int]) -> Ints:
     """Return the classes that a mapping knows as it says, the others as they are."""
     numbers, where = np.unique(classes, return_inverse=True)
     return np.array([mapping.get(int(n), int(n)) for n in numbers], np.int64)[where]

@@ -30,8 +30,8 @@ from scipy.optimize import linear_sum_assignment
 
 from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
+from kineme.evaluation.label_truth import add_repetitions, truth_of
 from kineme.evaluation.label_truth import labelling_of as labelling_of  # noqa: PLC0414 (others have it from here)
-from kineme.evaluation.label_truth import truth_of, with_repetitions
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling, Truth
 from kineme.labels.spans import text_of
 from kineme.segments.segmentation import Segmentation
@@ -177,7 +177,7 @@ class Comparison:
 
     @cached_property
     def mapped(self) -> Ints:
-        """The class that each frame's cluster stands for; below 0 where it stands for none."""
+        """Class that each frame's cluster stands for; below 0 where it stands for none."""
         mapping = best_mapping([self]) if self.mapping is None else self.mapping
         clusters, where = np.unique(self.found, return_inverse=True)
         classes = [mapping.get(int(c), -2 - i) for i, c in enumerate(clusters)]
@@ -312,7 +312,7 @@ def compare(
         raise ParameterError(
             f"the labels are of {truth.n_frames} frames, the result of {found.n_frames}"
         )
-    truth = with_repetitions(truth)
+    truth = add_repetitions(truth)
     numbers = {} if classes is None else classes
     classes_of_rows = [
         UNLABELLED if row.kind == "transition" else numbers.setdefault(text_of(row), len(numbers))

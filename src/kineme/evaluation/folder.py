@@ -18,11 +18,11 @@ from kineme._version import __version__
 from kineme.errors import EndEffectorError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
 from kineme.evaluation.recordings import Answer, Job, Reading, Sides, answers_to, check_method
-from kineme.evaluation.score import Ratio, over_all, results_of, scores, value_of
+from kineme.evaluation.score import Ratio, pool_scores, results_of, scores, value_of
 from kineme.evaluation.tables import plain
 from kineme.labels.collections import LabelSource
 from kineme.recordings.motion import Motion
-from kineme.segments.editing.rows import renumbered
+from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.sharing import share_by_samples, share_clusters
 
@@ -73,10 +73,10 @@ class FolderScores:
     methods: Mapping[str, Sequence[Evaluated]]
     mapping: Mapped
 
-    def over_all(self, method: str) -> dict[str, float]:
+    def pool_scores(self, method: str) -> dict[str, float]:
         """Return the scores of a method over its recordings by name, and ``seconds_per_hour``."""
         good = [one for one in self.methods[method] if not one.error]
-        found = {n: over_all(one.results.get(n) for one in good) for n in scores() if good}
+        found = {n: pool_scores(one.results.get(n) for one in good) for n in scores() if good}
         length = sum(one.length_s for one in good)
         if length:
             found["seconds_per_hour"] = 3600 * sum(one.seconds for one in good) / length
@@ -90,14 +90,14 @@ class FolderScores:
                 head = {"recording": one.recording, "method": method}
                 seconds = {} if one.error else {"seconds": one.seconds}
                 records.append({**head, **one.scores, **seconds, "error": one.error})
-        overall = [{"recording": "*", "method": m, **self.over_all(m)} for m in self.methods]
+        overall = [{"recording": "*", "method": m, **self.pool_scores(m)} for m in self.methods]
         return records + overall
 
     def to_json(self) -> str:
         """Everything as one JSON object; scores that are not defined are null."""
         methods = {
             method: {
-                "scores": plain(self.over_all(method)),
+                "scores": plain(self.pool_scores(method)),
                 "recordings": [
                     {"recording": one.recording, "error": one.error}
                     if one.error
@@ -164,7 +164,7 @@ def evaluate_folder(
     >>> from kineme.datasets import bundled_truth
     >>> sources = {kineme.bundled_recording(): LabelSource(bundled_truth())}
     >>> found = evaluate_folder(sources, ["voegele2014"], processes=1)
-    >>> 0 < found.over_all("voegele2014")["mof"] < 1
+    >>> 0 < found.pool_scores("voegele2014")["mof"] < 1
     True
     """
     others = dict(constants or {})
@@ -186,18 +186,23 @@ def evaluate_folder(
         if progress is not None and mapping == "folder":
             progress(f"joining the clusters of all recordings, {name}")
         compared = joined_comparisons(of_method, n_clusters) if mapping == "folder" else None
-        results[name] = _scored(of_method, compared or [answer.compared for _, answer in of_method])
+        results[name] = _score_method(
+            of_method, compared or [answer.compared for _, answer in of_method]
+        )
     return FolderScores(results, mapping)
 
 
 def joined_comparisons(
     answers: Sequence[tuple[Job, Answer]], n_clusters: int | None = None
 ) -> list[Comparison | None]:
-    """The comparisons of one method by one mapping of joined clusters; None where a job failed."""
+    """Return the comparisons of one method by one mapping of joined clusters.
+
+    None where a job failed.
+    """
     classes: dict[str, int] = {}
     compared = {
         i: compare(sides.truth, found, classes=classes)
-        for i, (sides, found) in _joined(answers, n_clusters).items()
+        for i, (sides, found) in _join_clusters(answers, n_clusters).items()
     }
     if not compared:
         return [None] * len(answers)
@@ -206,7 +211,7 @@ def joined_comparisons(
     return [mapped.get(i) for i in range(len(answers))]
 
 
-def _scored(
+def _score_method(
     answers: Sequence[tuple[Job, Answer]], compared: Sequence[Comparison | None]
 ) -> list[Evaluated]:
     """Return the scores of one method."""
@@ -221,7 +226,7 @@ def _scored(
     return found
 
 
-def _joined(
+def _join_clusters(
     answers: Sequence[tuple[Job, Answer]], n_clusters: int | None
 ) -> dict[int, tuple[Sides, Segmentation]]:
     """By the place of an answer: what was found there, with the joined clusters."""
@@ -235,14 +240,14 @@ def _joined(
     for rows in kinds.values():
         jobs = [answers[i][0] for i in rows]
         sides = [s for i in rows if (s := answers[i][1].sides) is not None]
-        shared = _of_one_kind(jobs, sides, n_clusters)
+        shared = _check_one_kind(jobs, sides, n_clusters)
         for i, side, one in zip(rows, sides, shared, strict=True):
             found[i] = side, _numbered_on(one, following)
         following += 1 + max(int(one.table.cluster.max()) for one in shared)
     return dict(sorted(found.items()))
 
 
-def _of_one_kind(
+def _check_one_kind(
     jobs: Sequence[Job], sides: Sequence[Sides], n_clusters: int | None
 ) -> list[Segmentation]:
     segmentations = [one.found for one in sides]
@@ -267,4 +272,4 @@ def _all_apart(segmentations: Sequence[Segmentation]) -> list[Segmentation]:
 
 def _numbered_on(found: Segmentation, first: int) -> Segmentation:
     """Return the same with clusters numbered from a number on."""
-    return renumbered(found, {c: c + first for c in found.table.cluster.tolist() if c >= 0})
+    return renumber_clusters(found, {c: c + first for c in found.table.cluster.tolist() if c >= 0})

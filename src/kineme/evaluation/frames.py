@@ -30,7 +30,7 @@ def frames_right(compared: Comparison) -> Ratio:
 
 
 def one_to_one_accuracy(compared: Comparison) -> float:
-    """The share of a recording's frames that are right: over a folder recordings weigh the same.
+    """Return share of a recording's frames that are right: over a folder recordings weigh the same.
 
     A cluster stands for one class at most, so that an action split into many clusters loses.
 

@@ -15,11 +15,11 @@ from typing import Any
 
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, runs
+from kineme.evaluation.label_truth import add_repetitions
 from kineme.evaluation.label_truth import truth_of as truth_of  # noqa: PLC0414 (others have it from here)
-from kineme.evaluation.label_truth import with_repetitions
 from kineme.evaluation.score import comparison_of, results_of, value_of
 from kineme.evaluation.truth import UNLABELLED, Truth, check_length
-from kineme.labels.clock_times import by_clock
+from kineme.labels.clock_times import convert_clock_times
 from kineme.labels.files import read_content
 from kineme.labels.spans import Labels, as_segmentation
 from kineme.recordings import Motion
@@ -52,7 +52,7 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
         if isinstance(content, Labels):
             counted = content.fps or (found.fps if content.unit == "seconds" else fps or found.fps)
             length_s = found.n_frames / found.fps
-            content = by_clock(content, found.clock, length_s=length_s)
+            content = convert_clock_times(content, found.clock, length_s=length_s)
             if content.length is None:  # silence at the end
                 length = length_s if content.unit == "seconds" else round(length_s * counted)
                 content = replace(content, length=length)
@@ -60,7 +60,7 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
             if unusual:
                 warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
         check_length(content.n_frames, content.fps, found.n_frames, found.fps)
-        return truth_of(with_repetitions(content), n_frames=n_frames, fps=rate)
+        return truth_of(add_repetitions(content), n_frames=n_frames, fps=rate)
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
 
@@ -76,7 +76,7 @@ def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
     >>> agreement(truth, truth)["border_f1"]
     1.0
     """
-    compared = _beside(truth, found)
+    compared = _pair(truth, found)
     scores = {} if compared is None else _scores(compared)
     return {name: value for name, value in scores.items() if isfinite(value)}
 
@@ -95,7 +95,7 @@ def differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, f
     >>> differences(truth, truth)
     []
     """
-    compared = _beside(truth, found)
+    compared = _pair(truth, found)
     if compared is None:
         return []
     least = compared.spans.actions.tolerance_s * compared.fps
@@ -107,12 +107,12 @@ def differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, f
     ]
 
 
-def _beside(truth: Segmentation, found: Segmentation) -> Comparison | None:
+def _pair(truth: Segmentation, found: Segmentation) -> Comparison | None:
     """Both at the rate of comparison; None where the truth has no activity."""
     if not (truth.activities.kind == "activity").any():
         return None
     n_frames, fps = comparison(found)
-    return comparison_of(truth_of(with_repetitions(truth), n_frames=n_frames, fps=fps), found)
+    return comparison_of(truth_of(add_repetitions(truth), n_frames=n_frames, fps=fps), found)
 
 
 def _scores(compared: Comparison) -> dict[str, float]:
@@ -145,7 +145,7 @@ def score(truth: Truth, found: Segmentation, motion: Motion | None = None) -> di
 
 
 def recording_of(found: Segmentation) -> Path | None:
-    """The file a segmentation was made from, if it is still there and unchanged."""
+    """Return the file a segmentation was made from, if it is still there and unchanged."""
     from kineme.formats.files import load
 
     source = found.provenance.get("input") or {}

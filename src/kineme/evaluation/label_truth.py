@@ -1,7 +1,7 @@
 """What labels say of a recording, as a truth: activities, and the repetitions in them.
 
 People who cut repetitions name them all alike, back to back, or keep them on the level
-``primitive``. Both are the same truth (`with_repetitions`): equal labels that touch each other are
+``primitive``. Both are the same truth (`add_repetitions`): equal labels that touch each other are
 one activity, and each of them is a repetition in it. A column ``count`` tells the number alone.
 """
 
@@ -19,7 +19,7 @@ from kineme.segments.table import COLUMNS, Segment, SegmentTable, kind_of
 Count = int | None
 
 
-def with_repetitions(labels: Segmentation) -> Segmentation:
+def add_repetitions(labels: Segmentation) -> Segmentation:
     """Return the same labels on both levels: activities, and as primitives the repetitions of each.
 
     Neighbours of one name are one activity. They are its repetitions where nobody says what is:
@@ -31,7 +31,7 @@ def with_repetitions(labels: Segmentation) -> Segmentation:
     --------
     >>> columns = {"level": ["activity"] * 3, "kind": ["activity"] * 3, "start_frame": [0, 30, 60],
     ...     "stop_frame": [30, 60, 90], "label": ["squat", "squat", "walk"]}
-    >>> labels = with_repetitions(Segmentation.from_columns(columns, n_frames=90, fps=30))
+    >>> labels = add_repetitions(Segmentation.from_columns(columns, n_frames=90, fps=30))
     >>> labels.cuts().tolist(), labels.provenance["labels"]["counts"]
     ([60], [2, None])
     """
@@ -59,10 +59,12 @@ def with_repetitions(labels: Segmentation) -> Segmentation:
 
 
 def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
-    """The activities of a segmentation as a truth at a rate; transitions are uncertain borders.
+    """Return the activities of a segmentation as a truth at a rate.
+
+    Transitions are uncertain borders.
 
     Activities are called by their labels, else by their clusters. Counts are those of the
-    provenance, and repetitions the primitives, see `with_repetitions`.
+    provenance, and repetitions the primitives, see `add_repetitions`.
     """
     rows = truth.activities
     clusters = labelling_of(rows, fps=truth.fps)
@@ -168,7 +170,10 @@ def _repetitions(
     *,
     single: bool,
 ) -> list[Segment]:
-    """The level of primitives that rows of the activity level make up; empty where they do not."""
+    """Return the level of primitives that rows of the activity level make up.
+
+    Empty where they do not.
+    """
     inner: list[Segment] = []
     for group in groups:
         first, last = rows[group[0]], rows[group[-1]]

@@ -1,4 +1,4 @@
-"""The accuracies of the published protocols, as their authors coded them.
+"""Accuracies of the published protocols, as their authors coded them.
 
 They are here to be comparable, not to be trusted: `strict_and_tolerant`
 never looks at clusters and rises with every cut. Uniform cuts twice a second

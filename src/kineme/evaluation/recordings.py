@@ -29,7 +29,7 @@ from kineme.transfer.channel_samples import ChannelSamples, channel_samples
 UNMET = "has no column like"
 """How a note on a pattern begins that no column of a recording fits, such as a mistyped one."""
 NUMBER_OF_CLASSES = "n_classes"
-"""The constant of presets that take the true number of classes."""
+"""Constant of presets that take the true number of classes."""
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,10 @@ def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answe
             waiting: dict[Future[Answer], Job] = {pool.submit(_answer, job): job for job in jobs}
         for future in as_completed(waiting):
             failure = future.exception()
-            yield waiting[future], future.result() if failure is None else _failed(failure)
+            yield (
+                waiting[future],
+                future.result() if failure is None else _describe_failure(failure),
+            )
     finally:
         pool.shutdown(cancel_futures=True)  # none is left, or nobody asks any more
 
@@ -177,7 +180,7 @@ def _answer(job: Job) -> Answer:
             warnings.simplefilter("ignore", KinemeWarning)
             return worked_out(job)
     except (KinemeError, ValueError, ArithmeticError, MemoryError) as error:
-        return _failed(error)
+        return _describe_failure(error)
 
 
 def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
@@ -201,7 +204,7 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     return Answer(compared, sides, classes, seconds, recording.duration, notes)
 
 
-def _failed(error: BaseException) -> Answer:
+def _describe_failure(error: BaseException) -> Answer:
     text = " ".join(str(error).split())
     return Answer(
         error=text if isinstance(error, KinemeError) else f"{type(error).__name__}: {text}"

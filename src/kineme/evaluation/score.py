@@ -278,12 +278,12 @@ def value_of(result: Value) -> float:
     return result.value if isinstance(result, Ratio) else float(result)
 
 
-def over_all(results: Iterable[Value]) -> float:
+def pool_scores(results: Iterable[Value]) -> float:
     """One number for many recordings: of ratios the sums' ratio, of numbers the mean.
 
     Examples
     --------
-    >>> over_all([Ratio(1, 10), Ratio(9, 10)]), over_all([0.2, 0.4])
+    >>> pool_scores([Ratio(1, 10), Ratio(9, 10)]), pool_scores([0.2, 0.4])
     (0.5, 0.30000000000000004)
     """
     kept = list(results)

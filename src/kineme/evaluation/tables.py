@@ -39,7 +39,7 @@ def score_rows(
     groups = []
     for group, names in {**titles, "cost": COST}.items():
         rows = [
-            (title, [shown(values.get(name, math.nan)) for values in columns.values()])
+            (title, [format_score(values.get(name, math.nan)) for values in columns.values()])
             for name, title in names.items()
             if any(math.isfinite(values.get(name, math.nan)) for values in columns.values())
         ]
@@ -61,7 +61,7 @@ def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
     return ""
 
 
-def shown(value: float) -> str:
+def format_score(value: float) -> str:
     """Return a score with three digits behind the point, empty for nan."""
     return f"{value:.3f}" if math.isfinite(value) else ""
 

@@ -25,7 +25,7 @@ Texts = NDArray[np.object_]
 
 TRANSITION = "transition"
 UNLABELLED = -1
-"""The number of `TRANSITION` where labels are numbers."""
+"""Number of `TRANSITION` where labels are numbers."""
 TOLERANCE_S = 0.25
 """Seconds beyond the span in which people put a border: within, a found one is right."""
 

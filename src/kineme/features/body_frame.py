@@ -1,4 +1,4 @@
-"""The body's own frame: at the pelvis, upright, facing +z with the left at +x.
+"""Body's own frame: at the pelvis, upright, facing +z with the left at +x.
 
 Positions relative to the pelvis, turned about the vertical frame by frame so
 that the body always faces the same way. Height differences, pitch and roll
@@ -90,7 +90,7 @@ def heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[i
 
 
 def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats]:
-    """The pelvis, and cosine and sine, (frames, 1) each, of the turns that face the body to +z."""
+    """Return the pelvis, and cosine and sine (frames, 1) of the turns that face the body to +z."""
     pelvis, left_hip, right_hip = _pelvis(motion.skeleton, effectors)
     if motion.rotations is None:
         to_left = motion.positions[:, left_hip] - motion.positions[:, right_hip]

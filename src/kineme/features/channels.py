@@ -17,11 +17,10 @@ from numpy.typing import ArrayLike
 
 from kineme._util.arrays import Floats, Ints, interpolate_frames
 from kineme._util.checks import check_rates
+from kineme.features.filters import filter_band
 
 NYQUIST = 0.45
 """Share of the rate up to which a band of frequency can be told."""
-FILTERED = 16
-"""Channels that are filtered at once: that takes several times the memory that they do."""
 
 
 class Reduction(NamedTuple):
@@ -194,15 +193,7 @@ def _means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
 
 def _band(channels: Floats, fps: float, low: float, high: float) -> Floats:
     """Return the channels between two frequencies, without delay (Butterworth, both ways)."""
-    from scipy.signal import butter, sosfiltfilt
-
-    edges = [low, min(high, NYQUIST * fps)]
-    if edges[0] >= edges[1]:
+    high = min(high, NYQUIST * fps)
+    if low >= high:
         return np.zeros_like(channels)
-    sections = butter(2, edges, "bandpass", fs=fps, output="sos")
-    padding = min(len(channels) - 1, int(3 * fps / low))
-    found = np.empty_like(channels)
-    for start in range(0, channels.shape[1], FILTERED):
-        some = slice(start, start + FILTERED)
-        found[:, some] = sosfiltfilt(sections, channels[:, some], axis=0, padlen=padding)
-    return found
+    return filter_band(channels, fps, low, high, min(len(channels) - 1, int(3 * fps / low)))

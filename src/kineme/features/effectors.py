@@ -61,7 +61,7 @@ class EndEffectors:
 
     @property
     def indices(self) -> tuple[int, int, int, int, int]:
-        """The joints in the order of the features: ankles, head, wrists, left before right."""
+        """Joints in the order of the features: ankles, head, wrists, left before right."""
         return self.left_ankle, self.right_ankle, self.head, self.left_wrist, self.right_wrist
 
     def describe(self, skeleton: Skeleton) -> str:

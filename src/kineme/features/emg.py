@@ -15,18 +15,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import ParameterError
+from kineme.features.filters import filter_low
 
 CUTOFF = 6.0
 """Hertz."""
 
-_ORDER = 2  # run forwards and backwards: fourth order in all, and no delay
-
 
 def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> NDArray[np.float64]:
-    """The envelope (frames, channels) of raw muscle signals, at the same rate, never below 0.
+    """Return envelope (frames, channels) of raw muscle signals, at the same rate, never below 0.
 
     Each channel loses its mean, is rectified, and low-passed without delay
-    (Butterworth, forwards and backwards).
+    (Butterworth of second order, forwards and backwards: fourth order in all).
 
     Parameters
     ----------
@@ -50,15 +49,12 @@ def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> ND
     >>> bool(envelope[1500] > 10 * envelope[500])
     True
     """
-    from scipy.signal import butter, sosfiltfilt
-
     if not 0 < cutoff < fps / 2:
         raise ParameterError(
             f"a cutoff of {cutoff:g} Hz needs signals of more than {2 * cutoff:g} Hz, not {fps:g}"
         )
     raw = np.asarray(values, np.float64)
     rectified = np.abs(raw - raw.mean(axis=0))
-    sections = butter(_ORDER, cutoff, fs=fps, output="sos")
     padding = min(len(raw) - 1, int(fps / cutoff))
-    smooth = sosfiltfilt(sections, rectified, axis=0, padlen=padding)
-    return np.asarray(np.maximum(smooth, 0.0), np.float64)
+    smooth = filter_low(rectified.reshape(len(raw), -1), fps, cutoff, padding)
+    return np.asarray(np.maximum(smooth, 0.0), np.float64).reshape(raw.shape)

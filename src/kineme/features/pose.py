@@ -123,7 +123,7 @@ def offsets_in_frames(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]
 
 
 def _extrapolated(features: Floats, before: int, after: int) -> Floats:
-    """The features with so many frames more at either end, in line with the two outermost."""
+    """Return features with so many frames more at either end, in line with the two outermost."""
     first = features[1] - features[0] if len(features) > 1 else np.zeros(features.shape[1])
     last = features[-1] - features[-2] if len(features) > 1 else first
     head = features[0] - np.arange(before, 0, -1)[:, None] * first

@@ -171,7 +171,10 @@ def _unit_like(positions: Floats, is_silent: list[bool], told: str) -> str:
 
 
 def _units_of(axes: Mapping[str, str]) -> dict[str, str | None]:
-    """The unit of each axis of a point; where one tells none, that of the others if it is one."""
+    """Return the unit of each axis of a point.
+
+    Where one tells none, that of the others if it is one.
+    """
     matches = {axis: COORDINATE.fullmatch(column.strip()) for axis, column in axes.items()}
     by_axis = {axis: match[5] if match else None for axis, match in matches.items()}
     by_axis = {axis: "pixel" if unit == "px" else unit for axis, unit in by_axis.items()}

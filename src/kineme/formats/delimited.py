@@ -46,7 +46,7 @@ NAMELESS = "(no name)"
 """What a column is called whose name is empty."""
 
 COMMAS = "numbers have a decimal comma"
-"""The note on it."""
+"""Note on it."""
 
 _ROWS_SNIFFED = 50  # in which a decimal comma and rows of several people are looked for
 _FRAME = frozenset({"frame", "frame_id", "frame_idx"})
@@ -135,7 +135,7 @@ class DelimitedText:
 
     @cached_property
     def times(self) -> dict[str, str]:
-        """The columns that tell times or a rate, and their names as `table_timing` knows them."""
+        """Columns that tell times or a rate, and their names as `table_timing` knows them."""
         if self.clocks is not None:
             return {name: self.clocks[name] for name in self.names if name in self.clocks}
         units = dict(zip(self.names, self.units, strict=False))
@@ -172,7 +172,7 @@ class DelimitedText:
         return replace(self, names=names, below=self.head, headless=False)
 
     def numeric(self) -> list[str]:
-        """The names of columns whose first cell is a number or empty, and of those of dates."""
+        """Return names of columns whose first cell is a number or empty, and of those of dates."""
         first = map(dotted, self.first_cells) if self.comma else self.first_cells
         dates = {self.names[i] for i in self.dates}
         return [
@@ -183,7 +183,7 @@ class DelimitedText:
         ]
 
     def texts(self, column: int) -> list[str]:
-        """The cells of one column, for the rows that `numbers` gives and perhaps one more."""
+        """Return cells of one column, for the rows that `numbers` gives and perhaps one more."""
         rows = csv.reader(self.rows, delimiter=self.separator)
         full = (row for row in rows if any(map(str.strip, row)))
         return [row[column].strip() if column < len(row) else "" for row in full]

@@ -64,7 +64,10 @@ DIALECTS: Registry[Dialect] = Registry(
 
 
 def dialect_of(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | None:
-    """The dialect that a table is in, by its columns and by its lines where it is text; or None."""
+    """Return the dialect that a table is in, by its columns and by its lines where it is text.
+
+    Or None.
+    """
     dialects = DIALECTS.values()
     return next((d for d in dialects if speaks(d.name, d.recognises, names, lines)), None)
 

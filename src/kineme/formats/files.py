@@ -171,7 +171,7 @@ def table(values: NDArray[np.float64]) -> list[str]:
     return [row % tuple(line) for line in values.tolist()]
 
 
-def spelled(path: Path, names: Sequence[str], spelling: Callable[[str], str]) -> list[str]:
+def spell_names(path: Path, names: Sequence[str], spelling: Callable[[str], str]) -> list[str]:
     """Return the names as a format can hold them, each once; a warning says what that changes.
 
     WriteError for a name that is no text: half of a pair of UTF-16.
@@ -198,7 +198,7 @@ def rotations_of(motion: Motion, path: Path, what: str) -> NDArray[np.float64]:
     return motion.rotations
 
 
-def in_a_cell(name: str) -> str:
+def format_point_name(name: str) -> str:
     """Return a point's name as tables hold it: one line, without a colon at its ends."""
     return " ".join(name.split()).strip(": ")
 

@@ -54,7 +54,7 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
         at = np.concatenate([np.arange(*span) for span in spans[~long]] or [np.empty(0, np.intp)])
         if len(at):
             visible = np.flatnonzero(~missing[:, point])
-            points[at, point] = _between(visible, points[visible, point], at)
+            points[at, point] = _interpolate_cubic(visible, points[visible, point], at)
             gaps.filled[point] = len(at)
         if long.any():
             gaps.open[point] = spans[long]
@@ -64,7 +64,9 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
 def bridge(
     points: Floats, gaps: Gaps, chosen: Iterable[int], fps: float
 ) -> tuple[tuple[int, int], ...]:
-    """The frames [start, stop) in which any of these points has an open gap; they are filled.
+    """Return the frames [start, stop) in which any of these points has an open gap.
+
+    They are filled.
 
     In place, along a straight line. What was seen for no longer than 0.2 s
     between two gaps is part of one.
@@ -74,7 +76,7 @@ def bridge(
     for point in chosen:
         if point not in gaps.open:
             continue
-        hidden = covered(gaps.open[point].tolist(), n)
+        hidden = mark_spans(gaps.open[point].tolist(), n)
         for axis in range(points.shape[2]):
             bridge_line(points[:, point, axis], hidden)
         missing |= hidden
@@ -84,7 +86,7 @@ def bridge(
     return tuple((start, stop) for start, stop in spans_of(missing).tolist())
 
 
-def covered(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
+def mark_spans(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
     """(n,): whether a frame lies in any of the spans [start, stop)."""
     inside = np.zeros(n, np.bool_)
     for start, stop in spans:
@@ -94,13 +96,13 @@ def covered(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
 
 def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
     """Return the motion with these frames [start, stop) in its gaps, besides those that it has."""
-    joined = covered([*motion.gaps, *spans], motion.n_frames)
+    joined = mark_spans([*motion.gaps, *spans], motion.n_frames)
     return replace(motion, gaps=tuple((a, b) for a, b in spans_of(joined).tolist()))
 
 
 def unseen(motion: Motion) -> list[bool]:
     """Return for each frame whether it lies in a gap of the motion."""
-    return list(map(bool, covered(motion.gaps, motion.n_frames)))
+    return list(map(bool, mark_spans(motion.gaps, motion.n_frames)))
 
 
 def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
@@ -113,7 +115,7 @@ def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
         )
 
 
-def _between(visible: NDArray[np.intp], values: Floats, at: NDArray[np.intp]) -> Floats:
+def _interpolate_cubic(visible: NDArray[np.intp], values: Floats, at: NDArray[np.intp]) -> Floats:
     """(at, 3): the values at frames that were not seen."""
     if len(visible) == 1:
         return np.repeat(values, len(at), axis=0)

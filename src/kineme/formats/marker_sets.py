@@ -108,7 +108,7 @@ PARENTS = {
     "left_wrist": "pelvis",
     "right_wrist": "pelvis",
 }
-"""The small tree that they form, parents first; every other point hangs on the pelvis."""
+"""Small tree that they form, parents first; every other point hangs on the pelvis."""
 
 _SIDES = {"l": "L", "left": "L", "r": "R", "right": "R"}
 _SIDE_AT_THE_END = re.compile(r"([A-Z]+)([lr])")

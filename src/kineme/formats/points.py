@@ -23,7 +23,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import format_count, join_names
 from kineme.errors import ReadError
 from kineme.formats.files import unique
-from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
+from kineme.formats.gaps import LONGEST_S, Gaps, bridge, fill_gaps, mark_spans
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
 from kineme.formats.persons import chosen_person
 from kineme.formats.plausibility import doubt_rigid, drop_implausible
@@ -95,7 +95,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     used = _used(body)
     kept = [i for i in range(len(names)) if i not in gaps.open or i in used]
     missing = bridge(positions, gaps, used, points.fps)
-    is_visible = ~covered(missing, len(positions))
+    is_visible = ~mark_spans(missing, len(positions))
     if not kept:
         raise ReadError(path, f"no marker is seen throughout: each has a gap above {LONGEST_S} s")
     if not is_visible.any():
@@ -137,7 +137,7 @@ def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:
 
     Points with open gaps are taken where a joint cannot be made without.
     """
-    hidden = {point: covered(spans.tolist(), n_frames) for point, spans in gaps.open.items()}
+    hidden = {point: mark_spans(spans.tolist(), n_frames) for point, spans in gaps.open.items()}
     usable = {i for i in range(len(names)) if i not in hidden or not hidden[i].all()}
     body = find_body(names, usable)
     if "pelvis" not in body:
@@ -160,7 +160,7 @@ def _missing_with_the_body(
     found = [
         point
         for point, spans in gaps.open.items()
-        if point not in used and not (is_visible & covered(spans.tolist(), n)).any()
+        if point not in used and not (is_visible & mark_spans(spans.tolist(), n)).any()
     ]
     bridge(positions, gaps, found, fps)
     return found

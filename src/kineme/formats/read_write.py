@@ -122,7 +122,9 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
 
 
 def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
-    """The people in a file, where there are several; those seen only in passing are left out.
+    """Return the people in a file, where there are several.
+
+    Those seen only in passing are left out.
 
     It is read for it. ReadError where it cannot be.
 

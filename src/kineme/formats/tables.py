@@ -24,7 +24,7 @@ from kineme.formats.columns import columns_to_motion, is_used
 from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, named
 from kineme.formats.devices import find_table
 from kineme.formats.dialects import dialect_of, hold_channels
-from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
+from kineme.formats.files import FileContent, format_point_name, save, spell_names, unique
 from kineme.formats.gaps import unseen
 from kineme.formats.label_tables import refuse_labels
 from kineme.formats.options import ReadOptions
@@ -72,7 +72,9 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
 
 def write_csv(motion: Motion, path: Path) -> None:
     """Leave the joints' positions in a CSV file, in metres with y up."""
-    joints = spelled(path, motion.skeleton.names, lambda n: in_a_cell(n.replace('"', "'")))
+    joints = spell_names(
+        path, motion.skeleton.names, lambda n: format_point_name(n.replace('"', "'"))
+    )
     rate = [RATE] if motion.n_frames < 2 else []  # which the time of one row does not tell
     names = [*rate, "time", *(f"{joint}_{axis}" for joint in joints for axis in "xyz")]
     head = ",".join(f'"{name}"' if "," in name else name for name in map(as_text, names)) + "\n"

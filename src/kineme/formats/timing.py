@@ -112,7 +112,9 @@ def date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
 
 
 def with_unit(name: str, unit: str) -> str:
-    """The name of a column of times with the unit that stands below it; as it is where none does.
+    """Return the name of a column of times with the unit that stands below it.
+
+    As it is where none does.
 
     Examples
     --------
@@ -179,7 +181,9 @@ def numbers_in(
 
 
 def timing_of(content: FileContent, times: Floats) -> Timing:
-    """The frame rate, the pauses, and what was seen of uneven times, in seconds; NaN has none.
+    """Return the frame rate, the pauses, and what was seen of uneven times, in seconds.
+
+    NaN has none.
 
     A rate within a millionth of whole thousandths of a hertz is taken as such, and so is
     one that the times, as large as they are, cannot tell from it. ReadError where times stand

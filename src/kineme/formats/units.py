@@ -17,7 +17,7 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.recordings import Note, Skeleton
-from kineme.recordings.kinematics import at_rest
+from kineme.recordings.kinematics import place_at_rest
 
 Body = Mapping[str, tuple[int, ...]]
 
@@ -41,7 +41,7 @@ _TO_Y = {
     "x": (0.5**0.5, 0.0, 0.0, 0.5**0.5),
     "-x": (0.5**0.5, 0.0, 0.0, -(0.5**0.5)),
 }
-"""The rotation that brings an axis up, and leaves x or z where it is."""
+"""Rotation that brings an axis up, and leaves x or z where it is."""
 
 AXES = tuple(_TO_Y)
 
@@ -56,7 +56,7 @@ SIZES = (0.02, 50.0)
 """Metres: a whole body of less, or points of more, are not of the unit that the file states."""
 
 METRIC = ("m", "cm", "mm")
-"""The units of markers and of most files."""
+"""Units of markers and of most files."""
 
 _METRES = re.compile("(centi|milli)?met(?:er|re)s?")
 _HEAD = re.compile("head", re.IGNORECASE)
@@ -84,7 +84,7 @@ def unit_named(word: str) -> str | None:
 
 
 def upright(points: Floats, up: str) -> Floats:
-    """The points (frames, points, 3), turned in place so that their axis ``up`` becomes y."""
+    """Return points (frames, points, 3), turned in place so that their axis ``up`` becomes y."""
     if up != "y":
         for span in blocks(len(points)):
             points[span] = rot.rotate(up_rotation(up), points[span])
@@ -132,7 +132,7 @@ def infer_up(skeleton: Skeleton, positions: Floats) -> str:
     feet, head = ends_of_body(skeleton)
     if not head or not feet:
         return "y"
-    axis = _axis_of(at_rest(skeleton)[None], feet, head, 0.9)
+    axis = _axis_of(place_at_rest(skeleton)[None], feet, head, 0.9)
     return axis if axis and axis == _axis_of(positions, feet, head, 0.7) else "y"
 
 

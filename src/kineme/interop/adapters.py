@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 def to_ruptures(segmentation: Segmentation, *, level: Level = "activity") -> list[int]:
-    """The ends of all segments, ``n_frames`` the last, as ruptures' ``predict`` gives them.
+    """Return the ends of all segments, ``n_frames`` the last, as ruptures' ``predict`` gives them.
 
     Examples
     --------

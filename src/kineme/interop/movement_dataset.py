@@ -25,7 +25,7 @@ from kineme._util.checks import require_extra
 from kineme.errors import ParameterError, ReadError
 from kineme.formats.columns import LIMIT
 from kineme.formats.files import FileContent, warn
-from kineme.formats.gaps import covered, split_at
+from kineme.formats.gaps import mark_spans, split_at
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import Timing, timing_of
 from kineme.recordings import Motion, Provenance
@@ -69,7 +69,7 @@ def to_movement(
     """
     with require_extra("xarray", "xarray"):
         import xarray as xr
-    missing = covered(motion.gaps, motion.n_frames)
+    missing = mark_spans(motion.gaps, motion.n_frames)
     positions = np.where(missing[:, None, None], np.nan, motion.positions)
     confidence = np.repeat(1.0 - missing[:, None], motion.skeleton.n_joints, axis=1)
     variables: dict[str, Any] = {
@@ -77,7 +77,9 @@ def to_movement(
         "confidence": (("time", "keypoints", "individuals"), confidence[..., None]),
     }
     if segmentation is not None:
-        variables |= {name: ("time", rows) for name, rows in _per_frame(motion, segmentation)}
+        variables |= {
+            name: ("time", rows) for name, rows in _make_frame_variables(motion, segmentation)
+        }
     return xr.Dataset(
         variables,
         coords={
@@ -153,7 +155,7 @@ def from_movement(
         places[likelihood < confidence] = np.nan
     attributes = dataset.attrs
     source = FileContent(Path(str(attributes.get("source_file") or "dataset")), b"")
-    timing = _timed(source, dataset, fps)
+    timing = _read_timing(source, dataset, fps)
     flat = "z" not in axes
     points = Points(
         [str(name) for name in position["keypoints"].values],
@@ -186,7 +188,7 @@ def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
     return dataset.isel(individuals=0 if name is None else names.index(name))
 
 
-def _timed(source: FileContent, dataset: xr.Dataset, fps: float | None) -> Timing:
+def _read_timing(source: FileContent, dataset: xr.Dataset, fps: float | None) -> Timing:
     rate = fps or dataset.attrs.get("fps")
     if rate:
         return Timing(float(rate))
@@ -195,7 +197,9 @@ def _timed(source: FileContent, dataset: xr.Dataset, fps: float | None) -> Timin
     raise ReadError(source.path, "the dataset counts frames and has no fps: give fps=")
 
 
-def _per_frame(motion: Motion, segmentation: Segmentation) -> list[tuple[str, NDArray[Any]]]:
+def _make_frame_variables(
+    motion: Motion, segmentation: Segmentation
+) -> list[tuple[str, NDArray[Any]]]:
     if segmentation.n_frames != motion.n_frames:
         raise ParameterError(
             f"the segments are of {segmentation.n_frames} frames, the motion has {motion.n_frames}"

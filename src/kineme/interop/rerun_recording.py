@@ -21,7 +21,7 @@ import numpy as np
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import ParameterError
-from kineme.formats.gaps import covered
+from kineme.formats.gaps import mark_spans
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion
 from kineme.segments.colors import cluster_color
@@ -90,7 +90,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
     )
     recording.log("body/joints", names, static=True)
     recording.log("body/bones", rr.LineStrips3D.from_fields(radii=BONE_RADIUS), static=True)
-    frames = np.flatnonzero(~covered(motion.gaps, motion.n_frames))
+    frames = np.flatnonzero(~mark_spans(motion.gaps, motion.n_frames))
     positions = motion.positions[frames].astype(np.float32)
     joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
     times = _times(frames, motion.fps)
@@ -106,7 +106,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
 
 
 def _send_lane(recording: Any, segmentation: Segmentation, level: Level) -> None:
-    """The states of one level: each segment one of its own, shown under its text."""
+    """Send the states of one level: each segment one of its own, shown under its text."""
     import rerun as rr
 
     rows = segmentation.level(level)

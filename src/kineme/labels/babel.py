@@ -23,7 +23,7 @@ from typing import Any
 
 from kineme._util.checks import format_count
 from kineme._util.files import atomic_write
-from kineme._util.json import loaded
+from kineme._util.json import load_json
 from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
@@ -61,7 +61,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 def read(path: Path) -> Labels:
     """Return the labels of the one recording at ``path``."""
-    content = loaded(path)
+    content = load_json(path)
     if isinstance(content, dict) and "dur" not in content:
         if len(content) > 1:
             raise ReadError(
@@ -106,7 +106,10 @@ def _text(label: Mapping[str, Any]) -> str:
 
 
 def _apart(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
-    """The spans cut where another begins or ends, with all their texts; how many have several."""
+    """Return the spans cut where another begins or ends, with all their texts.
+
+    How many have several.
+    """
     solid = [span for span in spans if span.start < span.stop]
     apart = [span for span in spans if not span.start < span.stop]
     waiting = sorted(solid, key=lambda span: span.start, reverse=True)

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from kineme._util.files import atomic_write
-from kineme._util.json import loaded
+from kineme._util.json import load_json
 from kineme.errors import ReadError, WriteError
 from kineme.labels import pairs
 from kineme.labels.delimited import integer, number, read_rows, write_rows
@@ -78,7 +78,7 @@ def read(path: Path) -> Labels:
             rates.append((span.stop, _rate(cells, span.stop)))
             cuts.append((span.level, cells.get("start_frame"), cells.get("stop_frame")))
     beside = sidecar_path(path)
-    sidecar = _parsed(beside)
+    sidecar = _parse(beside)
     facts = _facts(sidecar, beside)
     rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
     row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
@@ -140,7 +140,7 @@ def _facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
 
 def _sidecar_to_keep(beside: Path) -> dict[str, Any]:
     try:
-        found = _parsed(beside)
+        found = _parse(beside)
     except ReadError as error:
         raise WriteError(beside, f"is in the way of the sidecar: {error.reason}") from error
     if "schema" in found:
@@ -148,10 +148,10 @@ def _sidecar_to_keep(beside: Path) -> dict[str, Any]:
     return found
 
 
-def _parsed(beside: Path) -> dict[str, Any]:
+def _parse(beside: Path) -> dict[str, Any]:
     if not beside.is_file():
         return {}
-    found = loaded(beside)
+    found = load_json(beside)
     if not isinstance(found, dict):
         raise ReadError(beside, "a sidecar must be a JSON object")
     return found

@@ -79,7 +79,9 @@ def read(path: Path) -> Labels:
     headers = [("Time", "Behavior"), ("Start (s)", "Stop (s)", "Behavior")]
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = list(read_rows(file, path, headers))
-    spans = list(_paired(rows, path) if rows and "Time" in rows[0][1] else _aggregated(rows, path))
+    spans = list(
+        _pair_states(rows, path) if rows and "Time" in rows[0][1] else _read_aggregated(rows, path)
+    )
     points = Counter(cells["Behavior"] for _, cells in rows if _kind(cells) == "POINT")
     listed = ", ".join(f"{name} ({count})" for name, count in points.items())
     notes = (f"point events last no time and are left out: {listed:.200}",) if points else ()
@@ -97,7 +99,7 @@ def _order(event: dict[str, Any]) -> tuple[int, bool]:
     return event["Image index"], event["Behavior type"] == "START"
 
 
-def _paired(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
+def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
     """Yield each STOP with the START of the same behavior before it."""
     starts: dict[tuple[str, ...], float] = {}
     for line, cells in rows:
@@ -118,7 +120,7 @@ def _paired(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
         raise ReadError(path, f"{next(iter(starts))[2]!r:.60} has a START without a STOP")
 
 
-def _aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
+def _read_aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
     for line, cells in rows:
         if _kind(cells) == "POINT":
             continue

@@ -112,7 +112,7 @@ def write_events(
     """
     from kineme.formats.files import load
     from kineme.formats.markers.c3d_file import parse_c3d
-    from kineme.formats.markers.c3d_writer import C3DEvent, with_events
+    from kineme.formats.markers.c3d_writer import C3DEvent, add_events
 
     check_path(path, "write_events")
     seconds = as_floats(times, "times").ravel().tolist()
@@ -140,7 +140,7 @@ def write_events(
                 for at, name in present
             )
         ]
-        data = with_events(content, added)
+        data = add_events(content, added)
     with atomic_write(target) as draft:
         draft.write_bytes(data)
     return len(added)

@@ -23,13 +23,13 @@ NAMED = 4
 """Labels that a note names before it only counts."""
 
 
-def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
+def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
     """Return the labels in seconds of the recording, and notes on how they were taken.
 
     Examples
     --------
     >>> labels = Labels([Span(50, 60, "walk"), Span(100, 130, "rest"), Span(660, 700, "run")])
-    >>> found = by_clock(labels, Clock([0, 60], [0, 660]), length_s=120)
+    >>> found = convert_clock_times(labels, Clock([0, 60], [0, 660]), length_s=120)
     >>> [span[:3] for span in found.spans]
     [(50.0, 60.0, 'walk'), (60.0, 100.0, 'run')]
     >>> found.notes
@@ -64,7 +64,7 @@ def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
 
 
 def _seconds(times: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
-    """The seconds that starts and stops stand for, and a note unless they are the clock's own."""
+    """Return the seconds of starts and stops, and a note unless they are the clock's own."""
     candidates: tuple[tuple[Callable[[ArrayLike], Floats], tuple[str, ...]], ...] = (
         (clock.second, ()),
         (

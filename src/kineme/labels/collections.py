@@ -24,7 +24,7 @@ from typing import NamedTuple
 from kineme._util.checks import format_count
 from kineme.errors import ReadError
 from kineme.labels import csv_table
-from kineme.labels.clock_times import by_clock, lost_labels
+from kineme.labels.clock_times import convert_clock_times, lost_labels
 from kineme.labels.files import read_content, read_segments
 from kineme.labels.heads import columns
 from kineme.labels.pairs import SAME
@@ -48,7 +48,7 @@ class Extent(NamedTuple):
 
 @dataclass(frozen=True)
 class LabelSource:
-    """The file that holds the labels of a recording; its labels, where that is a table of many."""
+    """File that holds the labels of a recording; its labels, where that is a table of many."""
 
     path: Path
     labels: Labels | None = None
@@ -62,8 +62,8 @@ class LabelSource:
             name = label_format.name
         if isinstance(content, Labels):
             rate = content.fps or fps
-            timed = by_clock(content, clock, length_s=n_frames / rate)
-            labels = in_frames(timed, rate, n_frames=n_frames)
+            timed = convert_clock_times(content, clock, length_s=n_frames / rate)
+            labels = convert_to_frames(timed, rate, n_frames=n_frames)
             return as_segmentation(labels, self.path, name, fps=rate, n_frames=n_frames)[0]
         if content.n_frames != n_frames:
             raise ReadError(
@@ -93,7 +93,7 @@ def labels_and_strays(
 ) -> tuple[Mapping[Path, LabelSource], list[str]]:
     """What `labels_of` gives, and the recordings that a table names and that are not there."""
     files, home = list(recordings), Path(labels)
-    named = _in_folder(home) if home.is_dir() else _in_table(home)
+    named = _find_in_folder(home) if home.is_dir() else _find_in_table(home)
     pairs = ((path, named.get(path.name) or named.get(path.stem)) for path in files)
     found = {path: source for path, source in pairs if source is not None}
     if not found:
@@ -122,12 +122,12 @@ def labels_for(
     return source.of(n_frames=n_frames, fps=fps, clock=clock)
 
 
-def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
+def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     """Return the labels as spans of a recording's frames that neither overlap nor run backwards.
 
     Examples
     --------
-    >>> found = in_frames(Labels([Span(0, 9, "walk"), Span(4, 6, "wave")]), 10, n_frames=90)
+    >>> found = convert_to_frames(Labels([Span(0, 9, "walk"), Span(4, 6, "wave")]), 10, n_frames=90)
     >>> [span[:3] for span in found.spans]
     [(0, 40, 'walk'), (60, 90, 'walk'), (40, 60, 'wave')]
     >>> found.notes
@@ -174,7 +174,10 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
 
 
 def _first_frame(time: float, n_frames: int) -> int:
-    """The first frame at or after a time in frames; the end for times beyond, however far."""
+    """Return the first frame at or after a time in frames.
+
+    The end for times beyond, however far.
+    """
     return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
 
@@ -197,7 +200,7 @@ class _Covered:
         return [(begin, end) for begin, end in free if begin < end]
 
 
-def _in_table(path: Path) -> dict[str, LabelSource]:
+def _find_in_table(path: Path) -> dict[str, LabelSource]:
     try:
         tables = csv_table.intervals(path)
     except OSError as error:
@@ -209,7 +212,7 @@ def _in_table(path: Path) -> dict[str, LabelSource]:
     return {name: LabelSource(path, labels) for name, labels in tables.items()}
 
 
-def _in_folder(folder: Path) -> dict[str, LabelSource]:
+def _find_in_folder(folder: Path) -> dict[str, LabelSource]:
     """Return the label files by every name that a recording of theirs may have."""
     found: dict[str, LabelSource] = {}
     for path in sorted(folder.iterdir()):

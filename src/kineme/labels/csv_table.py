@@ -34,10 +34,10 @@ from kineme.labels import pairs
 from kineme.labels.delimited import number, read_rows, write_rows
 from kineme.labels.heads import columns as columns_of
 from kineme.labels.heads import separator
-from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
+from kineme.labels.json_table import SCHEMA, head_of, join_head, parse
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span
-from kineme.segments.editing.annotating import from_rows, in_rows
+from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import (
     COLUMNS,
@@ -67,7 +67,7 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
             if times := segmentation.start_times():
                 names.append(START_TIME)
                 rows = ([*cells, time] for cells, time in zip(rows, times, strict=True))
-            if any(comments := in_rows(segmentation)):
+            if any(comments := assign_comments(segmentation)):
                 names.append(COMMENT)
                 rows = ([*cells, text] for cells, text in zip(rows, comments, strict=True))
             write_rows(file, names, rows)
@@ -84,11 +84,11 @@ def read(path: Path) -> Segmentation | Labels:
         rows = csv.DictReader(file, strict=True, delimiter=comma)
         columns = _columns(rows, path, commas=comma != ",")
     comments = columns.pop(COMMENT, None)
-    found = _with_the_rest(columns, path)
+    found = _read_provenance(columns, path)
     return found if comments is None else from_rows(found, comments)
 
 
-def _with_the_rest(columns: dict[str, list[Any]], path: Path) -> Segmentation:
+def _read_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:
     """Return the table, with what lies beside it."""
     beside = provenance_path(path)
     if beside.is_file():
@@ -100,15 +100,15 @@ def _with_the_rest(columns: dict[str, list[Any]], path: Path) -> Segmentation:
                 f"{head.get('n_frames')!r} frames: remove that file if it belongs to another table",
             )
         rest = {name: value for name, value in head.items() if name != "hierarchy"}
-        table = with_head(columns, rest, path)
+        table = join_head(columns, rest, path)
         changes = pairs.differences(
             path, beside, head, _digest(columns), head_rate=table.fps, row_rate=_rate(columns)
         )
         if not changes:
-            return with_head(columns, head, path)
+            return join_head(columns, head, path)
         notes = [*table.provenance.get("notes", ()), *changes]
         return replace(table, provenance={**table.provenance, "notes": notes})
-    return with_head(columns, _guessed_head(columns, path), path)
+    return join_head(columns, _guessed_head(columns, path), path)
 
 
 def provenance_path(path: Path) -> Path:
@@ -123,7 +123,10 @@ def roundest_rate(n_frames: int, seconds: float) -> float:
 
 
 def intervals(path: Path) -> dict[str, Labels]:
-    """The labels of a table of intervals, by recording; by ``""`` where it has no such column."""
+    """Return the labels of a table of intervals, by recording.
+
+    By ``""`` where it has no such column.
+    """
     unit: Unit = "seconds"
     spans: dict[str, list[Span]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
@@ -168,7 +171,10 @@ def _level(row: dict[str, str]) -> Level:
 
 
 def _cluster(row: dict[str, str]) -> int:
-    """The number of a cluster, as in an exported library; other words there are people's own."""
+    """Return the number of a cluster, as in an exported library.
+
+    Other words there are people's own.
+    """
     text = row.get("cluster", "").strip()
     return int(text) if re.fullmatch("[0-9]{1,9}", text) else -1
 

@@ -77,7 +77,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         holder = ET.SubElement(tiers[row.level], "ANNOTATION")
         span = ET.SubElement(holder, "ALIGNABLE_ANNOTATION", ANNOTATION_ID=f"a{number}")
         span.attrib |= {"TIME_SLOT_REF1": start, "TIME_SLOT_REF2": stop}
-        ET.SubElement(span, "ANNOTATION_VALUE").text = _allowed(text_of(row))
+        ET.SubElement(span, "ANNOTATION_VALUE").text = _drop_forbidden(text_of(row))
     ET.SubElement(
         root,
         "LINGUISTIC_TYPE",
@@ -92,7 +92,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 def read(path: Path) -> Labels:
     """Return the annotations at ``path``."""
-    root = _parsed(path)
+    root = _parse(path)
     if root.tag != "ANNOTATION_DOCUMENT":
         raise ReadError(path, f"is not an ELAN document but a {root.tag!r:.60}")
     slots = {slot.get("TIME_SLOT_ID"): slot.get("TIME_VALUE") for slot in root.iter("TIME_SLOT")}
@@ -127,7 +127,7 @@ def _name_medium(header: ET.Element, segmentation: Segmentation) -> None:
 
 
 def chosen_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
-    """The level of each tier that is read: those named after one, or the only one there is."""
+    """Return level of each tier that is read: those named after one, or the only one there is."""
     found: dict[str, Level] = {level: level for level in get_args(Level) if level in names}
     if found or not names:
         return found
@@ -143,7 +143,7 @@ class _Builder(NoEntities, ET.TreeBuilder):
     """Elements of a document that defines no entities."""
 
 
-def _parsed(path: Path) -> ET.Element:
+def _parse(path: Path) -> ET.Element:
     parser = ET.XMLParser(target=_Builder())  # noqa: S314 (see NoEntities)
     try:
         with path.open("rb") as file:
@@ -186,7 +186,7 @@ def _milliseconds(row: Segment) -> tuple[int, int]:
     return round(row.start_s * PER_SECOND), round(row.stop_s * PER_SECOND)
 
 
-def _allowed(text: str) -> str:
+def _drop_forbidden(text: str) -> str:
     """Return the text without the two characters that XML cannot hold and labels can."""
     return text.replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
 

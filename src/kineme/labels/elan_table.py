@@ -41,14 +41,14 @@ def read(path: Path) -> Labels:
     if not full:
         return Labels([])
     is_named = any(map(_TIMES.fullmatch, full[0][1]))
-    found = list(_under_names(full, path) if is_named else _without_names(full, path))
+    found = list(_read_named_columns(full, path) if is_named else _read_unnamed_columns(full, path))
     levels = chosen_tiers(list(dict.fromkeys(tier for tier, *_ in found)), path)
     return Labels(
         [Span(start, stop, text, levels[t]) for t, start, stop, text in found if t in levels]
     )
 
 
-def _under_names(rows: Sequence[tuple[int, list[str]]], path: Path) -> Iterator[Annotation]:
+def _read_named_columns(rows: Sequence[tuple[int, list[str]]], path: Path) -> Iterator[Annotation]:
     names = rows[0][1]
     times: dict[str, tuple[int, bool]] = {}
     for i, name in enumerate(names):
@@ -74,7 +74,9 @@ def _under_names(rows: Sequence[tuple[int, list[str]]], path: Path) -> Iterator[
                 yield names[i], start, stop, row[i]
 
 
-def _without_names(rows: Sequence[tuple[int, list[str]]], path: Path) -> Iterator[Annotation]:
+def _read_unnamed_columns(
+    rows: Sequence[tuple[int, list[str]]], path: Path
+) -> Iterator[Annotation]:
     first = rows[0][1]
     columns = [i for i in range(2, len(first) - 1) if _TIME.fullmatch(first[i])]
     clocks = [i for i in columns if _CLOCK.fullmatch(first[i])]

@@ -11,7 +11,7 @@ from pathlib import Path
 from kineme._util.checks import check_path, check_type, is_number
 from kineme._util.files import translate_read_errors
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
-from kineme.labels.clock_times import by_clock
+from kineme.labels.clock_times import convert_clock_times
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.registry import format_to_read, format_to_write
 from kineme.labels.spans import Labels, as_segmentation
@@ -137,7 +137,7 @@ def read_segments(
     rate = content.fps
     if isinstance(content, Labels):
         if clock is not None and fps is not None and n_frames is not None:
-            content = by_clock(content, clock, length_s=n_frames / fps)
+            content = convert_clock_times(content, clock, length_s=n_frames / fps)
         with translate_read_errors(path):
             content, unusual = as_segmentation(
                 content, Path(path), label_format.name, fps=fps, n_frames=n_frames
@@ -156,7 +156,7 @@ def read_segments(
 def read_content(
     path: str | PathLike[str], name: str | None = None
 ) -> tuple[LabelFormat, Segmentation | Labels]:
-    """The format of a file and what it holds by itself, before anything is filled in."""
+    """Return the format of a file and what it holds by itself, before anything is filled in."""
     label_format = format_to_read(path, name)
     with translate_read_errors(path):
         return label_format, label_format.read(Path(path))

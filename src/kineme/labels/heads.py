@@ -1,4 +1,4 @@
-"""The first and last bytes of files, by which formats that share a suffix are told apart."""
+"""First and last bytes of files, by which formats that share a suffix are told apart."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.files import atomic_write
-from kineme._util.json import decoded
+from kineme._util.json import decode_json
 from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
@@ -68,7 +68,7 @@ def dumps(segmentation: Segmentation) -> str:
     """Return the JSON text: small parts indented, one line per segment."""
     content = head_of(segmentation)
     levels = content.get("hierarchy", {}).pop("levels", [])
-    head = _indented(content).removesuffix("\n}")
+    head = _indent(content).removesuffix("\n}")
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
         head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
@@ -96,7 +96,7 @@ def loads(content: bytes, path: Path) -> Segmentation:
         missing = lacking(row)
         if missing:
             raise ReadError(path, f"segment {number} has no {missing[0]!r}")
-    return with_head({name: _column(rows, name) for name in COLUMNS}, data, path)
+    return join_head({name: _column(rows, name) for name in COLUMNS}, data, path)
 
 
 def head_of(segmentation: Segmentation) -> dict[str, Any]:
@@ -117,7 +117,7 @@ def head_of(segmentation: Segmentation) -> dict[str, Any]:
 
 def parse(text: str, path: Path) -> dict[str, Any]:
     """Return the object in ``text``, if it is of a schema this version reads."""
-    data = decoded(text, path)
+    data = decode_json(text, path)
     schema = data.get("schema") if isinstance(data, dict) else None
     if not isinstance(data, dict) or not str(schema).startswith("kineme.segments/"):
         raise ReadError(path, 'is not a segment table: it has no "schema": "kineme.segments/..."')
@@ -129,7 +129,7 @@ def parse(text: str, path: Path) -> dict[str, Any]:
     return data
 
 
-def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segmentation:
+def join_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segmentation:
     """Return the segmentation of a table and what `head_of` gave."""
     n_frames, fps = head.get("n_frames"), head.get("fps")
     if type(n_frames) is not int:
@@ -175,7 +175,7 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
         if columns is None:
             tables[level["detail"]] = found.table
             continue
-        columns = {name: _with_nan(values, name) for name, values in columns.items()}
+        columns = {name: _replace_null(values, name) for name, values in columns.items()}
         tables[level["detail"]] = Segmentation.from_columns(
             columns, n_frames=found.n_frames, fps=found.fps
         ).table
@@ -185,10 +185,10 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
 def _column(rows: Sequence[Mapping[str, Any]], name: str) -> list[Any]:
     """Return the cells of a column, or what holds where nothing is known."""
     default = COLUMNS[name].default
-    return _with_nan([row.get(name, default) for row in rows], name)
+    return _replace_null([row.get(name, default) for row in rows], name)
 
 
-def _with_nan(values: list[Any], name: str) -> list[Any]:
+def _replace_null(values: list[Any], name: str) -> list[Any]:
     """Return the cells of a column; a number that nobody knows is null in JSON."""
     if COLUMNS[name].type is not float:
         return values
@@ -201,7 +201,7 @@ def _rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
     return (dict(zip(COLUMNS, cells, strict=True)) for cells in zip(*columns, strict=True))
 
 
-def _indented(content: dict[str, Any]) -> str:
+def _indent(content: dict[str, Any]) -> str:
     """What `json.dumps` writes with an indent, several times as fast: tables have many marks."""
     try:
         return msgspec.json.format(json.dumps(content), indent=2)

@@ -75,5 +75,5 @@ class LabelFormat:
 
     @property
     def download_suffix(self) -> str:
-        """The suffix of what is taken away: of the file, or of several packed into one."""
+        """Suffix of what is taken away: of the file, or of several packed into one."""
         return ".zip" if self.several else self.written_suffix

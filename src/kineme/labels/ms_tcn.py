@@ -39,7 +39,7 @@ def write(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
         raise WriteError(path, f"must lie in a folder called {FOLDER}: give {FOLDER}/{path.name}")
     with suppress(OSError):  # atomic_write says why there is none
         path.parent.mkdir(exist_ok=True)
-    texts = [_without_blanks(text_of(row)) for row in rows]
+    texts = [_strip_blanks(text_of(row)) for row in rows]
     mapping = path.parent.parent / "mapping.txt"
     classes = _classes(mapping)
     for text in texts:
@@ -84,7 +84,7 @@ def _classes(mapping: Path) -> dict[str, int]:
     return classes
 
 
-def _without_blanks(text: str) -> str:
+def _strip_blanks(text: str) -> str:
     return "".join("_" if letter.isspace() else letter for letter in text)
 
 

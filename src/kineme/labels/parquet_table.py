@@ -17,9 +17,9 @@ from kineme.errors import ReadError
 from kineme.formats.channels.parquet import parquet_columns, parquet_file
 from kineme.formats.files import load
 from kineme.labels.heads import tail
-from kineme.labels.json_table import head_of, parse, with_head
+from kineme.labels.json_table import head_of, join_head, parse
 from kineme.labels.label_format import LabelFormat
-from kineme.segments.editing.annotating import from_rows, in_rows
+from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import (
     COLUMNS,
@@ -38,7 +38,7 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     columns: dict[str, Any] = {**segmentation.table.columns()}
     if times := segmentation.start_times():
         columns[START_TIME] = times
-    if any(comments := in_rows(segmentation)):
+    if any(comments := assign_comments(segmentation)):
         columns[COMMENT] = comments
     table = arrow.table(columns)
     table = table.replace_schema_metadata({KEY: json.dumps(head_of(segmentation)).encode()})
@@ -58,7 +58,7 @@ def read(path: Path) -> Segmentation:
     present = [name for name in COLUMNS if name in names]
     table = parquet_columns(content, file, present)
     columns = {name: table.column(name).to_numpy() for name in present}
-    found = with_head(columns, head, path)
+    found = join_head(columns, head, path)
     if COMMENT not in names:
         return found
     comments = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()

@@ -98,7 +98,7 @@ def written_suffixes() -> tuple[str, ...]:
 def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
     """Return the format in which a file is read: the one named, else by its content and suffix."""
     if name is not None:
-        return _named(name)
+        return _find_named(name)
     suffix = Path(path).suffix.lower()
     fitting = [candidate for candidate in label_formats().values() if suffix in candidate.suffixes]
     if not fitting and not Path(path).exists():
@@ -110,9 +110,9 @@ def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelF
 
 
 def format_to_write(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
-    """The format in which a file is written: the one named, else the first with its suffix."""
+    """Return format in which a file is written: the one named, else the first with its suffix."""
     if name is not None:
-        chosen = _named(name)
+        chosen = _find_named(name)
         if chosen.write is None:
             stored = ", ".join(written_suffixes())
             raise WriteError(path, f"{name} is only read: segments go into {stored}")
@@ -162,7 +162,7 @@ def _speaks(candidate: LabelFormat, path: Path) -> bool:
     return candidate.recognises is None or candidate.recognises(path)
 
 
-def _named(name: str) -> LabelFormat:
+def _find_named(name: str) -> LabelFormat:
     formats = label_formats()
     if not is_one_of(name, formats):
         raise ParameterError(f"format must be one of {', '.join(formats)}, not {name!r}")

@@ -199,13 +199,13 @@ def _frame(value: float, per_unit: float, path: Path) -> int:
 
 
 def _as_long_as_a_frame(rows: list[Row], n_frames: int) -> list[Row]:
-    """The rows cut off at the end of the recording, without those of which nothing is left."""
+    """Return rows cut off at the end of the recording, without those of which nothing is left."""
     inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
     return [row for row in inside if row[2] < row[3]]
 
 
 def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
-    """The rows of each level with the gaps between them filled, no gap across an activity's end."""
+    """Return the rows of each level, gaps between them filled but not across an activity's end."""
     if all(row[0] == "primitive" for row in full):
         activity: Level = "activity"
         full = [
@@ -213,13 +213,13 @@ def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
             for row in full
         ]
     inner = [row for row in full if row[0] == "primitive"]
-    tiled = list(_tiled([row for row in full if row[0] == "activity"], n_frames, [], path))
+    tiled = list(_fill_between([row for row in full if row[0] == "activity"], n_frames, [], path))
     if inner:
-        tiled += _tiled(inner, n_frames, [row[2] for row in tiled], path)
+        tiled += _fill_between(inner, n_frames, [row[2] for row in tiled], path)
     return tiled
 
 
-def _tiled(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
+def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
     """Yield the rows of one level in time order, and transitions where there are none."""
     at = 0
     level = rows[0][0] if rows else "activity"

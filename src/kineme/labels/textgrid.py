@@ -99,14 +99,14 @@ def _span(tokens: Iterator[str | float], kind: str, path: Path) -> Span:
 def _text(tokens: Iterator[str | float], path: Path) -> str:
     token = next(tokens, None)
     if not isinstance(token, str):
-        raise ReadError(path, f"has {_shown(token)} where a text in quotes should be")
+        raise ReadError(path, f"has {_format_number(token)} where a text in quotes should be")
     return token
 
 
 def _number(tokens: Iterator[str | float], path: Path) -> float:
     token = next(tokens, None)
     if not isinstance(token, float):
-        raise ReadError(path, f"has {_shown(token)} where a number should be")
+        raise ReadError(path, f"has {_format_number(token)} where a number should be")
     return token
 
 
@@ -118,7 +118,7 @@ def _count(tokens: Iterator[str | float], path: Path) -> int:
     return int(count)
 
 
-def _shown(token: object) -> str:
+def _format_number(token: object) -> str:
     return "its end" if token is None else f"{token!r:.60}"
 
 

@@ -109,7 +109,7 @@ class Preset(ABC):
     """
 
     method: ClassVar[str]
-    """The name of the method."""
+    """Name of the method."""
     view: ClassVar[View] = "poses"
     """Features of a body: positions of five points, or rotations of joints."""
 

@@ -68,7 +68,7 @@ SOME_FACTOR = Limits(0.0, 1000.0, above=True)
 
 
 class Slider(NamedTuple):
-    """The range within which a page offers to change a constant, and in which steps."""
+    """Range within which a page offers to change a constant, and in which steps."""
 
     minimum: float
     maximum: float

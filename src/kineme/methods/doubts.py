@@ -9,7 +9,7 @@ import numpy as np
 from kineme.methods.base import Columns
 
 Doubt = tuple[float, str]
-"""The probability that something is right, and the sentence about it."""
+"""Probability that something is right, and the sentence about it."""
 
 MOST = 5
 """Sentences at most: a longer list is not read."""
@@ -27,24 +27,24 @@ def doubts(columns: Columns, fps: float) -> list[str]:
     fps : float
         Frames per second of the table.
     """
-    found = [*_of_activities(columns, fps), *_of_counts(columns, fps)]
+    found = [*_doubt_activities(columns, fps), *_doubt_counts(columns, fps)]
     worst = sorted(found, key=lambda each: each[0])[:MOST]
     return [text for _, text in worst]
 
 
-def _of_activities(columns: Columns, fps: float) -> Iterator[Doubt]:
+def _doubt_activities(columns: Columns, fps: float) -> Iterator[Doubt]:
     """Clusters and borders."""
     for row in np.flatnonzero(columns["level"] == "activity"):
         border, link = (float(columns[name][row]) for name in ("border_confidence", "confidence"))
         if border < UNSURE:
             at = columns["start_frame"][row] / fps
-            yield border, _with_confidence(f"look at the border at {at:.2f} s", border)
+            yield border, _append_confidence(f"look at the border at {at:.2f} s", border)
         if link < UNSURE:
             where = _span(columns, row, fps)
-            yield link, _with_confidence(f"look at the cluster of the activity {where}", link)
+            yield link, _append_confidence(f"look at the cluster of the activity {where}", link)
 
 
-def _of_counts(columns: Columns, fps: float) -> Iterator[Doubt]:
+def _doubt_counts(columns: Columns, fps: float) -> Iterator[Doubt]:
     """Numbers of repetitions, where there are several."""
     is_primitive = (columns["level"] == "primitive") & (columns["kind"] == "activity")
     is_activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
@@ -54,10 +54,10 @@ def _of_counts(columns: Columns, fps: float) -> Iterator[Doubt]:
         count = float(columns["confidence"][inside].min(initial=1))
         if count < UNSURE and np.count_nonzero(inside) > 1:  # of one there is nothing to count
             where = _span(columns, row, fps)
-            yield count, _with_confidence(f"look at the number of repetitions {where}", count)
+            yield count, _append_confidence(f"look at the number of repetitions {where}", count)
 
 
-def _with_confidence(text: str, probability: float) -> str:
+def _append_confidence(text: str, probability: float) -> str:
     return f"{text} ({100 * probability:.0f} % sure)"
 
 

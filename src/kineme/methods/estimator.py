@@ -25,7 +25,7 @@ ASSUMED_FPS = 30.0
 
 
 class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
-    """The segments of a multivariate time series; ``fit_predict`` gives a cluster for each row.
+    """Segments of a multivariate time series; ``fit_predict`` gives a cluster for each row.
 
     Parameters
     ----------

@@ -29,12 +29,12 @@ from kineme.methods.segments import number_by_appearance
 COARSER = (0.125, 0.25, 0.5, 0.75)
 FINER = (2.0, 4.0, 8.0)
 DETAILS = (*COARSER, *FINER)
-"""The details that are offered beside 1."""
+"""Details that are offered beside 1."""
 
 
 @dataclass(frozen=True, eq=False)
 class FineSegments:
-    """The segments of the finest level, and which cluster of detail 1 they lie in.
+    """Segments of the finest level, and which cluster of detail 1 they lie in.
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ def tables_at(
     for detail in sorted(clusters):
         labels = clusters[detail]
         if detail < 1:
-            labels = _over_transitions(borders, labels, longest / detail)
+            labels = _bridge_transitions(borders, labels, longest / detail)
         if same.setdefault((detail < 1, labels.tobytes()), detail) == detail:
             begins = np.isin(borders[:-1], before["start_frame"] if detail > 1 else 0)
             first = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | begins)
@@ -116,11 +116,13 @@ def tables_at(
                 np.array_equal(starts, before["start_frame"])
                 and np.array_equal(of, number_by_appearance(before["cluster"]))
             ):
-                found[detail] = at_detail(before, inner, starts, of, int(borders[-1]))
+                found[detail] = change_detail(before, inner, starts, of, int(borders[-1]))
     return found
 
 
-def at_detail(before: Columns, inner: Columns, starts: Ints, clusters: Ints, end: int) -> Columns:
+def change_detail(
+    before: Columns, inner: Columns, starts: Ints, clusters: Ints, end: int
+) -> Columns:
     """Return the columns of a table with other activities: segments joined, repetitions kept.
 
     Every primitive border stays.
@@ -144,7 +146,7 @@ def at_detail(before: Columns, inner: Columns, starts: Ints, clusters: Ints, end
     primitives = _rows(inner, cuts, end)
     parents = np.searchsorted(starts, cuts, side="right") - 1
     in_cluster = primitives["kind"] == "activity"
-    if _inherited(before, inner):
+    if _is_inherited(before, inner):
         primitives["cluster"] = np.where(in_cluster, clusters[parents], -1)
     else:
         parts = in_cluster & ~_same_spans(primitives, inner)
@@ -217,7 +219,7 @@ def _weakest(
     return found
 
 
-def _over_transitions(borders: Ints, labels: Ints, longest: float) -> Ints:
+def _bridge_transitions(borders: Ints, labels: Ints, longest: float) -> Ints:
     """Return the labels with short transitions between neighbours of one cluster as part of it."""
     joined = labels.copy()
     before, after, short = labels[:-2], labels[2:], np.diff(borders)[1:-1] <= longest
@@ -249,7 +251,7 @@ def _same_spans(rows: Columns, source: Columns) -> NDArray[np.bool_]:
     return np.array([span in spans for span in found], bool)
 
 
-def _inherited(activities: Columns, primitives: Columns) -> bool:
+def _is_inherited(activities: Columns, primitives: Columns) -> bool:
     """Return whether each primitive is in the cluster of its activity."""
     parents = np.searchsorted(activities["start_frame"], primitives["start_frame"], "right") - 1
     in_cluster = primitives["kind"] == "activity"

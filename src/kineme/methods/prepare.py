@@ -63,7 +63,7 @@ class RecordedSpan:
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """The features of a recording at the working rate of a preset.
+    """Features of a recording at the working rate of a preset.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""The presets there are: ours, and those that other packages register.
+"""Presets there are: ours, and those that other packages register.
 
 ``kineme`` is the default, and stands for ``sensors``, the same method with other
 constants, where it is given signals; ``voegele2014`` and ``krueger2017`` are the
@@ -37,7 +37,7 @@ PRESETS: Registry[Preset] = Registry(
         "region_growing.preset:KRUEGER2017",
     ),
 )
-"""The default first."""
+"""Default first."""
 
 
 def register(preset: Preset, *, replace: bool = False) -> None:

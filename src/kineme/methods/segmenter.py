@@ -472,7 +472,7 @@ def find_gaps(spans: Sequence[RecordedSpan], n_frames: int) -> Spans:
 
 
 def _insert_gaps(columns: Columns, gaps: Spans) -> Columns:
-    """The columns with a transition in no cluster for each gap, on each level that they have."""
+    """Return columns with a transition in no cluster for each gap, on each level that they have."""
     if not gaps:
         return columns
     present = sorted({"activity", *columns["level"].tolist()})

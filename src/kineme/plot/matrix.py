@@ -1,4 +1,4 @@
-"""The self-similarity matrix of a recording, with the borders and clusters found in it.
+"""Self-similarity matrix of a recording, with the borders and clusters found in it.
 
 Time runs to the right and downwards. A dark dot at (t, j) means that frame j
 looks like frame t: the darker, the nearer. Squares frame the activities, fine
@@ -31,10 +31,11 @@ from numpy.typing import NDArray
 from kineme._util.checks import check_path, check_type
 from kineme._util.files import as_display_name, atomic_write
 from kineme.errors import WriteError
+from kineme.plot.timeline import new_axes
 from kineme.segments.colors import NO_CLUSTER, cluster_color, label_colors
+from kineme.segments.html import segment_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
-from kineme.segments.timeline import new_axes, segment_color
 
 if TYPE_CHECKING:
     from kineme.methods.base import Found

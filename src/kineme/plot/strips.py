@@ -15,9 +15,9 @@ from matplotlib.collections import LineCollection
 from kineme._util.arrays import Floats
 from kineme._util.checks import check_type, is_number
 from kineme.errors import ParameterError
+from kineme.plot.timeline import new_axes
 from kineme.recordings import Motion, Signals
 from kineme.segments.colors import cluster_color
-from kineme.segments.timeline import new_axes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -140,7 +140,7 @@ def _draw_poses(axes: Axes, outlines: Floats, parents: Sequence[int], color: str
 
 
 def _draw_channels(axes: Axes, signals: Signals, first: int, last: int, color: str) -> None:
-    """The lines of channels below each other, each as high as the next."""
+    """Draw the lines of channels below each other, each as high as the next."""
     values = signals.values[first:last]
     varied = np.argsort(-values.std(axis=0), kind="stable")
     chosen = np.sort(varied[:MOST_CHANNELS])

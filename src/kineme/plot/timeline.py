@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import get_args
@@ -16,9 +16,16 @@ from kineme._util.checks import as_texts, check_type, is_one_of
 from kineme._util.files import as_display_name
 from kineme.errors import ParameterError
 from kineme.segments.colors import label_colors
+from kineme.segments.html import segment_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
-from kineme.segments.timeline import draw_timeline, segment_color
+
+BAND = 0.8
+"""Height of a row's bars; the rest parts it from the next."""
+NAMED = 0.06
+"""Share of the time from which a bar has room for its label."""
+MOST_EDGES = 400
+"""Bars of a row; more are drawn without white lines between them."""
 
 
 def plot_timeline(segmentation: Segmentation, *, ax: Axes | None = None) -> Axes:
@@ -48,7 +55,9 @@ def plot_timeline(segmentation: Segmentation, *, ax: Axes | None = None) -> Axes
     'seconds'
     """
     check_type(segmentation, Segmentation, "plot_timeline", "kineme.segment gives one")
-    return segmentation.plot(ax=ax)
+    rows = {"activities": segmentation.activities, "primitives": segmentation.primitives}
+    shown = {name: table for name, table in rows.items() if len(table)}
+    return draw_timeline(shown, segmentation.n_frames / segmentation.fps, ax=ax)
 
 
 def compare(
@@ -111,7 +120,7 @@ def compare(
         if not len(table):
             raise ParameterError(f"{name} has no segments of level {level!r}")
     first = rows[shown[0]]
-    tables = [_renumbered(table, matched_clusters(first, table)) for table in rows.values()]
+    tables = [_renumber(table, match_clusters(first, table)) for table in rows.values()]
     labels = label_colors(segment for table in tables for segment in table)
     return draw_timeline(
         rows,
@@ -121,7 +130,61 @@ def compare(
     )
 
 
-def matched_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
+def draw_timeline(
+    rows: Mapping[str, SegmentTable],
+    seconds: float,
+    *,
+    colors: Sequence[Sequence[str]] | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw rows of segments below each other, each with its name at the left."""
+    axes = new_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
+    if colors is None:
+        labels = label_colors(segment for table in rows.values() for segment in table)
+        colors = [[segment_color(segment, labels) for segment in table] for table in rows.values()]
+    for number, (table, shades) in enumerate(zip(rows.values(), colors, strict=True)):
+        axes.broken_barh(
+            list(zip(table.start_s, table.duration_s, strict=True)),
+            (number - BAND / 2, BAND),
+            facecolors=shades,
+            edgecolors="white",
+            linewidth=0.6 if len(table) < MOST_EDGES else 0.0,
+        )
+        for segment, color in zip(table, shades, strict=True):
+            if segment.label and segment.duration_s > NAMED * seconds:
+                _write_label(axes, segment, number, color)
+    axes.set_yticks(range(len(rows)), list(rows))
+    axes.set_ylim(len(rows) - 0.5, -0.5)
+    axes.set_xlim(0, seconds)
+    axes.set_xlabel("seconds")
+    axes.spines[["left", "right", "top"]].set_visible(False)
+    axes.tick_params(axis="y", length=0)
+    return axes
+
+
+def new_axes(width: float, height: float) -> Axes:
+    """Return the axes of a new figure of pyplot, so many inches wide and high."""
+    from matplotlib import pyplot as plt  # its figures a notebook shows unasked
+
+    return plt.subplots(figsize=(width, height), layout="constrained")[1]
+
+
+def _write_label(axes: Axes, segment: Segment, row: int, color: str) -> None:
+    red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
+    dark = 0.299 * red + 0.587 * green + 0.114 * blue < 140
+    axes.text(
+        (segment.start_s + segment.stop_s) / 2,
+        row,
+        segment.label.replace("$", r"\$"),  # no formula
+        ha="center",
+        va="center",
+        fontsize=8,
+        color="white" if dark else "black",
+        clip_on=True,
+    )
+
+
+def match_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
     """For each cluster of one table that of another with which it shares most time, one to one.
 
     Those that share no time with a free cluster are numbered on after those of ``first``.
@@ -153,7 +216,7 @@ def _clusters_at(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[np.
     return np.where(inside, table.cluster[row], -1)
 
 
-def _renumbered(table: SegmentTable, numbers: dict[int, int]) -> list[Segment]:
+def _renumber(table: SegmentTable, numbers: dict[int, int]) -> list[Segment]:
     return [replace(segment, cluster=numbers.get(segment.cluster, -1)) for segment in table]
 
 

@@ -17,7 +17,9 @@ Error = type[ParameterError | MotionError]
 def frozen(
     values: ArrayLike, what: str, *, row: str = "frame", error: Error = ParameterError
 ) -> NDArray[np.float64]:
-    """The values as a read-only view: float64, C-contiguous, finite; ``error`` where they are not.
+    """Return the values as a read-only view: float64, C-contiguous, finite.
+
+    ``error`` where they are not.
 
     A contiguous float64 array is not copied. ``what`` is what messages call them, ``row`` what
     their first axis counts.

@@ -1,4 +1,4 @@
-"""The clock of a recording: what time it was at a second of it, and back.
+"""Clock of a recording: what time it was at a second of it, and back.
 
 Seconds of a recording count its frames: frame i is at i / fps, whatever was paused between them. A
 clock is what the times in the file say of that. It has spans, each with the second of the recording
@@ -67,7 +67,10 @@ class Clock:
 
     @classmethod
     def of(cls, times: ArrayLike, fps: float) -> Clock | None:
-        """The clock that shows these times, in seconds; None for one that counts frames from 0."""
+        """Return the clock that shows these times, in seconds.
+
+        None for one that counts frames from 0.
+        """
         shown = np.asarray(times, np.float64)
         seconds = np.arange(len(shown)) / fps
         ahead = shown - seconds
@@ -122,7 +125,7 @@ class Clock:
         return Clock(self.seconds, [time - self.times[0] for time in self.times])
 
     def between(self, start: float, stop: float) -> Clock:
-        """The clock of what lies between two seconds of the recording."""
+        """Return the clock of what lies between two seconds of the recording."""
         later = [second for second in self.seconds if start < second < stop]
         seconds = [start, *later]
         return Clock([second - start for second in seconds], self.time(seconds).tolist())

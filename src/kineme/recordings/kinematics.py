@@ -70,7 +70,7 @@ def forward_kinematics(
     return positions.transpose(2, 0, 1)
 
 
-def at_rest(skeleton: Skeleton) -> Floats:
+def place_at_rest(skeleton: Skeleton) -> Floats:
     """Where the joints are (joints, 3) where none is turned, the root at its offset."""
     standing = np.broadcast_to(rot.IDENTITY, (1, skeleton.n_joints, 4))
     (places,) = forward_kinematics(skeleton, standing)

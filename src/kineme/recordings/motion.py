@@ -1,4 +1,4 @@
-"""The motion of a body: where its joints are over time.
+"""Motion of a body: where its joints are over time.
 
 Positions are metres, y is up, axes are right-handed; the frame rate is a
 float. Rotations are unit quaternions ``(w, x, y, z)``, each from the joint's

@@ -265,7 +265,7 @@ def _frames(motion: Motion, frames: slice, fps: float, note: str) -> Motion:
 
 
 def _gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
-    """The gaps among n frames taken from ``first`` on, each ``ratio`` frames after the one before.
+    """Return the gaps among n frames taken from ``first`` on, ``ratio`` frames apart.
 
     A frame between a recorded one and one in a gap counts as in the gap.
     """

@@ -123,7 +123,7 @@ class Provenance:
         return replace(self, clock=clock)
 
     def of_take(self, name: str, names: Iterable[str]) -> Provenance:
-        """The same of this take, one of those in the file."""
+        """Return the same of this take, one of those in the file."""
         return replace(self, take=name, takes=tuple(names))
 
     def of_person(self, name: str, people: Iterable[str]) -> Provenance:

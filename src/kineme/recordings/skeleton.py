@@ -1,4 +1,4 @@
-"""The joints of a body and how they hang together.
+"""Joints of a body and how they hang together.
 
 A joint sits where its rotation acts, and its offset is carried by the parent:
 
@@ -95,13 +95,16 @@ class Skeleton:
         return f"<Skeleton of {format_count(self.n_joints, 'joint')}{ends}>"
 
     def joint(self, name: str) -> int:
-        """The index of the joint of this name; a ParameterError names those closest to it."""
+        """Return the index of the joint of this name.
+
+        A ParameterError names those closest to it.
+        """
         try:
             return self._index[name]
         except (KeyError, TypeError):
             close = get_close_matches(str(name), self.names, n=3) or self.names[:5]
             raise ParameterError(
-                f"no joint is called {name!r}; did you mean {_listed(close)}?"
+                f"no joint is called {name!r}; did you mean {_list_names(close)}?"
             ) from None
 
     @property
@@ -162,5 +165,5 @@ class Skeleton:
         return {name: i for i, name in enumerate(self.names)}
 
 
-def _listed(names: Iterable[str]) -> str:
+def _list_names(names: Iterable[str]) -> str:
     return ", ".join(map(repr, names))

@@ -1,4 +1,4 @@
-"""The report: one page of HTML with everything in it, for any browser, without a network.
+"""Report: one page of HTML with everything in it, for any browser, without a network.
 
 The page itself is built from the sources in ``web/pages`` and comes with the
 package. It has marked places for data, which become script elements that
@@ -20,7 +20,7 @@ from kineme._util.files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
 from kineme.segments.segmentation import Segmentation
-from kineme.web.curves import curves_of, recorded
+from kineme.web.curves import as_recording, curves_of
 from kineme.web.cycle_curves import CycleCurves
 from kineme.web.encoding import to_json
 from kineme.web.messages import Recording, ReportCurves
@@ -77,10 +77,10 @@ def write_report(
     message = recording_message(
         data, segmentation, name=name or _name(segmentation), band=band, levels=True
     )
-    source = recorded(recording, data.fps)
+    source = as_recording(recording, data.fps)
     others = [segmentation.at_detail(level.detail) for level in message.levels]
     with atomic_write(path) as draft:
-        page = filled(
+        page = fill_template(
             _template(),
             message,
             data.binary,
@@ -91,7 +91,7 @@ def write_report(
         draft.write_text(page, encoding="utf-8")
 
 
-def filled(
+def fill_template(
     template: str,
     message: Recording,
     binary: bytes,
@@ -119,7 +119,7 @@ def filled(
 
 
 def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
-    """The channels of what has no figure."""
+    """Return the channels of what has no figure."""
     if data.motion is not None:
         return None
     head, curves = curves_of(recording, data.fps)
@@ -127,7 +127,7 @@ def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
 
 
 def _name(segmentation: Segmentation) -> str:
-    """The file's name, if the provenance tells: tables from elsewhere may hold anything there."""
+    """Return the file's name if the provenance has one: foreign tables may hold anything there."""
     source = segmentation.provenance.get("input")
     path = source.get("path") if isinstance(source, dict) else None
     return Path(str(path or "recording")).name

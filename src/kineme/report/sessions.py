@@ -22,10 +22,10 @@ import numpy as np
 from kineme._util.checks import check_path, format_count
 from kineme._util.files import atomic_write
 from kineme._version import __version__
-from kineme.cycles import Cycles, compare_curves, compare_sessions, compare_sides, plot_sessions
-from kineme.cycles.picture import FIRST, SECOND
+from kineme.cycles import Cycles, compare_curves, compare_sessions, compare_sides
 from kineme.cycles.table import Columns
 from kineme.errors import WriteError
+from kineme.plot.curves import FIRST, SECOND, plot_sessions
 from kineme.report.page import SUFFIXES
 
 MOST_GROUPS = 4

@@ -13,7 +13,7 @@ from typing import Any, Self
 
 import msgspec
 
-from kineme._util.json import converted
+from kineme._util.json import convert_json
 from kineme.errors import ParameterError
 from kineme.segments.table import Level
 
@@ -66,7 +66,7 @@ class Annotation:
             It is of another shape.
         """
         try:
-            return converted(content, cls)
+            return convert_json(content, cls)
         except ValueError as error:
             raise ParameterError(f"the annotation is not as kineme writes it: {error}") from error
 

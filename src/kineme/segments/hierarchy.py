@@ -22,7 +22,7 @@ DEFAULT_DETAIL = 1.0
 
 @dataclass(frozen=True, repr=False)
 class Hierarchy:
-    """The tables of one recording by their detail, and which of them is looked at.
+    """Tables of one recording by their detail, and which of them is looked at.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class Hierarchy:
 
     @classmethod
     def of(cls, tables: Mapping[float, SegmentTable]) -> Hierarchy:
-        """The hierarchy of tables by detail, those left out that equal their coarser neighbour.
+        """Return hierarchy of tables by detail, those left out that equal their coarser neighbour.
 
         Parameters
         ----------

@@ -9,7 +9,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from kineme._util.checks import is_number
-from kineme._util.json import converted, fault_of
+from kineme._util.json import convert_json, fault_of
 from kineme.errors import ParameterError
 from kineme.segments.table import Level, SegmentTable
 
@@ -18,7 +18,7 @@ FASTEST, LONGEST = 1e9, 1e11
 
 
 class Input(TypedDict, total=False):
-    """The file that a recording was read from."""
+    """File that a recording was read from."""
 
     path: str | None
     format: str | None
@@ -26,7 +26,7 @@ class Input(TypedDict, total=False):
 
 
 class LabelFile(TypedDict, total=False):
-    """The file that labels were read from, and repetitions of each activity where it has some."""
+    """File that labels were read from, and repetitions of each activity where it has some."""
 
     path: str | None
     format: str | None
@@ -111,7 +111,7 @@ def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(provenance.get("input"), str):
         provenance["input"] = {"path": provenance["input"]}
     try:
-        converted(provenance, Provenance)
+        convert_json(provenance, Provenance)
     except ValueError as error:
         raise ParameterError(f"the provenance is not as kineme writes it: {error}") from error
     return provenance

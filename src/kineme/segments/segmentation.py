@@ -36,12 +36,11 @@ from kineme.segments.table import (
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, repr=False)
 class Segmentation:
-    """The segments of one recording.
+    """Segments of one recording.
 
     Usually made by `kineme.segment`, `from_columns` or `kineme.read_segments`.
 
@@ -302,32 +301,6 @@ class Segmentation:
             frame[START_TIME] = times
         return frame
 
-    def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Activities, and primitives below them, along the seconds of the recording.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Where to draw; Axes of a new figure of pyplot by default.
-
-        Returns
-        -------
-        Axes
-
-        Examples
-        --------
-        >>> import kineme
-        >>> from kineme.datasets import bundled_truth
-        >>> from matplotlib.figure import Figure
-        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
-        >>> axes = segments.plot(ax=Figure().add_subplot())
-        """
-        from kineme.segments.timeline import draw_timeline
-
-        rows = {"activities": self.activities, "primitives": self.primitives}
-        shown = {name: table for name, table in rows.items() if len(table)}
-        return draw_timeline(shown, self.n_frames / self.fps, ax=ax)
-
     def __len__(self) -> int:
         return len(self.table)
 
@@ -340,6 +313,6 @@ class Segmentation:
         return f"<Segmentation of {length}: {self.describe()}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.timeline import page
+        from kineme.segments.html import page
 
         return page(repr(self).strip("<>"), [self.activities, self.primitives], self.activities)

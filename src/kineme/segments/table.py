@@ -1,4 +1,4 @@
-"""The segment table: the package's common tongue.
+"""Segment table: the package's common tongue.
 
 `Segment` declares its columns, a field each: type, meaning, unit, and what holds where nothing is
 known. Rows and arrays, the checks, CSV, JSON, Parquet and data frames, the JSON Schema, the table
@@ -135,7 +135,7 @@ class Segment:
         return self.stop_s - self.start_s
 
 
-def _declared() -> Iterator[tuple[str, Column]]:
+def _list_columns() -> Iterator[tuple[str, Column]]:
     """Name and column of each field of a segment."""
     hints = get_type_hints(Segment, include_extras=True)
     for field in fields(Segment):
@@ -152,8 +152,8 @@ def _declared() -> Iterator[tuple[str, Column]]:
         )
 
 
-COLUMNS: Mapping[str, Column] = MappingProxyType(dict(_declared()))
-"""The columns by name, in the documented order."""
+COLUMNS: Mapping[str, Column] = MappingProxyType(dict(_list_columns()))
+"""Columns by name, in the documented order."""
 START_TIME = "start_time"
 """One more column of files and data frames, where the recording has a clock: what it shows."""
 COMMENT = "comment"
@@ -161,7 +161,7 @@ COMMENT = "comment"
 
 
 NEEDED = [name for name, column in COLUMNS.items() if not column.optional]
-"""The columns that every segment table in a file has."""
+"""Columns that every segment table in a file has."""
 
 
 def lacking(names: Container[str]) -> list[str]:
@@ -174,13 +174,13 @@ def kind_of(level: Level, *, transition: bool) -> Kind:
     return "transition" if transition else level
 
 
-def _of_columns(table: type[Values]) -> type[Values]:
+def _make_columns_class(table: type[Values]) -> type[Values]:
     """Return the class as a dataclass of one array for each column."""
     table.__annotations__ = dict.fromkeys(COLUMNS, NDArray[Any])
     return dataclass(frozen=True, eq=False, repr=False)(table)
 
 
-@_of_columns
+@_make_columns_class
 class SegmentTable:
     """Segments as columns: one numpy array for each field of a `Segment`, all of the same length.
 
@@ -257,7 +257,7 @@ class SegmentTable:
         ParameterError
             It picks no rows.
         """
-        picked = rows if isinstance(rows, slice) else _picked(rows, len(self))
+        picked = rows if isinstance(rows, slice) else _check_selection(rows, len(self))
         try:
             columns = {name: column[picked] for name, column in self.columns().items()}
         except (TypeError, ValueError):  # a slice that is none of whole numbers
@@ -275,7 +275,9 @@ class SegmentTable:
     @overload
     def __getitem__(self, rows: slice | ArrayLike) -> Self: ...
     def __getitem__(self, rows: Any) -> Segment | Self:
-        """The segment in a row; or the table of those that a slice, mask or index array picks.
+        """Return the segment in a row.
+
+        Or the table of those that a slice, mask or index array picks.
 
         Raises
         ------
@@ -308,7 +310,7 @@ class SegmentTable:
         return f"<SegmentTable of {of}{span}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.timeline import page
+        from kineme.segments.html import page
 
         levels = [self[self.level == level] for level in get_args(Level)]
         return page(repr(self).strip("<>"), levels, self)
@@ -322,15 +324,15 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
             raise ParameterError(f"a segment table needs the column {name!r}")
     n = np.size(columns["level"])
     arrays = {
-        name: _checked(columns.get(name, np.full(n, column.default)), name)
+        name: _check_column(columns.get(name, np.full(n, column.default)), name)
         for name, column in needed.items()
     }
     if "activity" in columns:
-        arrays["activity"] = _checked(columns["activity"], "activity")
+        arrays["activity"] = _check_column(columns["activity"], "activity")
     for name, array in arrays.items():
         if array.shape != (n,):
             raise ParameterError(f"column {name!r} has shape {array.shape}, 'level' has ({n},)")
-    arrays = _derived(arrays, fps) | arrays
+    arrays = _compute_derived(arrays, fps) | arrays
     arrays["kind"] = kinds_of(arrays["level"], arrays["kind"])
     order = np.lexsort((arrays["stop_frame"], arrays["start_frame"], arrays["level"]))
     return SegmentTable(**{name: arrays[name][order] for name in COLUMNS})
@@ -345,7 +347,7 @@ def kinds_of(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.st
     return np.where(kinds == "transition", kinds, levels)
 
 
-def _derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArray[Any]]:
+def _compute_derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArray[Any]]:
     """Return the columns that follow from others."""
     start = arrays["start_frame"]
     activities = np.flatnonzero(arrays["level"] == "activity")
@@ -360,8 +362,11 @@ def _derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArra
     }
 
 
-def _checked(values: ArrayLike, name: str) -> NDArray[Any]:
-    """The values of a column as an array of its type; ParameterError where it cannot hold them."""
+def _check_column(values: ArrayLike, name: str) -> NDArray[Any]:
+    """Return the values of a column as an array of its type.
+
+    ParameterError where it cannot hold them.
+    """
     column = COLUMNS[name]
     try:
         array = np.asarray(values)
@@ -397,7 +402,7 @@ def _texts(array: NDArray[Any], name: str, allowed: tuple[str, ...]) -> NDArray[
     return array.astype(np.str_)
 
 
-def _picked(rows: ArrayLike, n: int) -> NDArray[Any]:
+def _check_selection(rows: ArrayLike, n: int) -> NDArray[Any]:
     """Return a mask or row numbers of a table of n rows, checked."""
     try:
         picked = np.asarray(rows)

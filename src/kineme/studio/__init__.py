@@ -1,4 +1,4 @@
-"""The studio: a local server and a page to look at recordings and correct their segments.
+"""Studio: a local server and a page to look at recordings and correct their segments.
 
     server   a socket of this machine, Ctrl+C, the browser
       app      routes ─▶ open recordings, behind http.security: host, origin, token, headers

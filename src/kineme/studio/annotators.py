@@ -40,7 +40,7 @@ class Annotator:
 
 def annotators_of(recordings: OpenRecordings) -> dict[str, Annotator]:
     """Return the people who labelled recordings of the folder by id; whoever works here last."""
-    listed = _by_file(recordings)
+    listed = _index_by_file(recordings)
     paths = [*listed]
     files = recordings.folder.annotations(listed.values()).values()
     if not paths:
@@ -55,7 +55,7 @@ def annotators_of(recordings: OpenRecordings) -> dict[str, Annotator]:
         found[file_id(place)] = Annotator(name, sources)
     beside: dict[str, dict[Path, LabelSource]] = {}
     for path in files:
-        if file_id(path) not in found and (named := _named(path, paths)):
+        if file_id(path) not in found and (named := _parse_label_name(path, paths)):
             beside.setdefault(named[0], {})[named[1]] = LabelSource(path)
     found |= {f"beside {name}": Annotator(name, sources) for name, sources in beside.items()}
     saved = {
@@ -81,7 +81,7 @@ def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement
     from kineme.evaluation.tables import finite
 
     people = _chosen(recordings, chosen)
-    listed = _by_file(recordings)
+    listed = _index_by_file(recordings)
     labelled, failures = labels_of_annotators(
         {who.name: who.sources for who in people},
         lambda path: recordings.extent(listed[path]),
@@ -137,7 +137,7 @@ def lanes_of(recordings: OpenRecordings, name: str, chosen: Sequence[str]) -> li
     ]
 
 
-def _by_file(recordings: OpenRecordings) -> dict[Path, ListedRecording]:
+def _index_by_file(recordings: OpenRecordings) -> dict[Path, ListedRecording]:
     """Return the recordings of the folder by the files that labels of them are called after."""
     return {each.called: each for each in recordings.folder.recordings().values()}
 
@@ -156,7 +156,7 @@ def _chosen(recordings: OpenRecordings, chosen: Sequence[str]) -> list[Annotator
     return [*found.values()]
 
 
-def _named(labels: Path, recordings: Sequence[Path]) -> tuple[str, Path] | None:
+def _parse_label_name(labels: Path, recordings: Sequence[Path]) -> tuple[str, Path] | None:
     """Person and recording that the name of a label file tells, if it does."""
     stem = labels.stem
     fitting = [

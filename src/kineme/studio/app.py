@@ -1,4 +1,4 @@
-"""The application: the addresses of the studio, what becomes of errors, and the guard in front."""
+"""Application: the addresses of the studio, what becomes of errors, and the guard in front."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def create_app(
             answer.background = BackgroundTask(recordings.prepare, names)
         return answer
 
-    handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _refused)
+    handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _answer_refused)
     app = Starlette(
         routes=[
             *library_routes(library, recordings),
@@ -83,9 +83,9 @@ def create_app(
         exception_handlers={
             **handlers,
             ConflictError: _conflict,
-            ClientDisconnect: _disconnected,
+            ClientDisconnect: _answer_disconnected,
             HTTPException: _http_error,
-            Exception: _failed,
+            Exception: _answer_failed,
         },
     )
     return Guard(app, token=token, port=port, development=development)
@@ -100,7 +100,7 @@ def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> 
     return LibraryApi(library, recordings).routes()
 
 
-def _refused(_: Request, error: Exception) -> Response:
+def _answer_refused(_: Request, error: Exception) -> Response:
     status = next(STATUS[kind] for kind in type(error).__mro__ if kind in STATUS)
     people = error.people if isinstance(error, SeveralPeopleError) else ()
     reading = isinstance(error, ReadError)
@@ -109,12 +109,12 @@ def _refused(_: Request, error: Exception) -> Response:
 
 def _conflict(_: Request, error: Exception) -> Response:
     if not isinstance(error, ConflictError):
-        return _failed(_, error)
+        return _answer_failed(_, error)
     fields = {name: getattr(error.present, name) for name in error.present.__struct_fields__}
     return MessageResponse(Conflict(**fields, error=str(error)), 409)
 
 
-def _disconnected(_: Request, __: Exception) -> Response:
+def _answer_disconnected(_: Request, __: Exception) -> Response:
     return Response(status_code=400)  # nobody is there to read it
 
 
@@ -124,7 +124,7 @@ def _http_error(_: Request, error: Exception) -> Response:
     return _failure(what, status)
 
 
-def _failed(_: Request, __: Exception) -> Response:
+def _answer_failed(_: Request, __: Exception) -> Response:
     return _failure("the server failed; its terminal says how", 500)
 
 

@@ -108,7 +108,7 @@ def _parameters(preset: str, *, signals: bool) -> list[Parameter]:
     chosen, other = resolve_preset(preset), resolve_preset(preset, signals=signals)
     constants = other.constants()
     if type(chosen) is type(other):
-        constants = tuple(map(_of_signals, chosen.constants(), constants))
+        constants = tuple(map(_adapt_to_signals, chosen.constants(), constants))
     return [
         _parameter(each, each.slider)
         for each in constants
@@ -130,7 +130,7 @@ def _parameter(declared: Constant, slider: Slider) -> Parameter:
     )
 
 
-def _of_signals(of_body: Constant, of_signals: Constant) -> Constant:
+def _adapt_to_signals(of_body: Constant, of_signals: Constant) -> Constant:
     """A constant as signals have it: the slider of a length reaches as far to either side."""
     slider = of_body.slider
     if (

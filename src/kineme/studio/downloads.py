@@ -26,7 +26,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
 from kineme.studio.http.bodies import safe_name
-from kineme.studio.loading import without_others
+from kineme.studio.loading import drop_others
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.storage.sidecars import offset_of
 
@@ -38,7 +38,7 @@ LEVELS: Mapping[Level | None, str] = {
 PACKED = ".zip"
 
 
-def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str, bytes]:
+def export_download(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str, bytes]:
     """Name and bytes of what is downloaded of a recording.
 
     ``kind`` is a label format, or one of `kineme.studio.choices`: motion files, a page.
@@ -47,13 +47,13 @@ def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str
     if kind == CLIPS:
         motion, of_level = loaded.motion, level or "activity"
         found = _written(stem, lambda to: split(motion, table, to / stem, level=of_level))
-        return _called(stem, _what(kind, of_level), found)
+        return _name_download(stem, _what(kind, of_level), found)
     if kind == REPORT:
         name = opened.listed.name
-        shown = without_others(loaded.recording)
+        shown = drop_others(loaded.recording)
         page = partial(write_report, shown, table, name=name, effectors=loaded.effectors)
-        return _called(stem, kind, _written(stem, lambda to: page(to / f"{stem}.html")))
-    return table_file(_with_video(opened), stem, kind, level)
+        return _name_download(stem, kind, _written(stem, lambda to: page(to / f"{stem}.html")))
+    return table_file(_add_video(opened), stem, kind, level)
 
 
 def exported_together(
@@ -63,7 +63,7 @@ def exported_together(
 
     Of tables as CSV there is one of all of them, too, with a column ``recording``.
     """
-    files = [exported(each, kind, level) for each in opened]
+    files = [export_download(each, kind, level) for each in opened]
     what = files[0][0].removeprefix(_stem_of(opened[0])).removesuffix(PACKED)
     if kind == "csv":
         names = [each.listed.called.name for each in opened]
@@ -103,7 +103,7 @@ def table_file(
     # Where it is one file, that holds as provenance what else lies there.
     content = _written(stem, write, None if found.several else file)
     shown = "activity" if found.holds == "level" and of_level is None else of_level
-    return _called(stem, _what(name, shown), content)
+    return _name_download(stem, _what(name, shown), content)
 
 
 def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tuple[str, bytes]:
@@ -113,7 +113,7 @@ def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tu
         raise ParameterError("choose the segments to write: some of these are not in the table")
     clips = [(opened.loaded.recording, [table.table[row] for row in rows])]
     found = _written(stem, lambda to: write_clips(clips, to / stem, loops=loops))
-    return _called(stem, "loops" if loops else "clips", found)
+    return _name_download(stem, "loops" if loops else "clips", found)
 
 
 def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]:
@@ -136,7 +136,7 @@ def _stem_of(opened: OpenRecording) -> str:
     return stem if is_text(stem) else safe_name(stem)
 
 
-def _with_video(opened: OpenRecording) -> Segmentation:
+def _add_video(opened: OpenRecording) -> Segmentation:
     """Return the table, and in its provenance the video of the recording, if there is one."""
     video = find_video(opened.path)
     if video is None:
@@ -154,7 +154,7 @@ def _what(kind: str, level: Level | None) -> str:
     return LEVELS[level] if is_clear else f"{LEVELS[level]}.{kind}"
 
 
-def _called(stem: str, what: str, file: tuple[str, bytes]) -> tuple[str, bytes]:
+def _name_download(stem: str, what: str, file: tuple[str, bytes]) -> tuple[str, bytes]:
     """Return the file under the name of a download."""
     name, content = file
     return f"{stem}.{what}{Path(name).suffix}", content

@@ -12,7 +12,7 @@ from msgspec import UNSET, Struct
 from kineme.errors import ParameterError
 from kineme.labels.collections import labels_for
 from kineme.segments import editing
-from kineme.segments.editing.annotating import noted
+from kineme.segments.editing.annotating import mark_edited
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.loading import LoadedRecording
@@ -40,7 +40,7 @@ BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """The table after an edit, and what to tell people.
+    """Table after an edit, and what to tell people.
 
     Where it is another table (``replaced``), the one before is kept.
     """
@@ -60,7 +60,7 @@ class Surroundings(Protocol):
         """Return a label file by its id."""
 
 
-def edited(
+def apply_edit(
     table: Segmentation,
     edit: Edit,
     loaded: LoadedRecording,
@@ -73,21 +73,21 @@ def edited(
     """
     if isinstance(edit, sent.Together):
         for one in edit.edits:
-            table = _by_hand(table, one)
+            table = _correct_table(table, one)
         return Outcome(table)
     if type(edit) in BY_HAND:
-        after = _by_hand(table, edit)
+        after = _correct_table(table, edit)
         return Outcome(after, _cluster_notes(table, after, edit))
     if isinstance(edit, sent.SegmentAgain):
         keep = True if edit.keep is UNSET else edit.keep
         detail = DEFAULT_DETAIL if edit.detail is UNSET else edit.detail
         found = loaded.segment(edit.preset, edit.parameters, detail)
-        result = editing.carried(table, found) if keep else None
+        result = editing.carry_corrections(table, found) if keep else None
         lost = [f"not taken over: {what}" for what in result.lost] if result else []
         after = result.segmentation if result else found
         return Outcome(after, [*found.provenance["notes"], *lost], replaced=True)
     if isinstance(edit, sent.Transfer):
-        return _labelled(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
+        return _label_table(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
     if isinstance(edit, sent.TakeLabels):
         path = files.annotation(edit.annotation)
         labels = labels_for(
@@ -99,13 +99,13 @@ def edited(
     raise ParameterError(f"there is no edit {type(edit).__name__}")
 
 
-def _by_hand(table: Segmentation, edit: Struct) -> Segmentation:
+def _correct_table(table: Segmentation, edit: Struct) -> Segmentation:
     """Return the table after a correction, which it counts; what a person made of it is marked."""
     fields = (getattr(edit, name) for name in edit.__struct_fields__)
     after = BY_HAND[type(edit)](table, *fields)
     if isinstance(edit, sent.Check | sent.Remark | sent.Exclude):
         return after
-    after, count = noted(table, after), table.annotation.corrections + 1
+    after, count = mark_edited(table, after), table.annotation.corrections + 1
     return replace(after, annotation=replace(after.annotation, corrections=count))
 
 
@@ -129,7 +129,7 @@ def _cluster_notes(before: Segmentation, after: Segmentation, edit: Struct) -> l
     return ["; ".join(filter(None, [joined, named, more]))]
 
 
-def _labelled(
+def _label_table(
     table: Segmentation, edit: sent.Transfer, loaded: LoadedRecording, path: Path
 ) -> Outcome:
     from kineme.transfer import THRESHOLD, KnowledgeBase

@@ -33,7 +33,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 from kineme.studio.folder import Folder, progress
 from kineme.studio.library_history import LibraryHistory
-from kineme.studio.library_tables import LibraryTables, as_in_library, in_library
+from kineme.studio.library_tables import LibraryTables, as_in_library, select_library_clusters
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.reading import ReadingOptions, stamp_of
@@ -143,7 +143,7 @@ class ShownLibrary:
                 self._history.undo()
                 self._library = Library(self._folder)
             else:
-                self._history.add(_made(library, edit), before)
+                self._history.add(_make_edit(library, edit), before)
             self._stamp, self._tables = self._changed(), None
         return self.state()
 
@@ -176,7 +176,11 @@ class ShownLibrary:
         """Name the cluster of the library that one of a recording is, there and in all tables."""
         opened = recordings.get(sent.recording)
         of_library = self.table_of(opened.path)
-        place = in_library(opened.table, of_library).get(sent.cluster) if of_library else None
+        place = (
+            select_library_clusters(opened.table, of_library).get(sent.cluster)
+            if of_library
+            else None
+        )
         if place is None:
             raise ParameterError(f"cluster {sent.cluster} is none of the library")
         self.edit(CallCluster(cluster=place, name=sent.label))
@@ -208,16 +212,16 @@ class ShownLibrary:
 
     def _changed(self) -> tuple[int, ...]:
         """Return what is another one when somebody has written the library."""
-        return tuple(_modified(self._folder / name) for name in (HEAD, EDITS))
+        return tuple(_read_modified(self._folder / name) for name in (HEAD, EDITS))
 
 
 class LibraryFolder(Folder):
-    """The recordings of a library as a folder of the studio, and files that came later."""
+    """Recordings of a library as a folder of the studio, and files that came later."""
 
     of_library = True
 
     def __init__(self, shown: ShownLibrary):
-        super().__init__(_above(shown.files()), [])
+        super().__init__(_find_common_folder(shown.files()), [])
         self._shown = shown
 
     def first_table(self, path: Path) -> Segmentation | None:
@@ -225,7 +229,10 @@ class LibraryFolder(Folder):
         return self._shown.table_of(path)
 
     def recordings(self) -> dict[str, ListedRecording]:
-        """The recordings by id, whose files are there; of several people the library has one."""
+        """Return the recordings by id, whose files are there.
+
+        Of several people the library has one.
+        """
         files = [path for path in self._shown.files() if path.is_file()]
         return {**{file_id(path): ListedRecording(path) for path in files}, **super().recordings()}
 
@@ -283,7 +290,10 @@ class Interruptible:
 
 
 def segment_of(table: Segmentation, start_s: float, stop_s: float) -> Segment | None:
-    """The segment that a span shows, of the level that fits it best; None where none does."""
+    """Return the segment that a span shows, of the level that fits it best.
+
+    None where none does.
+    """
 
     def share(row: Segment) -> float:
         common = min(row.stop_s, stop_s) - max(row.start_s, start_s)
@@ -330,7 +340,7 @@ def name_hits(
     return NamedHits(named=named, left=failures)
 
 
-def _made(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> str:
+def _make_edit(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> str:
     """Make an edit of the clusters of a library; what it was, in words."""
     if isinstance(edit, CallCluster):
         library.name(edit.cluster, edit.name.strip())
@@ -342,7 +352,7 @@ def _made(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> s
     return f"cluster {into} split from {edit.cluster}"
 
 
-def _above(files: list[Path]) -> Path:
+def _find_common_folder(files: list[Path]) -> Path:
     """Return the folder that holds all files; that of the first where there is none."""
     folders = [str(path.absolute().parent) for path in files] or [str(Path.cwd())]
     with suppress(ValueError):  # several drives
@@ -350,7 +360,7 @@ def _above(files: list[Path]) -> Path:
     return Path(folders[0])
 
 
-def _modified(path: Path) -> int:
+def _read_modified(path: Path) -> int:
     try:
         return path.stat().st_mtime_ns
     except OSError:

@@ -32,7 +32,7 @@ class Step(Struct, frozen=True):
 
 
 class LibraryHistory:
-    """The edits of a library that were made here, the last of which can be taken back."""
+    """Edits of a library that were made here, the last of which can be taken back."""
 
     def __init__(self, folder: Path):
         self._folder = folder

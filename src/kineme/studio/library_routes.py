@@ -1,4 +1,4 @@
-"""The addresses of a library: what it is, edits, searches, small figures of spans."""
+"""Addresses of a library: what it is, edits, searches, small figures of spans."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ CHANNELS, POINTS = 6, 120
 
 
 class LibraryApi:
-    """The addresses under ``/api/library``."""
+    """Addresses under ``/api/library``."""
 
     def __init__(self, shown: ShownLibrary, recordings: OpenRecordings):
         self._shown, self._recordings, self._figures = shown, recordings, Figures()

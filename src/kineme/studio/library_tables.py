@@ -1,4 +1,4 @@
-"""The tables of a library's recordings, with its clusters and names; and tables that take these.
+"""Tables of a library's recordings, with its clusters and names; and tables that take these.
 
 A recording whose table nobody has saved is shown as the library has it. A saved one is what people
 made of it: it takes numbers and names of the library when they say so, and keeps its segments.
@@ -22,8 +22,8 @@ from kineme.library.storage.layout import as_array
 from kineme.library.storage.places import is_remote
 from kineme.segments.annotation import Annotation
 from kineme.segments.editing import name_cluster
-from kineme.segments.editing.naming import names_by_cluster, with_cluster_names
-from kineme.segments.editing.rows import renumbered
+from kineme.segments.editing.naming import names_by_cluster, set_cluster_names
+from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, SegmentTable
 
@@ -33,7 +33,7 @@ COMPUTED = tuple(name for name, column in COLUMNS.items() if not column.derived)
 
 
 class LibraryTables:
-    """The segment tables of a library as it is now."""
+    """Segment tables of a library as it is now."""
 
     def __init__(self, library: Library):
         table = library.table("segments")
@@ -79,7 +79,7 @@ class LibraryTables:
         )
 
 
-def in_library(table: Segmentation, of_library: Segmentation) -> dict[int, int]:
+def select_library_clusters(table: Segmentation, of_library: Segmentation) -> dict[int, int]:
     """Return the clusters of a table that are clusters of the library, with its numbers.
 
     A cluster is the one of the library that most of its frames lie in.
@@ -91,7 +91,7 @@ def in_library(table: Segmentation, of_library: Segmentation) -> dict[int, int]:
     ):
         if not len(rows) or not len(others):
             continue
-        pairs = np.stack([_by_frame(rows), _by_frame(others)])
+        pairs = np.stack([_spread_clusters(rows), _spread_clusters(others)])
         places, counts = np.unique(pairs, axis=1, return_counts=True)
         for (cluster, number), count in zip(places.T.tolist(), counts.tolist(), strict=True):
             if cluster >= 0:
@@ -113,12 +113,12 @@ def as_in_library(
     two, since people may have parted them: the larger has its number, both its name. A cluster that
     has another name keeps it unless ``replace_names``, and so does each segment with its own.
     """
-    places, names = in_library(table, of_library), names_by_cluster(of_library)
+    places, names = select_library_clusters(table, of_library), names_by_cluster(of_library)
     numbers = _numbers(table, places, edits, {*of_library.table.cluster.tolist()})
-    after = renumbered(table, numbers)
+    after = renumber_clusters(table, numbers)
     former = names_by_cluster(table)
     renamed = {numbers[cluster]: former[cluster] for cluster in reversed(former)}
-    after = with_cluster_names(after, renamed)
+    after = set_cluster_names(after, renamed)
     kept = 0
     for cluster, number in numbers.items():
         name = names.get(places.get(cluster, -1), "")
@@ -152,6 +152,6 @@ def _numbers(
     return numbers
 
 
-def _by_frame(rows: SegmentTable) -> NDArray[np.int64]:
+def _spread_clusters(rows: SegmentTable) -> NDArray[np.int64]:
     """Return the cluster of each frame of a level."""
     return np.repeat(rows.cluster, rows.stop_frame - rows.start_frame)

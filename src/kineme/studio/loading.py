@@ -91,7 +91,7 @@ class LoadedRecording:
 
         with self._lock:
             if self._page_data is None:
-                shown = without_others(self.recording)
+                shown = drop_others(self.recording)
                 self._page_data = page_data(shown, effectors=self.effectors)
             return self._page_data
 
@@ -175,7 +175,7 @@ class LoadedRecording:
             return self._one_segment("activity"), [f"not segmented: {error}"]
 
     def not_segmented(self) -> Segmentation:
-        """The table while segments are being found: one transition."""
+        """Return the table while segments are being found: one transition."""
         return self._one_segment("transition")
 
     def labelled(
@@ -217,7 +217,7 @@ class LoadedRecording:
         return one_segment(kind, self.n_frames, self.fps, provenance)
 
 
-def without_others(recording: Motion | Signals) -> Motion | Signals:
+def drop_others(recording: Motion | Signals) -> Motion | Signals:
     """Return the recording without the markers of the other people in its file."""
     provenance = recording.provenance
     others = {*provenance.people} - {provenance.person}

@@ -1,4 +1,4 @@
-"""The repetitions of a recording as loops: how good each would be, and how it would play."""
+"""Repetitions of a recording as loops: how good each would be, and how it would play."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from kineme.web.display import display_motion
 from kineme.web.messages import LoopRow, Loops, PlayedLoop
 
 
-def ranked(opened: OpenRecording) -> Loops:
+def rank_loops(opened: OpenRecording) -> Loops:
     """How good the repetitions of a recording would be as loops."""
     table, motion = opened.table, _motion(opened)
     numbers = [number for number, row in enumerate(table.table) if row.level == "primitive"]
@@ -34,7 +34,7 @@ def ranked(opened: OpenRecording) -> Loops:
     )
 
 
-def played(opened: OpenRecording, number: int) -> PlayedLoop:
+def play_loop(opened: OpenRecording, number: int) -> PlayedLoop:
     """Return the loop that a row of the table would be written as."""
     table, motion = opened.table, _motion(opened)
     if not 0 <= number < len(table):

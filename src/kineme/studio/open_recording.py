@@ -27,7 +27,7 @@ from kineme.segments import editing
 from kineme.segments.editing.carrying import names_of
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.edits import Surroundings, edited
+from kineme.studio.edits import Surroundings, apply_edit
 from kineme.studio.loading import LoadedRecording, digest_in
 from kineme.studio.reading import RecordingCache
 from kineme.studio.running import Run
@@ -50,7 +50,7 @@ CHANGED = "the table was changed elsewhere meanwhile: look at it as it is now, a
 
 
 class ConflictError(Exception):
-    """The edit was made on another table than the present one, which comes along."""
+    """Raised where an edit was made on another table than the present one, which comes along."""
 
     def __init__(self, reason: str, present: Edited):
         self.present = present
@@ -230,7 +230,7 @@ class OpenRecording:
         former, self._previewed = self._previewed, Run(request.preset)
         former.cancel()
         found = self.loaded.segment(request.preset, request.parameters, detail, self._previewed)
-        result = editing.carried(self.table, found)
+        result = editing.carry_corrections(self.table, found)
         lost = [f"{result.corrections} corrections and {result.names} names"]
         return Preview(
             segmentation=segments_message(result.segmentation if request.keep else found),
@@ -271,7 +271,7 @@ class OpenRecording:
         if isinstance(edit, Undo | Redo):
             undo = isinstance(edit, Undo)
             return self._journal.undone() if undo else self._journal.redone(), []
-        outcome = edited(self._table, edit, self.loaded, files, self._version)
+        outcome = apply_edit(self._table, edit, self.loaded, files, self._version)
         replaced = outcome.replaced
         ids = self._journal.ids.after(self._table, outcome.table, name, replaced=replaced)
         change = self._journal.changed(outcome.table, edit, replaced=replaced, ids=ids)

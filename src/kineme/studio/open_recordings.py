@@ -1,4 +1,4 @@
-"""The open recordings of a folder, each found by its id."""
+"""Open recordings of a folder, each found by its id."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class SupersededError(Exception):
 
 
 class OpenRecordings:
-    """The recordings of a folder, each opened once.
+    """Recordings of a folder, each opened once.
 
     ``changed`` is called with id and revision when a table has changed.
     """
@@ -75,7 +75,7 @@ class OpenRecordings:
         present = self._open.get(name)
         if present is not None and not present.loaded.changed():
             return present
-        listed = _found(self.folder.recordings(), name, "recording")
+        listed = _find_or_raise(self.folder.recordings(), name, "recording")
         with self._opening.setdefault(name, threading.Lock()):
             present = self._open.get(name)
             if present is None or present.loaded.changed():
@@ -127,7 +127,7 @@ class OpenRecordings:
         """Return what there is to show of a recording that is being read, which is opened then."""
         if name in self._open:
             return None
-        listed = _found(self.folder.recordings(), name, "recording")
+        listed = _find_or_raise(self.folder.recordings(), name, "recording")
         return self._sketcher.open(
             listed, lambda made: self._in_background(lambda: self._read(name, made))
         )
@@ -136,7 +136,7 @@ class OpenRecordings:
         """Open a recording that is shown as a sketch, and say when it is there, or cannot be."""
         revision = SKETCH_REVISION + 1  # a page asks anew for any other than its own
         with suppress(KinemeError, UnknownError):
-            self._cache.read(_found(self.folder.recordings(), name, "recording"))
+            self._cache.read(_find_or_raise(self.folder.recordings(), name, "recording"))
             if self._sketcher.forget_closed(instead):
                 return
             opened = self.get(name)
@@ -221,7 +221,7 @@ class OpenRecordings:
         they were left. Options have the names of `kineme.formats.ReadOptions`; others are as for
         all. KinemeError where it cannot be read so: it is read as before.
         """
-        listed = _found(self.folder.recordings(), name, "recording")
+        listed = _find_or_raise(self.folder.recordings(), name, "recording")
         changed, person = self._reader.change_options(listed, options, everybody=everybody)
         present = [each for each in self.folder.recordings().values() if each.path == listed.path]
         if name not in {each.id for each in present}:
@@ -266,14 +266,14 @@ class OpenRecordings:
 
     def knowledge_base(self, name: str) -> Path:
         """Return the file of the knowledge base of that id."""
-        return _found(self.folder.knowledge_bases(), name, "knowledge base")
+        return _find_or_raise(self.folder.knowledge_bases(), name, "knowledge base")
 
     def annotation(self, name: str) -> Path:
         """Return the label file of that id."""
-        return _found(self.folder.annotations(), name, "label file")
+        return _find_or_raise(self.folder.annotations(), name, "label file")
 
 
-def _found(files: dict[str, File], name: str, what: str) -> File:
+def _find_or_raise(files: dict[str, File], name: str, what: str) -> File:
     if name not in files:
         raise UnknownError(f"there is no such {what}; it may have been taken away")
     return files[name]

@@ -1,4 +1,4 @@
-"""The tables of a folder in brief, from the files beside its recordings: none of those is read.
+"""Tables of a folder in brief, from the files beside its recordings: none of those is read.
 
 A table as this version writes it is decoded into the few columns that are needed, which takes a
 tenth of the time; any other is read as every table is. What was found stays in memory as long as
@@ -19,7 +19,7 @@ from kineme.errors import KinemeError, ReadError
 from kineme.labels import json_table, read_segments
 from kineme.segments.annotation import NO_ANNOTATION, Annotation, Span
 from kineme.segments.editing import comments
-from kineme.segments.editing.annotating import marked
+from kineme.segments.editing.annotating import find_marked
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
 from kineme.studio.reading import stamp_of
@@ -32,14 +32,14 @@ MOST_TABLES = 10_000
 def saved_brief(path: Path) -> BriefTable | None:
     """Return the table in a file in brief; None where there is none, or one that cannot be read."""
     try:
-        return _of_file(path, *stamp_of(path))
+        return _summarize_file(path, *stamp_of(path))
     except Exception:  # noqa: BLE001 (a table that is damaged in any way costs itself only)
         return None
 
 
 def brief_of(table: Segmentation) -> BriefTable:
     """Return a table in brief."""
-    return _brief(table, [*table], marked(table, "checked"), len(comments(table)))
+    return _brief(table, [*table], find_marked(table, "checked"), len(comments(table)))
 
 
 class _Row(msgspec.Struct):
@@ -63,7 +63,7 @@ class _Saved(msgspec.Struct):
 
 
 @lru_cache(MOST_TABLES)
-def _of_file(path: Path, *_: int) -> BriefTable | None:
+def _summarize_file(path: Path, *_: int) -> BriefTable | None:
     """Of the file as it was at that time; None where it is no table."""
     try:
         refuse_pipe(path)

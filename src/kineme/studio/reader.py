@@ -11,7 +11,7 @@ from kineme.studio.reading import RecordingCache
 from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import (
     Reading,
-    given,
+    keep_given,
     keep_reading,
     options_of,
     read_options,
@@ -48,7 +48,7 @@ class Reader:
         Return the options that differ from those before, and which of several people was read.
         """
         before = reading_of(listed.path)
-        after, person = self._read(listed, Reading(given(options), before.people), everybody)
+        after, person = self._read(listed, Reading(keep_given(options), before.people), everybody)
         keep_reading(listed.path, after)
         return after.differs_from(before), person
 

@@ -32,7 +32,7 @@ class ReadingOptions:
 
 
 class RecordingCache:
-    """The recordings used last; several can be read at once."""
+    """Recordings used last; several can be read at once."""
 
     def __init__(self, options: ReadingOptions) -> None:
         self.options = options
@@ -77,7 +77,10 @@ class RecordingCache:
         return people_in(path, read_options(ListedRecording(path), self.options.file, choice))
 
     def analog(self, listed: ListedRecording) -> Signals | None:
-        """The channels beside the motion in a file, read each time; None where there are none."""
+        """Return the channels beside the motion in a file, read each time.
+
+        None where there are none.
+        """
         return read_analog(listed.path, read_options(listed, self.options.file))
 
 

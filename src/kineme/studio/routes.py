@@ -81,7 +81,7 @@ BINARY = "application/octet-stream"
 
 
 class Api:
-    """The addresses under ``/api``; uploads have at most ``limit`` bytes."""
+    """Addresses under ``/api``; uploads have at most ``limit`` bytes."""
 
     def __init__(self, recordings: OpenRecordings, hub: Hub, *, limit: int = LIMIT):
         self._recordings, self._hub, self._limit = recordings, hub, limit
@@ -313,7 +313,7 @@ class Api:
         from kineme.studio import downloads
 
         kind, level = request.path_params["format"], _level(request)
-        return file_response(*downloads.exported(self._opened(request), kind, level))
+        return file_response(*downloads.export_download(self._opened(request), kind, level))
 
     def clips(self, request: Request, sent: ClipsRequest) -> Response:
         from kineme.studio import downloads
@@ -324,12 +324,12 @@ class Api:
     def loops(self, request: Request) -> Loops:
         from kineme.studio import loops
 
-        return loops.ranked(self._opened(request))
+        return loops.rank_loops(self._opened(request))
 
     def loop(self, request: Request) -> PlayedLoop:
         from kineme.studio import loops
 
-        return loops.played(self._opened(request), *_numbers(request, "number"))
+        return loops.play_loop(self._opened(request), *_numbers(request, "number"))
 
     def video(self, request: Request) -> Response:
         found = find_video(self._opened(request).path)

@@ -77,7 +77,7 @@ class Run:
 
 
 class Runs:
-    """The segmentations of a recording that run at present."""
+    """Segmentations of a recording that run at present."""
 
     def __init__(self) -> None:
         self._present: list[Run] = []

@@ -1,4 +1,4 @@
-"""The server: a socket of this machine, a token, one line with the address, and a clean end."""
+"""Server: a socket of this machine, a token, one line with the address, and a clean end."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ LARGE = 16_000_000
 POSES = 18_000
 """Of a sketch, at most: five a second of an hour."""
 SKETCH_REVISION = 0
-"""The revision that a sketch has; tables have others."""
+"""Revision that a sketch has; tables have others."""
 
 
 class Sketch(Struct):
@@ -36,7 +36,7 @@ class Sketch(Struct):
 
 
 class Sketcher:
-    """The sketches of recordings, by their ids."""
+    """Sketches of recordings, by their ids."""
 
     def __init__(self, options: ReadingOptions):
         self._options = options

@@ -48,7 +48,7 @@ class Placement:
     shift: complex = 0j
 
     def after(self, angle: float, shift: tuple[float, float]) -> Placement:
-        """The placement of what is itself turned and moved before."""
+        """Return the placement of what is itself turned and moved before."""
         return Placement(self.angle + angle, self.of(complex(*shift)))
 
     def of(self, floor: complex) -> complex:
@@ -121,7 +121,7 @@ def synthesize(
     if [m.n_frames for m in motions] != [s.n_frames for s in graph.sources]:
         raise ParameterError("the motions are not those the graph was built on: build it anew")
     spans = spans_of(graph, route, start or Placement())
-    rotations, translations = _joined(spans, motions, round(graph.window * graph.fps / 2))
+    rotations, translations = _blend_spans(spans, motions, round(graph.window * graph.fps / 2))
     jumps = len(spans) - 1
     motion = Motion.from_rotations(
         motions[0].skeleton,
@@ -159,7 +159,7 @@ def jump_frames(spans: Sequence[PlacedSpan]) -> list[int]:
     return list(accumulate(span.stop - span.start for span in spans))[:-1]
 
 
-def _joined(
+def _blend_spans(
     spans: Sequence[PlacedSpan], motions: Sequence[Motion], half: int
 ) -> tuple[Floats, Floats]:
     """Rotations and translations of all spans, blended over ``half`` frames about each jump."""
@@ -182,7 +182,7 @@ def _joined(
         after, after_shift = placed(b, b.start - n, b.start + n)
         w = ((np.arange(2 * n) + 0.5) / max(2 * n, 1))[:, None, None]
         w = w * w * (3 - 2 * w)
-        rotations[t - n : t + n] = rot.between(before, after, w)
+        rotations[t - n : t + n] = rot.slerp(before, after, w)
         translations[t - n : t + n] = (1 - w) * before_shift + w * after_shift
     return rotations, translations
 
@@ -191,7 +191,7 @@ def _placed_motion(
     motion: Motion, rotations: Floats, shifts: Floats, at: Placement
 ) -> tuple[Floats, Floats]:
     roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
-    about_y = rot.about_y(at.angle)
+    about_y = rot.rotate_about_y(at.angle)
     rotations, shifts = rotations.copy(), shifts.copy()
     rotations[:, roots] = rot.multiply(about_y, rotations[:, roots])
     shifts[:, roots] = rot.rotate(about_y, shifts[:, roots])

@@ -159,7 +159,7 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     length = np.clip(length, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
     now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
     angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
-    bend = _about(_hinge(thigh, shin, world[:, leg[0]]), angle - now)
+    bend = _mark_about(_hinge(thigh, shin, world[:, leg[0]]), angle - now)
     reached = thigh + rot.rotate(bend, shin)
     swing = _arc(reached, target - hip)
     still = np.where(moved[:, None], 1.0, 0.0)
@@ -193,7 +193,7 @@ def _hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
     return hinge
 
 
-def _about(axis: Floats, angle: Floats) -> Floats:
+def _mark_about(axis: Floats, angle: Floats) -> Floats:
     half = angle[:, None] / 2
     return np.concatenate([np.cos(half), np.sin(half) * axis], axis=1)
 

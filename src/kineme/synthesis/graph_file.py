@@ -28,7 +28,7 @@ from pathlib import Path
 from typing import Any
 
 from kineme._util.files import atomic_write, translate_read_errors
-from kineme._util.json import converted, loaded
+from kineme._util.json import convert_json, load_json
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import read_motion
 from kineme.recordings import Motion
@@ -109,7 +109,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     2
     """
     home = Path(path).absolute().parent
-    data = loaded(Path(path))
+    data = load_json(Path(path))
     schema = data.get("schema") if isinstance(data, dict) else None
     if not str(schema).startswith("kineme.motion-graph/"):
         raise ReadError(path, "is not a motion graph: make one with kineme graph FILES")
@@ -120,11 +120,11 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     except ValueError as error:
         reason = f"is damaged ({error!s:.120}): build it anew with kineme graph"
         raise ReadError(path, reason) from error
-    return replace(graph, sources=tuple(_at_home(source, home) for source in graph.sources))
+    return replace(graph, sources=tuple(_resolve_source(source, home) for source in graph.sources))
 
 
 def load_sources(graph: MotionGraph) -> list[Motion]:
-    """The recordings the graph was built on, in order.
+    """Return the recordings the graph was built on, in order.
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ def _relative(path: str, folder: Path) -> str:
 def _graph(data: dict[str, Any]) -> MotionGraph:
     """What a file holds; ValueError where parts are missing, or cannot be of its recordings."""
     _check_complete(data, MotionGraph)
-    graph = converted(data, MotionGraph)
+    graph = convert_json(data, MotionGraph)
     for name, kind in (("sources", Source), ("nodes", Node), ("edges", Edge)):
         for row in data[name]:
             _check_complete(row, kind)
@@ -199,7 +199,7 @@ def _check_complete(row: dict[str, Any], kind: Any) -> None:
             raise ValueError(f"no {field.name!r}")
 
 
-def _at_home(source: Source, folder: Path) -> Source:
+def _resolve_source(source: Source, folder: Path) -> Source:
     """Return a source whose paths, in the file relative to its folder, are found from anywhere."""
     options = {name: value for name, value in source.options.items() if name in OPTIONS}
     if "skeleton" in options:

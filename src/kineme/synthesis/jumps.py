@@ -68,8 +68,8 @@ def jumps(
     for i in below[_nearest(key, distances[below], 1)].tolist():
         tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
         at = (
-            _at_source(ends.frames[leave[i]] - firsts[nodes[tail].source], ratio),
-            _at_source(starts.frames[enter[i]] - firsts[nodes[head].source], ratio),
+            _convert_to_source(ends.frames[leave[i]] - firsts[nodes[tail].source], ratio),
+            _convert_to_source(starts.frames[enter[i]] - firsts[nodes[head].source], ratio),
         )
         shift = (float(shifts[i, 0]), float(shifts[i, 1]))
         edges.append(Edge(tail, head, *at, float(distances[i]), float(angles[i]), shift))
@@ -79,7 +79,7 @@ def jumps(
 def _ends_of(
     nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
 ) -> _Ends:
-    """The ends (side 1) or starts (side 0) of all nodes.
+    """Return the ends (side 1) or starts (side 0) of all nodes.
 
     Only frames with a whole window inside their recording, and never so many
     that a node entered late could be left before that.
@@ -106,5 +106,5 @@ def _nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
     return kept
 
 
-def _at_source(frame: int, ratio: float) -> int:
+def _convert_to_source(frame: int, ratio: float) -> int:
     return round(float(frame) * ratio)

@@ -23,7 +23,7 @@ from kineme.errors import ParameterError
 from kineme.recordings import Motion
 from kineme.synthesis.blending import Placement
 from kineme.synthesis.graph import MotionGraph
-from kineme.synthesis.lines import FAR, SPACING, Complex, spaced
+from kineme.synthesis.lines import FAR, SPACING, Complex, space_evenly
 
 TOLERANCE = 0.5
 """Metres that the root may get away from the line."""
@@ -114,10 +114,10 @@ def line_route(
     """
     if not tolerance > 0:
         raise ParameterError(f"the tolerance must be metres above 0, not {tolerance}")
-    points = spaced(line)
+    points = space_evenly(line)
     hips = [motion.positions[:, motion.skeleton.carrier] for motion in motions]
     floors = [path[:, 0] + 1j * path[:, 2] for path in hips]
-    found = _search(graph, floors, points, _allowed(graph, actions))
+    found = _search(graph, floors, points, _find_allowed(graph, actions))
     if found is None:
         raise ParameterError(
             "no route through the graph follows this line: give recordings in which somebody "
@@ -159,7 +159,7 @@ def _search(
             continue
         visited.add((bucket, candidate.node, direction))
         counts[bucket] += 1
-        reached, onward = _expanded(graph, floors, points, nodes, candidate)
+        reached, onward = _expand(graph, floors, points, nodes, candidate)
         if reached.point == len(points) - 1:
             done.append((candidate, reached))
         else:
@@ -168,7 +168,7 @@ def _search(
     return min(done, key=lambda found: found[1].cost, default=None)
 
 
-def _expanded(
+def _expand(
     graph: MotionGraph,
     floors: Sequence[Complex],
     points: Complex,
@@ -182,7 +182,7 @@ def _expanded(
     edges = [edge for edge in edges if edge.head in nodes]
     stop = max([node.stop, *(edge.leave for edge in edges)])
     floor = floors[node.source][candidate.enter : stop : step]
-    reached = _played(candidate, floor, points, step / graph.fps)
+    reached = _measure_progress(candidate, floor, points, step / graph.fps)
     onward = []
     for edge in edges:
         at = candidate.at.after(edge.angle, edge.shift) if edge.jump else candidate.at
@@ -196,7 +196,7 @@ def _steps(start: int, stop: int, step: int) -> int:
     return -(-(stop - start) // step)
 
 
-def _played(
+def _measure_progress(
     candidate: _Candidate, floor: Complex, points: Complex, seconds: float
 ) -> list[_Progress]:
     """Return the progress before each of some poses, ``seconds`` apart, and after the last."""
@@ -217,7 +217,7 @@ def _played(
     return reached
 
 
-def _allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
+def _find_allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
     """Return the nodes that may be played: those named, and transition phases."""
     if not actions:
         return set(range(len(graph.nodes)))

@@ -52,7 +52,7 @@ def parse_line(text: str) -> list[tuple[float, float]]:
     return [(x, z) for x, z in points]
 
 
-def spaced(line: Sequence[tuple[float, float]]) -> Complex:
+def space_evenly(line: Sequence[tuple[float, float]]) -> Complex:
     """Points of the line, equally far from each other."""
     corners = np.array([complex(x, z) for x, z in line])
     lengths = np.abs(np.diff(corners))

@@ -219,8 +219,8 @@ def _no_route(graph: MotionGraph, names: Sequence[str], cost: Floats) -> str:
     back = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
     return (
         f"no route leads through {shown}: from {tail!r} one can go on to "
-        f"{_listed(following(graph, tail))}, and {head!r} is reached from "
-        f"{_listed(_names(graph, back))}; "
+        f"{_list_names(following(graph, tail))}, and {head!r} is reached from "
+        f"{_list_names(_names(graph, back))}; "
         "put another action between, or build the graph with a higher threshold"
     )
 
@@ -230,5 +230,5 @@ def _names(graph: MotionGraph, mask: Any) -> list[str]:
     return list(dict.fromkeys(name for name in chosen if name))
 
 
-def _listed(names: list[str]) -> str:
+def _list_names(names: list[str]) -> str:
     return ", ".join(names) or "nowhere"

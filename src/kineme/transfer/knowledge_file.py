@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.files import atomic_write
-from kineme._util.json import decoded
+from kineme._util.json import decode_json
 from kineme._version import __version__
 from kineme.errors import ReadError, WriteError
 from kineme.formats.arrays.numpy_files import members
@@ -66,7 +66,7 @@ def read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDArr
     content = load(path)
     try:
         found = members(content)
-        head = decoded(str(found["head"]), path)
+        head = decode_json(str(found["head"]), path)
     except KeyError as error:
         raise ReadError(path, "is not a knowledge base: it has no head") from error
     except (ReadError, ValueError) as error:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError
 from kineme.features.canonical.matching import features_and_poses
 from kineme.recordings import Motion, Signals
-from kineme.segments.editing.rows import renumbered
+from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.channel_samples import ChannelSamples, channel_samples, thin_samples
 from kineme.transfer.clusters import (
@@ -125,7 +125,7 @@ def _share_by_search(
     numbers: list[dict[int, int]] = [{} for _ in motions]
     for each, cluster in zip(local, shared, strict=True):
         numbers[each.recording][each.cluster] = cluster
-    result = [renumbered(*each) for each in zip(segmentations, numbers, strict=True)]
+    result = [renumber_clusters(*each) for each in zip(segmentations, numbers, strict=True)]
     if not result:
         return result
     first = segmentations[0].table
@@ -134,7 +134,7 @@ def _share_by_search(
         {i: spans_with_clusters(r.table.columns(), r.table.cluster) for i, r in enumerate(result)},
         following=int(first.cluster.max()) + 1,
     )
-    return [renumbered(each, lasting) for each in result]
+    return [renumber_clusters(each, lasting) for each in result]
 
 
 def share_by_samples(

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.segments.editing.rows import with_rows
+from kineme.segments.editing.rows import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, kind_of
 from kineme.transfer.features import FPS
@@ -86,7 +86,7 @@ def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmen
         for level, spans in levels
         for start, stop, label in _tiled(spans, segmentation.n_frames)
     ]
-    return with_rows(segmentation, rows, [])
+    return replace_rows(segmentation, rows, [])
 
 
 def _tiled(rows: list[Row], n_frames: int) -> list[Row]:

@@ -1,4 +1,4 @@
-"""The pages: their sources (``pages``), as built (``static``), and what they are told.
+"""Pages: their sources (``pages``), as built (``static``), and what they are told.
 
 ``page_data`` puts together what a page draws, whichever kind the recording is,
 from ``display`` (the poses), ``similarity`` and ``matrix`` (the tiles of the

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
 from kineme.recordings import Motion, Signals
-from kineme.web.drawn import of_analog, of_motion, of_signals
+from kineme.web.drawn import draw_analog, draw_motion, draw_signals
 from kineme.web.messages import Curve, CurveList
 
 Pairs = NDArray[np.float32]
@@ -32,7 +32,7 @@ MOST_IN_MEMORY = 24
 
 
 class Curves:
-    """The curves of a recording; those looked at last stay in memory.
+    """Curves of a recording; those looked at last stay in memory.
 
     ``analog`` are channels beside a motion, at a rate of their own: of each frame the least and the
     greatest value are drawn.
@@ -41,11 +41,11 @@ class Curves:
     def __init__(self, recording: Motion | Signals, analog: Signals | None = None):
         self.n_frames = recording.n_frames
         self._drawn = (
-            of_motion(recording) if isinstance(recording, Motion) else of_signals(recording)
+            draw_motion(recording) if isinstance(recording, Motion) else draw_signals(recording)
         )
         self._first_analog = len(self._drawn)
         if analog is not None:
-            self._drawn += of_analog(analog, recording.n_frames, recording.fps)
+            self._drawn += draw_analog(analog, recording.n_frames, recording.fps)
         self._recent: OrderedDict[int, list[Pairs]] = OrderedDict()
         self._lock = Lock()
 
@@ -83,7 +83,7 @@ class Curves:
         return levels[level][number * TILE : (number + 1) * TILE].tobytes()
 
 
-def recorded(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Signals:
+def as_recording(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Signals:
     """Return the recording; signals where it is an array (frames, channels) of that rate."""
     if isinstance(recording, Motion | Signals):
         return recording
@@ -98,7 +98,7 @@ def curves_of(
     ``fps`` is that of an array (frames, channels). Finer levels are left out where all together
     would be longer than ``most_bytes``.
     """
-    signals = recorded(recording, fps)
+    signals = as_recording(recording, fps)
     curves, tiles = Curves(signals), dict[str, bytes]()
     head, left = curves.head(), most_bytes
     for level in reversed(range(head.levels)):

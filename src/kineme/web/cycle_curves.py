@@ -59,7 +59,7 @@ PLACES = {
 
 
 class CycleCurves:
-    """The curves of a recording's repetitions, measured when they are asked for.
+    """Curves of a recording's repetitions, measured when they are asked for.
 
     ``read`` gives the recording, ``beside`` the channels of the same time, if there are any:
     neither is held. Cycles are those of the table asked for last.
@@ -101,7 +101,9 @@ class CycleCurves:
             return list(self._heads.values())
 
     def of(self, table: Segmentation, cluster: int, channel: str = "") -> ClusterCurves | None:
-        """The curves of a cluster; None where there are no such repetitions, or no such channel.
+        """Return the curves of a cluster.
+
+        None where there are no such repetitions, or no such channel.
 
         Without ``channel`` that one which goes farthest in them.
         """
@@ -115,7 +117,7 @@ class CycleCurves:
             group = measured.select(rows)
             name = channel or _liveliest(group, measured)[0]
             ends = _only_ends(group)
-            return _drawn(group, name, MOST, _means(group, ends=ends)[name], ends=ends)
+            return _make_message(group, name, MOST, _means(group, ends=ends)[name], ends=ends)
 
     def beside(
         self,
@@ -125,7 +127,7 @@ class CycleCurves:
         other: CycleCurves,
         other_table: Segmentation,
     ) -> ClusterCurves | None:
-        """The same with the mean of what has the same name in another recording, if it has.
+        """Return the same with the mean of what has the same name in another recording, if it has.
 
         Both are measured together, and so from one phase.
         """
@@ -142,15 +144,15 @@ class CycleCurves:
         name, ends = alone.channel, _only_ends(group) or _only_ends(others)
         first, second = self._measured(group, [name]), other._measured(others, [name])
         compared = compare_curves(first, second, ends=ends)
-        drawn = _drawn(first, name, MOST, _means(first, ends=ends)[name], ends=ends)
+        drawn = _make_message(first, name, MOST, _means(first, ends=ends)[name], ends=ends)
         digits = _digits(_extent(first.curves)) + 1
         return structs.replace(
             drawn,
             beside=OtherSession(
                 n=int(compared["second_n"][0]),
                 total=len(others),
-                mean=_rounded(compared["second_mean"], digits),
-                sd=_rounded(compared["second_sd"], digits),
+                mean=_round_values(compared["second_mean"], digits),
+                sd=_round_values(compared["second_sd"], digits),
                 differs=((compared["low"] > 0) | (compared["high"] < 0)).tolist(),
             ),
         )
@@ -178,13 +180,13 @@ class CycleCurves:
             room = MOST_NUMBERS // (shown.curves.shape[2] * len(names))
             most = _most([len(group) for group in found.values()], room)
             return ReportCurves(
-                channels=[_with_opposite_in(heads[name], names) for name in names],
+                channels=[_add_opposite(heads[name], names) for name in names],
                 curves=[self._of_report(group, names, most, shown) for group in found.values()],
                 tables=tables,
             )
 
     def _report_channels(self, cycles: Cycles, n_groups: int) -> list[str]:
-        """The usual channels: first those that go farthest in a cluster, with their other sides."""
+        """Return the usual channels: those with the largest range in a cluster, with both sides."""
         lively = [_liveliest(cycles.select(_rows_of(cycles, cluster)), cycles)[0]
                   for cluster in _clusters(cycles)]  # fmt: skip
         sides = [
@@ -204,36 +206,36 @@ class CycleCurves:
         ends = _only_ends(measured)
         means = _means(measured, ends=ends)
         return {
-            name: _drawn(measured, name, most, means[name], ends=ends)
+            name: _make_message(measured, name, most, means[name], ends=ends)
             for name in _liveliest(measured, every)
             if name in names
         }
 
     def _of_table(self, table: Segmentation) -> Cycles:
         """Its cycles, without channels; measured once for all that people say of its segments."""
-        from kineme.cycles.measure import cycles, with_left_out
+        from kineme.cycles.measure import cycles, drop_left_out
 
         if self._cycles is None or not _same_segments([self._table], [table]):
             recording = self._read()
-            found = cycles(recording, _timed(table, recording), channels=[])
-            self._table, self._cycles = table, _with_frames(found, table)
-        return with_left_out(self._cycles, [table])
+            found = cycles(recording, _rescale_table(table, recording), channels=[])
+            self._table, self._cycles = table, _add_frames(found, table)
+        return drop_left_out(self._cycles, [table])
 
     def _together(
         self, table: Segmentation, other: CycleCurves, other_table: Segmentation
     ) -> tuple[Cycles, Cycles]:
         """Return the cycles of both, without channels; movements of one name begin at one phase."""
-        from kineme.cycles.measure import cycles, with_left_out
+        from kineme.cycles.measure import cycles, drop_left_out
 
         tables = table, other_table
         with self._lock:
             if self._both is None or not _same_segments(self._both[0], tables):
                 recordings = self._read(), other._read()
-                timed = [_timed(*each) for each in zip(tables, recordings, strict=True)]
+                timed = [_rescale_table(*each) for each in zip(tables, recordings, strict=True)]
                 self._both = tables, cycles(recordings, timed, channels=[])
-            found = with_left_out(self._both[1], tables)
+            found = drop_left_out(self._both[1], tables)
         first = found.columns["recording"] == found.columns["recording"][0]
-        return _with_frames(found.select(first), table), found.select(~first)
+        return _add_frames(found.select(first), table), found.select(~first)
 
     def _measured(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
         """Return the cycles with these channels."""
@@ -253,7 +255,7 @@ class CycleCurves:
             beside = self._beside() if needed else None
             for each in channels_of(recording, ["*"], beside=[] if beside is None else [beside]):
                 if each.name in missing:
-                    self._values[each.name] = _in_memory(each)
+                    self._values[each.name] = _copy_numbers(each)
         channels = [self._values[name] for name in names]
         for name in names:
             self._values.move_to_end(name)
@@ -262,13 +264,13 @@ class CycleCurves:
         return measured_anew(cycles, channels)
 
 
-def _in_memory(channel: Channel) -> Channel:
+def _copy_numbers(channel: Channel) -> Channel:
     """Return the same channel with its numbers, without the recording that they come from."""
     values = channel.values()
     return replace(channel, compute=lambda: values, gaps=())
 
 
-def _timed(table: Segmentation, recording: Motion | Signals) -> Segmentation:
+def _rescale_table(table: Segmentation, recording: Motion | Signals) -> Segmentation:
     """Return the table at the rate of its recording, without what people say of its segments."""
     return replace(table, fps=recording.fps, annotation=NO_ANNOTATION)
 
@@ -281,7 +283,7 @@ def _same_segments(before: Sequence[Segmentation | None], now: Sequence[Segmenta
     )
 
 
-def _with_frames(cycles: Cycles, table: Segmentation) -> Cycles:
+def _add_frames(cycles: Cycles, table: Segmentation) -> Cycles:
     """Return the cycles of a table with the first frames of their segments."""
     frames = [row.start_frame for row in table.primitives if row.kind == "primitive"]
     columns = {**cycles.columns, "segment_frame": np.array(frames, np.int64)}
@@ -295,7 +297,7 @@ def _clusters(cycles: Cycles) -> list[int]:
 def _spans(cycles: Cycles) -> tuple[object, ...]:
     """Return all that curves of these cycles depend on."""
     names = ("start_s", "stop_s", "place", "excluded")
-    return _turned(cycles), *(tuple(cycles.columns[name].tolist()) for name in names)
+    return _count_turned(cycles), *(tuple(cycles.columns[name].tolist()) for name in names)
 
 
 def _most(sizes: Sequence[int], room: int) -> int:
@@ -306,7 +308,7 @@ def _most(sizes: Sequence[int], room: int) -> int:
     return most
 
 
-def _with_opposite_in(head: CycleChannel, names: Sequence[str]) -> CycleChannel:
+def _add_opposite(head: CycleChannel, names: Sequence[str]) -> CycleChannel:
     opposite = head.opposite if head.opposite in names else ""
     return CycleChannel(name=head.name, unit=head.unit, group=head.group, opposite=opposite)
 
@@ -353,7 +355,9 @@ def _only_ends(group: Cycles) -> bool:
     return not group.used().any()
 
 
-def _drawn(group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool) -> ClusterCurves:
+def _make_message(
+    group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool
+) -> ClusterCurves:
     """Return the message for the cycles of a group."""
     from kineme.cycles.table import BY_HAND
 
@@ -378,7 +382,7 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool)
             counts=bool(counts[i]),
             note="" if counts[i] else OUT if i in by_hand else _note(columns, i),
             distance=None if np.isnan(distance[i]) else round(float(distance[i]), digits),
-            values=_rounded(curves[i], digits),
+            values=_round_values(curves[i], digits),
         )
         for i in _some(order, most, by_hand)
     ]
@@ -389,21 +393,21 @@ def _drawn(group: Cycles, channel: str, most: int, mean: Columns, *, ends: bool)
         total=len(group),
         ends=ends,
         left_out=len(by_hand),
-        turned=_turned(group),
-        mean=_rounded(mean["mean"], digits + 1),
-        sd=_rounded(mean["sd"], digits + 1),
+        turned=_count_turned(group),
+        mean=_round_values(mean["mean"], digits + 1),
+        sd=_round_values(mean["sd"], digits + 1),
         cycles=drawn,
         beside=None,
     )
 
 
-def _turned(group: Cycles) -> int:
+def _count_turned(group: Cycles) -> int:
     """Return how many of its activities began at another phase than the others."""
     place = group.columns["recording"][0], group.columns["group"][0]
     return sum((each["recording"], each["group"]) == place for each in group.provenance["turned"])
 
 
-def _rounded(values: Floats, digits: int) -> list[float | None]:
+def _round_values(values: Floats, digits: int) -> list[float | None]:
     return [value if np.isfinite(value) else None for value in values.round(digits).tolist()]
 
 
@@ -413,7 +417,7 @@ def _digits(extent: float) -> int:
 
 
 def _some(order: Sequence[int], most: int, kept: set[int]) -> list[int]:
-    """The first ones, which are the farthest, those kept, and of the others evenly so many."""
+    """Return first ones, which are the farthest, those kept, and of the others evenly so many."""
     if len(order) <= most:
         return list(order)
     first = [i for place, i in enumerate(order) if place < FAR or i in kept][:most]

@@ -54,7 +54,7 @@ def display_motion(
     30.0
     """
     fps = min(motion.fps, rate)
-    positions = sampled(motion, fps)
+    positions = sample_poses(motion, fps)
     # Fine numbers take more than a byte each, so that many of them need not be tried.
     for share in (FINE, COARSE) if positions.size <= most_bytes else (COARSE,):
         origin, step, data = encode(positions, share)
@@ -63,7 +63,7 @@ def display_motion(
     # Poses farther apart differ more, so that half of them take more than half the length.
     while len(data) > most_bytes and len(positions) > 2:
         fps *= max(0.25, 0.9 * most_bytes / len(data))
-        positions = sampled(motion, fps)
+        positions = sample_poses(motion, fps)
         origin, step, data = encode(positions, COARSE)
     joints, angles = _facing(motion, effectors, len(positions), fps)
     head = MotionHead(
@@ -80,7 +80,7 @@ def display_motion(
     return head, data
 
 
-def sampled(motion: Motion, fps: float) -> Floats:
+def sample_poses(motion: Motion, fps: float) -> Floats:
     """Poses (samples, joints, 3) at another rate, on straight lines between frames; nan in gaps."""
     ratio = motion.fps / fps
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1

@@ -35,20 +35,22 @@ class Drawn:
         return values
 
 
-def of_signals(signals: Signals) -> list[Drawn]:
+def draw_signals(signals: Signals) -> list[Drawn]:
     """Return each channel."""
     return [Drawn(name, "channels", "", _channel(i)) for i, name in enumerate(signals.names)]
 
 
-def of_analog(signals: Signals, n_frames: int, fps: float) -> list[Drawn]:
+def draw_analog(signals: Signals, n_frames: int, fps: float) -> list[Drawn]:
     """Channels beside a motion of so many frames: the least and the greatest value of each."""
     return [
-        Drawn(name, "analog", "", _in_frames(i, n_frames, fps), of_frames=False)
+        Drawn(name, "analog", "", _reduce_to_frames(i, n_frames, fps), of_frames=False)
         for i, name in enumerate(signals.names)
     ]
 
 
-def _in_frames(number: int, n_frames: int, fps: float) -> Callable[[Motion | Signals], Floats]:
+def _reduce_to_frames(
+    number: int, n_frames: int, fps: float
+) -> Callable[[Motion | Signals], Floats]:
     """Least and greatest value of a channel in each frame of a slower recording."""
 
     def pairs(recording: Motion | Signals) -> Floats:
@@ -66,12 +68,12 @@ def _in_frames(number: int, n_frames: int, fps: float) -> Callable[[Motion | Sig
     return pairs
 
 
-def of_motion(motion: Motion) -> list[Drawn]:
+def draw_motion(motion: Motion) -> list[Drawn]:
     """Return the body's angles; height, place and speed of each joint, and how far it is bent."""
     names, parents = motion.skeleton.names, motion.skeleton.parents
     lengths = np.linalg.norm(motion.skeleton.offsets, axis=1)
     drawn = [Drawn(name, "height", "m", _place(i, 1)) for i, name in enumerate(names)]
-    drawn += [Drawn(name, "speed", "m/s", _speed(i)) for i, name in enumerate(names)]
+    drawn += [Drawn(name, "speed", "m/s", _measure_speed(i)) for i, name in enumerate(names)]
     for joint, name in enumerate(names):
         ends = [i for i, parent in enumerate(parents) if parent == joint and lengths[i] > 0]
         if parents[joint] >= 0 and lengths[joint] > 0 and len(ends) == 1:
@@ -91,7 +93,7 @@ def _place(joint: int, axis: int) -> Callable[[Motion | Signals], Floats]:
     return lambda recording: _positions(recording)[:, joint, axis]
 
 
-def _speed(joint: int) -> Callable[[Motion | Signals], Floats]:
+def _measure_speed(joint: int) -> Callable[[Motion | Signals], Floats]:
     return lambda recording: speed_of(_positions(recording)[:, joint], recording.fps)
 
 

@@ -147,7 +147,7 @@ class PartCluster(EditBase, frozen=True, kw_only=True, tag="split"):
 
 
 class UndoEdit(EditBase, frozen=True, kw_only=True, tag="undo"):
-    """The last edit of the clusters of the library is taken back."""
+    """Undo the last edit of the clusters of the library."""
 
 
 LibraryEdit = CallCluster | JoinClusters | PartCluster | UndoEdit

@@ -94,21 +94,25 @@ class Matrix:
 
 
 def pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
-    """The matrix of features (samples, dims) at every zoom; ``seconds`` is the recording's length.
+    """Return the matrix of features (samples, dims) at every zoom.
+
+    ``seconds`` is the recording's length.
 
     They are so scaled that two of them are ``exp(-1)`` similar at a distance of 1; nan where
     nothing was seen.
     """
     rate = min(RATE, fps, MOST_CELLS / seconds)
     middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
-    stacked = np.concatenate([_at(values, middles + offset, fps) for offset in OFFSETS], axis=1)
+    stacked = np.concatenate(
+        [_sample_at(values, middles + offset, fps) for offset in OFFSETS], axis=1
+    )
     stacked /= np.sqrt(len(OFFSETS))
     visible = np.asarray(np.isfinite(stacked).all(axis=1))
     total = np.where(visible[:, None], stacked, 0.0)
     squares, counts = total**2, visible.astype(float)[:, None]
     levels = [np.where(visible[:, None], total, np.nan).astype(np.float32)]
     while len(total) > TILE:
-        total, squares, counts = (_in_pairs(sums) for sums in (total, squares, counts))
+        total, squares, counts = (_sum_pairs(sums) for sums in (total, squares, counts))
         # 0 / 0: where nothing was seen there is nothing to compare.
         with np.errstate(invalid="ignore"):
             mean = total / counts
@@ -117,7 +121,7 @@ def pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
     return Matrix(rate, tuple(levels))
 
 
-def _at(values: Floats, times: Floats, fps: float) -> Floats:
+def _sample_at(values: Floats, times: Floats, fps: float) -> Floats:
     """Values at seconds, where frame i stands for the time around (i + 0.5) / fps."""
     at = np.clip(times * fps - 0.5, 0, len(values) - 1)
     before = np.floor(at).astype(np.intp)
@@ -126,7 +130,7 @@ def _at(values: Floats, times: Floats, fps: float) -> Floats:
     return np.asarray((1 - share) * values[before] + share * values[after])
 
 
-def _in_pairs(sums: Floats) -> Floats:
+def _sum_pairs(sums: Floats) -> Floats:
     """Sums of two neighbouring rows; the last of an odd number stays alone."""
     return np.add.reduceat(sums, np.arange(0, len(sums), 2), axis=0)
 

@@ -67,7 +67,7 @@ class MotionHead(Struct, frozen=True, kw_only=True):
 
 
 class MatrixHead(Struct, frozen=True, kw_only=True):
-    """The pyramid of self-similarity tiles; see `kineme.web.matrix`.
+    """Pyramid of self-similarity tiles; see `kineme.web.matrix`.
 
     Level 0 has one cell per sample of ``fps`` and ``sizes[0]`` cells a side;
     each next level halves that; the last is one tile. Tiles are square, ``tile``
@@ -92,7 +92,7 @@ class Curve(Struct, frozen=True, kw_only=True):
 
 
 class CurveList(Struct, frozen=True, kw_only=True):
-    """The curves of a recording and their levels; see `kineme.web.curves`."""
+    """Curves of a recording and their levels; see `kineme.web.curves`."""
 
     curves: list[Curve]
     factor: int
@@ -113,7 +113,7 @@ class CycleChannel(Struct, frozen=True, kw_only=True):
 
 
 class CycleChannels(Struct, frozen=True, kw_only=True):
-    """The channels of a recording, those first that are measured where nobody says which."""
+    """Channels of a recording, those first that are measured where nobody says which."""
 
     channels: list[CycleChannel]
 
@@ -136,7 +136,7 @@ class CycleCurve(Struct, frozen=True, kw_only=True):
 
 
 class OtherSession(Struct, frozen=True, kw_only=True):
-    """The mean curve of the same movement in another recording, of ``n`` of ``total`` repetitions.
+    """Mean curve of the same movement in another recording, of ``n`` of ``total`` repetitions.
 
     ``differs`` says where the bounds of the difference leave out 0.
     """
@@ -172,7 +172,7 @@ class ClusterCurves(Struct, frozen=True, kw_only=True):
 
 
 class ReportCurves(Struct, frozen=True, kw_only=True):
-    """The curves in a report.
+    """Curves in a report.
 
     ``curves`` have them by channel, ``tables`` by cluster the number of those, for the table that
     is shown and then for each of the ``levels`` of a `Recording`.
@@ -184,7 +184,7 @@ class ReportCurves(Struct, frozen=True, kw_only=True):
 
 
 class TableAtDetail(Struct, frozen=True, kw_only=True):
-    """The same recording, coarser (``detail`` below 1) or finer."""
+    """Same recording, coarser (``detail`` below 1) or finer."""
 
     detail: float
     segments: list[Segment]
@@ -236,7 +236,7 @@ class Recording(Struct, frozen=True, kw_only=True):
 
 
 class TableChange(Struct, frozen=True, kw_only=True):
-    """The rows in which a table differs from that of the revision ``of``.
+    """Rows in which a table differs from that of the revision ``of``.
 
     ``removed`` are the numbers of rows of that table which are not in this one, ``at`` the numbers
     of the rows of this one that are ``added``.
@@ -249,7 +249,7 @@ class TableChange(Struct, frozen=True, kw_only=True):
 
 
 class Edited(Struct, frozen=True, kw_only=True):
-    """The table after an edit, already on the disk as ``saved``; ``ids`` as of a `Recording`.
+    """Table after an edit, already on the disk as ``saved``; ``ids`` as of a `Recording`.
 
     Where there is a ``change``, its rows are those of the table before with this change, and
     ``segmentation`` has none.
@@ -279,7 +279,7 @@ class ScoreMeaning(Struct, frozen=True, kw_only=True):
 
 
 class Comparison(Struct, frozen=True, kw_only=True):
-    """The other result, and how well the shown one agrees with it.
+    """Other result, and how well the shown one agrees with it.
 
     ``meanings`` are those of the scores; ``differences`` are spans in seconds, in order, in which
     the two say different things.
@@ -320,7 +320,7 @@ class Version(Struct, frozen=True, kw_only=True):
 
 
 class Versions(Struct, frozen=True, kw_only=True):
-    """The tables of a recording that were replaced, the latest first."""
+    """Tables of a recording that were replaced, the latest first."""
 
     versions: list[Version]
 
@@ -341,7 +341,7 @@ class LoopRow(Struct, frozen=True, kw_only=True):
 
 
 class Loops(Struct, frozen=True, kw_only=True):
-    """The repetitions of a recording as loops, those of a cluster together, the best first."""
+    """Repetitions of a recording as loops, those of a cluster together, the best first."""
 
     loops: list[LoopRow]
 
@@ -389,7 +389,7 @@ class FolderRecording(Struct, frozen=True, kw_only=True):
 
 
 class FolderTables(Struct, frozen=True, kw_only=True):
-    """The tables of all recordings of the folder, in the order of the list."""
+    """Tables of all recordings of the folder, in the order of the list."""
 
     recordings: list[FolderRecording]
 

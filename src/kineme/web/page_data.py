@@ -131,7 +131,10 @@ def segments_message(segmentation: Segmentation, *, rows: bool = True) -> Segmen
 
 
 def _levels(segmentation: Segmentation) -> list[TableAtDetail]:
-    """The tables at all details; none where there is one, or where they would fill the page."""
+    """Return the tables at all details.
+
+    None where there is one, or where they would fill the page.
+    """
     hierarchy = segmentation.hierarchy
     if hierarchy is None or sum(map(len, hierarchy.tables)) > MOST_ROWS:
         return []

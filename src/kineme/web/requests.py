@@ -32,7 +32,7 @@ class EditBase(Request, frozen=True, kw_only=True, tag_field="kind"):
 
 
 class MoveBorder(EditBase, frozen=True, kw_only=True, tag="move_border"):
-    """The border at ``frame`` of a level goes to ``to``."""
+    """Move the border at ``frame`` of a level to ``to``."""
 
     level: Level
     frame: Integer
@@ -47,7 +47,7 @@ class Split(EditBase, frozen=True, kw_only=True, tag="split"):
 
 
 class Merge(EditBase, frozen=True, kw_only=True, tag="merge"):
-    """The segments of ``[start_frame, stop_frame)`` become one."""
+    """Make the segments of ``[start_frame, stop_frame)`` one."""
 
     level: Level
     start_frame: Integer
@@ -55,14 +55,14 @@ class Merge(EditBase, frozen=True, kw_only=True, tag="merge"):
 
 
 class DeleteBorder(EditBase, frozen=True, kw_only=True, tag="delete_border"):
-    """The two segments that meet at ``frame`` become one, like the longer of them."""
+    """Make the two segments that meet at ``frame`` one, like the longer of them."""
 
     level: Level
     frame: Integer
 
 
 class NameSegment(EditBase, frozen=True, kw_only=True, tag="name_segment"):
-    """The segment that starts at ``frame`` gets a label; an empty one takes it away."""
+    """Label the segment that starts at ``frame``; an empty label removes it."""
 
     level: Level
     frame: Integer
@@ -77,7 +77,7 @@ class NameCluster(EditBase, frozen=True, kw_only=True, tag="name_cluster"):
 
 
 class SetCluster(EditBase, frozen=True, kw_only=True, tag="set_cluster"):
-    """The segment that starts at ``frame`` joins a cluster; -1: none."""
+    """Put the segment that starts at ``frame`` into a cluster; -1: into none."""
 
     level: Level
     frame: Integer
@@ -85,7 +85,7 @@ class SetCluster(EditBase, frozen=True, kw_only=True, tag="set_cluster"):
 
 
 class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
-    """The segment that starts at ``frame`` is a transition and in no cluster, or none.
+    """Make the segment that starts at ``frame`` a transition in no cluster, or no transition.
 
     ``to`` is ``transition``, or what its level says.
     """
@@ -96,7 +96,7 @@ class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
 
 
 class SegmentAgain(EditBase, frozen=True, kw_only=True, tag="segment"):
-    """The whole table anew, by a preset; with ``keep``, corrections and names are taken over.
+    """Segment the recording again by a preset; ``keep`` takes over corrections and names.
 
     ``detail`` is 1 by default, less is coarser.
     """
@@ -108,27 +108,27 @@ class SegmentAgain(EditBase, frozen=True, kw_only=True, tag="segment"):
 
 
 class MergeClusters(EditBase, frozen=True, kw_only=True, tag="merge_clusters"):
-    """The segments of a cluster are in another one, ``into``, from then on."""
+    """Move the segments of a cluster into another one, ``into``."""
 
     cluster: Integer
     into: Integer
 
 
 class SplitCluster(EditBase, frozen=True, kw_only=True, tag="split_cluster"):
-    """The primitives of a cluster that start at ``frames`` are a new cluster."""
+    """Move the primitives of a cluster that start at ``frames`` into a new cluster."""
 
     cluster: Integer
     frames: list[Integer]
 
 
 class OrderClusters(EditBase, frozen=True, kw_only=True, tag="order_clusters"):
-    """The clusters are numbered in this order."""
+    """Number the clusters in this order."""
 
     order: list[Integer]
 
 
 class Remark(EditBase, frozen=True, kw_only=True, tag="comment"):
-    """The segment that starts at ``frame`` has a comment; an empty one takes it away."""
+    """Comment the segment that starts at ``frame``; an empty comment removes it."""
 
     level: Level
     frame: Integer
@@ -136,7 +136,7 @@ class Remark(EditBase, frozen=True, kw_only=True, tag="comment"):
 
 
 class Check(EditBase, frozen=True, kw_only=True, tag="check"):
-    """The segments that start at ``frames`` are checked, or not any more."""
+    """Mark the segments that start at ``frames`` as checked, or no longer."""
 
     level: Level
     frames: list[Integer]
@@ -144,7 +144,7 @@ class Check(EditBase, frozen=True, kw_only=True, tag="check"):
 
 
 class Exclude(EditBase, frozen=True, kw_only=True, tag="exclude"):
-    """The primitives that start at ``frames`` count in no mean, or do so again."""
+    """Leave the primitives that start at ``frames`` out of all means, or count them again."""
 
     frames: list[Integer]
     excluded: bool
@@ -171,11 +171,11 @@ class Transfer(EditBase, frozen=True, kw_only=True, tag="transfer"):
 
 
 class Undo(EditBase, frozen=True, kw_only=True, tag="undo"):
-    """The last edit is taken back."""
+    """Undo the last edit."""
 
 
 class Redo(EditBase, frozen=True, kw_only=True, tag="redo"):
-    """The last edit taken back is done again."""
+    """Redo the last edit that was undone."""
 
 
 ByHand = (
@@ -228,7 +228,7 @@ class PreviewRequest(Request, frozen=True, kw_only=True):
 
 
 class LabelsRequest(Request, frozen=True, kw_only=True):
-    """The labels that all recordings of the folder share, those on the keys 1 to 9 first."""
+    """Labels that all recordings of the folder share, those on the keys 1 to 9 first."""
 
     labels: list[Text]
 

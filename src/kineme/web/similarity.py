@@ -25,7 +25,9 @@ MOST_CHANNELS = 16
 
 
 def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matrix:
-    """The matrix of a motion; of the distances between its points where it has no known body.
+    """Return the matrix of a motion.
+
+    Of the distances between its points where it has no known body.
 
     Examples
     --------
@@ -72,11 +74,14 @@ def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
     starts = np.arange(0, len(signal), averaged)
     lengths = np.diff(starts, append=len(signal))
     means = np.add.reduceat(signal, starts, axis=0) / lengths[:, None]
-    return pyramid(_standardised(means), fps / averaged, len(signal) / fps)
+    return pyramid(_standardise(means), fps / averaged, len(signal) / fps)
 
 
 def _distances(motion: Motion) -> Floats:
-    """The features of a motion without a body, in units of the scale; any values in its gaps."""
+    """Return the features of a motion without a body, in units of the scale.
+
+    Any values in its gaps.
+    """
     visible = np.ones(motion.n_frames, np.bool_)
     for start, stop in motion.gaps:
         visible[start:stop] = False
@@ -88,8 +93,8 @@ def _distances(motion: Motion) -> Floats:
     return values
 
 
-def _standardised(values: Floats) -> Floats:
-    """The channels over their deviation, the main ones of many, 1 apart where ``d`` is to be 1."""
+def _standardise(values: Floats) -> Floats:
+    """Return the channels over their deviation, reduced to the main ones if there are many."""
     visible = np.asarray(np.isfinite(values).all(axis=1))
     if not visible.any():
         return np.full((len(values), 1), np.nan)

@@ -11,9 +11,9 @@ from kineme.methods.kineme.events import Occurrences
 from kineme.methods.kineme.primitives import (
     Segments,
     action_means,
-    with_occurrences,
-    without_repetitions,
-    without_still,
+    drop_repetitions,
+    drop_still_clusters,
+    replace_by_occurrences,
 )
 
 BORDERS = np.array([0, 100, 130, 300, 400])
@@ -41,7 +41,7 @@ FREE = np.array([False, True, True, False])
 
 
 def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
-    found = with_occurrences(segments(), occurring((140, 180), (220, 260)), FREE)
+    found = replace_by_occurrences(segments(), occurring((140, 180), (220, 260)), FREE)
     assert found.primitives.tolist() == [0, 50, 100, 130, 140, 180, 220, 260, 300, 400]
     assert found.clusters.tolist() == [0, 0, -1, -1, 2, -1, 2, -1, 0]
     assert found.repeats.tolist() == [True, True] + 6 * [False] + [True]
@@ -50,28 +50,28 @@ def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
 
 
 def test_without_occurrences_a_free_activity_has_no_primitive() -> None:
-    found = with_occurrences(segments(), occurring(), FREE)
+    found = replace_by_occurrences(segments(), occurring(), FREE)
     assert found.clusters.tolist() == [0, 0, -1, -1, 0]
 
 
 def test_numbers_go_on_after_repetitions_that_are_another_movement() -> None:
     parts = replace(segments(), clusters=np.array([0, 3, -1, 2, 0]))
-    found = with_occurrences(parts, occurring((140, 180), (220, 260)), FREE)
+    found = replace_by_occurrences(parts, occurring((140, 180), (220, 260)), FREE)
     assert found.clusters.tolist() == [0, 2, -1, -1, 3, -1, 3, -1, 0]
-    untouched = with_occurrences(parts, occurring(), np.zeros(4, np.bool_))
+    untouched = replace_by_occurrences(parts, occurring(), np.zeros(4, np.bool_))
     assert untouched.clusters.tolist() == [0, 2, -1, 3, 0]
     assert untouched.not_periodic.size == 0
 
 
 def test_borders_go_to_the_nearer_end_of_an_occurrence() -> None:
-    found = with_occurrences(segments(), occurring((120, 180), (220, 260)), FREE)
+    found = replace_by_occurrences(segments(), occurring((120, 180), (220, 260)), FREE)
     assert found.borders.tolist() == [0, 100, 120, 300, 400]
-    found = with_occurrences(segments(), occurring((100, 135), (220, 260)), FREE)
+    found = replace_by_occurrences(segments(), occurring((100, 135), (220, 260)), FREE)
     assert found.borders.tolist() == [0, 100, 135, 300, 400]
 
 
 def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
-    found = with_occurrences(segments(), occurring((100, 270), (280, 300)), FREE)
+    found = replace_by_occurrences(segments(), occurring((100, 270), (280, 300)), FREE)
     assert found.borders.tolist() == [0, 100, 300, 400]
     assert found.labels.tolist() == [0, 1, 0]
     assert found.clusters.tolist() == [0, 0, 2, -1, 2, 0]
@@ -92,18 +92,18 @@ def alone() -> Segments:
 @pytest.mark.parametrize(("near", "kept"), [(14, True), (15, False), (1000, False)])
 def test_a_single_repetition_that_hardly_moves_is_none(near, kept) -> None:
     rows = np.arange(300, dtype=np.float32)[:, None]  # 14.5 from the mean of 30 at most
-    found = without_still(alone(), rows, near)
+    found = drop_still_clusters(alone(), rows, near)
     assert (found.clusters >= 0).tolist() == [kept, True, True, False, True, False]
     assert found.not_periodic.tolist() == [2] if kept else [0, 2]
 
 
 def test_repetitions_that_are_given_up_are_no_primitives() -> None:
-    found = without_repetitions(alone(), np.array([1]))
+    found = drop_repetitions(alone(), np.array([1]))
     assert found.clusters.tolist() == [0, -1, -1, -1, 3, -1]
     assert found.not_periodic.tolist() == [1, 2]
     assert found.counts.tolist() == [1, 0, 0]
     same = alone()
-    assert without_repetitions(same, np.empty(0, np.int64)) is same
+    assert drop_repetitions(same, np.empty(0, np.int64)) is same
 
 
 def test_shares_are_those_of_actions() -> None:

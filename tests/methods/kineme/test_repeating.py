@@ -53,7 +53,7 @@ def test_what_is_explained_is_that_of_the_naive_version(seed, count, noise) -> N
     visits = np.append(0, np.cumsum(rng.integers(4, 12, count)))
     poses = rng.normal(size=(visits[-1] + 3, 3)).cumsum(axis=0)
     path = np.append(0, np.cumsum(rng.uniform(0.1, 2, len(poses))))
-    found = kernels.explained(poses, path, visits, centered(repetitions))
+    found = kernels.explain_variance(poses, path, visits, centered(repetitions))
     expected = naive.explained(poses, path, visits.tolist(), list(repetitions))
     assert found == pytest.approx(expected, abs=1e-9)
     assert -1e-12 <= found <= 1

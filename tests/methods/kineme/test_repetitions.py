@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import naive
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.kineme.repetitions import Candidate, at_rest, repetitions
+from kineme.methods.kineme.repetitions import Candidate, repetitions, shift_to_rest
 from loops import nod, swing
 
 seconds = settings(max_examples=60)
@@ -91,14 +91,14 @@ speeds = st.lists(st.sampled_from([0.0, 0.01, 0.5, 1.0, 3.0]), min_size=2, max_s
 def test_as_many_repetitions_follow_each_other_at_rest(moved, data, averaged: int) -> None:
     at = st.sets(st.integers(1, len(moved) - 1), max_size=6)
     cuts = np.array(sorted(data.draw(at)), np.int64)
-    found = at_rest(cuts, np.append(0, np.cumsum(moved)), averaged)
+    found = shift_to_rest(cuts, np.append(0, np.cumsum(moved)), averaged)
     assert len(found) == len(cuts)
     assert (np.diff(found, prepend=0, append=len(moved)) > 0).all()
 
 
 def test_where_nobody_rests_repetitions_begin_where_their_poses_tell() -> None:
     cuts = np.array([30, 60, 90])
-    assert at_rest(cuts, np.arange(121.0), 3).tolist() == cuts.tolist()
+    assert shift_to_rest(cuts, np.arange(121.0), 3).tolist() == cuts.tolist()
 
 
 @given(st.integers(2, 9), st.integers(0, 2**32 - 1))
@@ -174,7 +174,7 @@ def test_chance_is_told_from_any_number_of_repetitions(times: int) -> None:
     for common, is_chance in ((0.5, False), (0.3, True)):
         shared = np.sqrt(common) * rng.normal(0, 1, (1000, 15))
         parts = shared + np.sqrt(1 - common) * rng.normal(0, 1, (times, 1000, 15))
-        left = float(kernels.unexplained(parts, 1.0).mean())
+        left = float(kernels.measure_unexplained(parts, 1.0).mean())
         assert Candidate(np.arange(times + 1), 0, 0, 0, left, KINEME).is_chance(0.6) == is_chance
 
 
@@ -189,7 +189,7 @@ def gains(draw: st.DrawFn) -> np.ndarray:
 @seconds
 def test_matched_lengths_are_those_of_the_naive_version(gained) -> None:
     best, ends = naive.matched_lengths(gained.tolist(), 4.0)
-    found = kernels.matched(gained, 4.0)
+    found = kernels.match_columns(gained, 4.0)
     assert found in ends if best > 0 else found == (0, 0)
 
 
@@ -204,7 +204,7 @@ def test_parts_of_a_division_are_those_of_the_naive_versions(seed: int) -> None:
     np.testing.assert_array_equal(kernels.poses_at(poses, path, lengths), expected)
     parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
     for centering in (0.0, 0.4, 1.0):
-        found = kernels.unexplained(parts, centering)
+        found = kernels.measure_unexplained(parts, centering)
         np.testing.assert_allclose(found, naive.unexplained(parts, centering), atol=1e-12)
     best, ends = naive.follow_end(poses, path, lengths, parts[0], 4.0, 2.0)
     length, counted = kernels.follow_end(poses, path, lengths, parts[0], 4.0, 2.0)
@@ -225,7 +225,7 @@ def test_parts_of_a_division_are_those_of_the_naive_versions(seed: int) -> None:
 def test_divisions_are_those_of_the_naive_version(seed: int, count: int, smooth: int) -> None:
     rng = np.random.default_rng(seed)
     rows = np.sin(np.arange(40)[:, None] / (2, 3, 5)) + rng.normal(0, 0.3, (40, 3))
-    poses, speeds = kernels.smoothed(rows.astype(np.float32), smooth)
+    poses, speeds = kernels.smooth_rows(rows.astype(np.float32), smooth)
     for found, expected in zip((poses, speeds), naive.smoothed(rows.astype(np.float32), smooth)):
         np.testing.assert_allclose(found, expected, atol=1e-5)
     path = np.append(0, np.cumsum(speeds))

@@ -65,7 +65,7 @@ def test_the_band_is_that_of_the_naive_version(features, width, unit) -> None:
 def test_distances_of_segments_are_those_of_the_naive_version(features, data) -> None:
     cuts = data.draw(st.sets(st.integers(1, len(features) - 1)))
     borders = np.array([0, *sorted(cuts), len(features)])
-    sums = tree.between_segments(features, borders, 2.0)
+    sums = tree.sum_between_segments(features, borders, 2.0)
     segments = [range(a, b) for a, b in pairwise(borders.tolist())]
     expected = np.array(naive.mean_distances(features, segments, 2.0))
     lengths = np.diff(borders)
@@ -94,7 +94,7 @@ def test_two_stretches_of_much_movement_are_one_sooner_than_two_postures() -> No
     lively, still = rng.normal(size=(40, 8)), 2 + 0.05 * rng.normal(size=(40, 8))
     still[20:] += 1.0
     features = np.concatenate([lively, still]).astype(np.float32)
-    sums = tree.between_segments(features, np.arange(0, 81, 20), 1.0)
+    sums = tree.sum_between_segments(features, np.arange(0, 81, 20), 1.0)
     labels = np.empty(4, np.int64)
     for share, expected in ((0.0, [0, 1, 2, 2]), (SENSORS.spread_share, [0, 0, 2, 3])):
         kernels.cheapest_grouping(sums.copy(), np.full(4, 20.0), 3, 0.0, 1.0, share, labels)
@@ -106,7 +106,7 @@ def test_two_stretches_of_much_movement_are_one_sooner_than_two_postures() -> No
 def test_each_level_has_the_borders_of_the_coarser_ones(features, data) -> None:
     cuts = data.draw(st.sets(st.integers(1, len(features) - 1)))
     borders = np.array([0, *sorted(cuts), len(features)])
-    levels = tree.levels(borders, tree.between_segments(features, borders, 1.0))
+    levels = tree.levels(borders, tree.sum_between_segments(features, borders, 1.0))
     assert [len(level) - 1 for level in levels] == list(range(1, len(borders)))
     for coarse, fine in pairwise(levels):
         assert set(coarse.tolist()) <= set(fine.tolist())

@@ -1,4 +1,4 @@
-"""The options of ``kineme evaluate``, and which of its kinds of run they ask for."""
+"""Options of ``kineme evaluate``, and which of its kinds of run they ask for."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ def evaluate(
     failures = Failures()
     with failures.caught(what):
         _check_output(output)
-        names = [*_listed(*(method or ()))]
+        names = [*_split_names(*(method or ()))]
         if what != BENCHMARK and Path(what).is_dir():
             if not labels:
                 raise typer.BadParameter("--labels FILE or FOLDER is needed for a folder")
@@ -163,7 +163,7 @@ def evaluate(
                 names or [DEFAULT],
                 mapping=mapping,
                 n_clusters=clusters,
-                reading=Reading(_listed(columns), _listed(without_columns)),
+                reading=Reading(_split_names(columns), _split_names(without_columns)),
                 constants=constants_of(names or [DEFAULT], constants) if constants else {},
                 output=output,
                 as_json=as_json,
@@ -210,7 +210,7 @@ def _benchmark() -> Callable[..., list[dict[str, Any]]]:
     )
 
 
-def _listed(*texts: str | None) -> tuple[str, ...]:
+def _split_names(*texts: str | None) -> tuple[str, ...]:
     """Return the names in texts with commas between them."""
     names = (name.strip() for text in texts if text for name in text.split(","))
     return tuple(name for name in names if name)

@@ -16,7 +16,7 @@ from kineme.errors import ParameterError
 from kineme.evaluation.folder import Evaluated, FolderScores, Mapped, evaluate_folder
 from kineme.evaluation.recordings import Reading, check_method, recordings_below
 from kineme.evaluation.score import scores
-from kineme.evaluation.tables import explain_disagreement, score_rows, shown, write_result
+from kineme.evaluation.tables import explain_disagreement, format_score, score_rows, write_result
 from kineme.labels.collections import labels_and_strays
 
 NAMED = 5
@@ -86,7 +86,7 @@ def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:
 
 def _show(result: FolderScores) -> None:
     """Print the scores of each recording by the methods, then those over all of them."""
-    columns: dict[str, Any] = {method: result.over_all(method) for method in result.methods}
+    columns: dict[str, Any] = {method: result.pool_scores(method) for method in result.methods}
     ones = [one for some in result.methods.values() for one in some]
     counts = [name for name in ("count_error",) if any(name in one.scores for one in ones)]
     short = ("mof", "edit", "f1@50", "border_f1", *counts)
@@ -104,8 +104,8 @@ def _show(result: FolderScores) -> None:
 
 
 def _row(one: Evaluated, names: Sequence[str]) -> list[str]:
-    return ["failed" if one.error else _shown(one.scores.get(name)) for name in names]
+    return ["failed" if one.error else _format_score(one.scores.get(name)) for name in names]
 
 
-def _shown(value: float | None) -> str:
-    return "" if value is None else shown(value)
+def _format_score(value: float | None) -> str:
+    return "" if value is None else format_score(value)

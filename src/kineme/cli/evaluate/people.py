@@ -18,7 +18,7 @@ from kineme.evaluation.annotator_files import (
 )
 from kineme.evaluation.annotators import AnnotatorAgreement, annotator_agreement
 from kineme.evaluation.recordings import recordings_below
-from kineme.evaluation.tables import shown, write_result
+from kineme.evaluation.tables import format_score, write_result
 from kineme.labels.collections import Extent, labels_of
 
 BY = {
@@ -60,18 +60,18 @@ def run_people(
 def _show(result: AnnotatorAgreement) -> None:
     """Print a row for any two people, one for all, and one for each recording."""
     pairs = [
-        (f"{first}, {second}", [shown(kappa), shown(f1), "", str(recordings)])
+        (f"{first}, {second}", [format_score(kappa), format_score(f1), "", str(recordings)])
         for first, second, kappa, f1, recordings in result.pairs
     ]
     together = sum(len(one.annotators) == len(result.annotators) for one in result.recordings)
-    over_all = ("all together", ["", "", shown(result.fleiss_kappa), str(together)])
+    over_all = ("all together", ["", "", format_score(result.fleiss_kappa), str(together)])
     show_table(
         f"agreement of {len(result.annotators)} annotators, {BY[result.by]}",
         ["Cohen's kappa", "border F1", "Fleiss' kappa", "recordings"],
         [("", [*pairs, over_all])],
     )
     rows = [
-        (one.recording, [shown(one.fleiss_kappa), str(len(one.differences))])
+        (one.recording, [format_score(one.fleiss_kappa), str(len(one.differences))])
         for one in result.recordings
     ]
     show_table("by recording", ["Fleiss' kappa", "differences"], [("", rows)])

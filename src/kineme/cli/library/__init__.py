@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from kineme.cli.help import on_demand
+from kineme.cli.help import make_lazy_group
 
 HOMES = {
     "build": "kineme.cli.library.build",
@@ -12,11 +12,11 @@ HOMES = {
     "search": "kineme.cli.library.search",
     **dict.fromkeys(("name", "merge", "split", "query", "export"), "kineme.cli.library.commands"),
 }
-"""The module of each command, in the order of the help."""
+"""Module of each command, in the order of the help."""
 
 library = typer.Typer(
     name="library",
-    cls=on_demand(HOMES),
+    cls=make_lazy_group(HOMES),
     help="Build and search collections of recordings.",
     no_args_is_help=True,
     add_completion=False,

@@ -57,8 +57,8 @@ Cluster = Annotated[str, typer.Argument(help="A cluster by its number or name.")
 
 
 @contextmanager
-def opened(folder: Path) -> Iterator[Library]:
-    """The library; what goes wrong with it in the block is said, and ends the command with 1."""
+def open_library(folder: Path) -> Iterator[Library]:
+    """Open the library; an error with it in the block is printed, and ends the command with 1."""
     failures = Failures()
     with failures.caught(folder):
         from kineme.library import Library
@@ -80,7 +80,7 @@ def show(
     json: Json = False,
 ) -> None:
     """Show recordings, hours, clusters and unsure names."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         if pictures is not None:
             library.pictures(pictures)
         if json:
@@ -101,7 +101,7 @@ def query(
     json: Json = False,
 ) -> None:
     """Ask a library in SQL, by DuckDB."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         answer = library.query(sql)
         if json:
             for row in answer.to_pylist():
@@ -123,7 +123,7 @@ def export(
     ] = "segments",
 ) -> None:
     """Write the segments of all recordings as one table."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         library.export(output, table)
 
 
@@ -133,7 +133,7 @@ def name(
     label: Annotated[str, typer.Argument(help="Its name in all recordings; '' takes it away.")],
 ) -> None:
     """Name a cluster, once for all recordings."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         library.name(cluster, label)
 
 
@@ -143,7 +143,7 @@ def merge(
     others: Annotated[list[str], typer.Argument(help="Clusters that are the same.")],
 ) -> None:
     """Merge clusters into the first, which keeps number and name."""
-    with opened(folder) as library:
+    with open_library(folder) as library:
         library.merge(cluster, *others)
 
 
@@ -158,7 +158,7 @@ def split(
 
     Its number is printed.
     """
-    with opened(folder) as library:
+    with open_library(folder) as library:
         typer.echo(library.split(cluster, recordings))
 
 

@@ -11,7 +11,7 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.library.commands import Folder, Json, Scheduler, opened
+from kineme.cli.library.commands import Folder, Json, Scheduler, open_library
 from kineme.cli.options.reading import Quiet
 from kineme.cli.options.targets import make_folder_of
 
@@ -97,7 +97,7 @@ def search(
         examples = [_example_of(like[0] if like else "", start, stop)]
     if not examples and cluster is None:
         raise typer.BadParameter("nothing to search for: give --like or --cluster")
-    with opened(folder) as library:
+    with open_library(folder) as library:
         from kineme.transfer.subsequences import THRESHOLD
 
         if export is not None:

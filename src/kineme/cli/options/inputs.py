@@ -50,7 +50,7 @@ SKELETON, MOTION = ".asf", ".amc"
 
 
 class Batch:
-    """The recordings of a command, given by themselves or by folder; each may fail by itself."""
+    """Recordings of a command, given by themselves or by folder; each may fail by itself."""
 
     def __init__(self, given: list[Path], *, recursive: bool = False, quiet: bool = False):
         self._quiet = quiet
@@ -101,7 +101,7 @@ class Batch:
             return folders_for(option, given, self.paths, single=self.single)
 
     def tables(self, option: str, given: Path | None, person: str = "") -> list[Path | None]:
-        """The table or label file that belongs to each recording, or to this person in it."""
+        """Return table or label file that belongs to each recording, or to this person in it."""
         if given is None:
             return [None] * len(self.paths)
         with self._nothing_without():

@@ -46,7 +46,9 @@ Detail = Annotated[
 
 
 def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:
-    """The constants in texts such as ``min_action=2``, checked; each preset takes those it has.
+    """Return the constants in texts such as ``min_action=2``, checked.
+
+    Each preset takes those it has.
 
     typer.BadParameter names what is wrong: a preset, a constant that none has, or its value.
 
@@ -55,7 +57,7 @@ def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]
     >>> constants_of(["kineme"], ["min-action=2", "bands=0.5,2"])
     {'min_action': 2.0, 'bands': (0.5, 2.0)}
     """
-    typed = dict(map(_divided, given))
+    typed = dict(map(_split_setting, given))
     try:
         chosen = [resolve_preset(name) for name in presets]
     except ParameterError as error:
@@ -64,7 +66,7 @@ def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]
         constants = {each.name: each for preset in reversed(chosen) for each in preset.constants()}
         for name in typed.keys() - constants.keys():
             resolve_preset(presets[0], signals=False, **{name: typed[name]})  # says which
-        values = {name: parsed(constants[name], text) for name, text in typed.items()}
+        values = {name: parse_value(constants[name], text) for name, text in typed.items()}
         for preset in chosen:
             parameters = preset.parameters()
             preset.replace(**{name: value for name, value in values.items() if name in parameters})
@@ -73,7 +75,7 @@ def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]
     return values
 
 
-def _divided(text: str) -> tuple[str, str]:
+def _split_setting(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not equals:
         advice = f"give NAME=VALUE, such as min_action=2, not {text!r:.60}"
@@ -81,14 +83,14 @@ def _divided(text: str) -> tuple[str, str]:
     return name.strip().replace("-", "_"), value
 
 
-def parsed(constant: Constant, text: str) -> Any:
+def parse_value(constant: Constant, text: str) -> Any:
     """A text as a value of the type that a constant has; ParameterError says which would be one.
 
     Examples
     --------
     >>> from kineme.methods import PRESETS
     >>> constants = {each.name: each for each in PRESETS["voegele2014"].constants()}
-    >>> parsed(constants["max_lag"], "none"), parsed(constants["offsets"], "-0.1,0,0.1")
+    >>> parse_value(constants["max_lag"], "none"), parse_value(constants["offsets"], "-0.1,0,0.1")
     (None, (-0.1, 0.0, 0.1))
     """
     try:
@@ -99,19 +101,19 @@ def parsed(constant: Constant, text: str) -> Any:
         raise ParameterError(f"{constant.name} must be {advice}, not {text!r:.60}") from None
 
 
-def shown(value: Any) -> str:
+def format_value(value: Any) -> str:
     """Return a value as it would be typed, numbers to four digits.
 
     Examples
     --------
-    >>> shown(((1, 1), (2, 1))), shown(None), shown(True), shown(1 / 3), shown(1e4)
-    ('1,1 2,1', 'none', 'yes', '0.3333', '10000')
+    >>> [format_value(value) for value in (((1, 1), (2, 1)), None, True, 1 / 3, 1e4)]
+    ['1,1 2,1', 'none', 'yes', '0.3333', '10000']
     """
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, tuple):
         between = " " if value and isinstance(value[0], tuple) else ","
-        return between.join(map(shown, value))
+        return between.join(map(format_value, value))
     if isinstance(value, float):
         text = f"{value:.4g}"
         return f"{value:.0f}" if "e+" in text else text
@@ -122,7 +124,7 @@ def _words(hint: Any) -> str:
     """Return what values of a type are, before the values that they may take."""
     members = get_args(hint)
     if NoneType in members:
-        hint = _without_none(hint)
+        hint = _drop_none(hint)
         members = get_args(hint)
     if get_origin(hint) is tuple:
         pairs = get_origin(members[0]) is tuple
@@ -133,7 +135,7 @@ def _words(hint: Any) -> str:
 def _value(hint: Any, text: str) -> Any:
     members = get_args(hint)
     if NoneType in members:
-        return None if text.lower() == "none" else _value(_without_none(hint), text)
+        return None if text.lower() == "none" else _value(_drop_none(hint), text)
     if get_origin(hint) is Literal:
         return {str(member): member for member in members}[text]
     if get_origin(hint) is tuple:
@@ -144,5 +146,5 @@ def _value(hint: Any, text: str) -> Any:
     return hint(text)
 
 
-def _without_none(hint: Any) -> Any:
+def _drop_none(hint: Any) -> Any:
     return next(member for member in get_args(hint) if member is not NoneType)

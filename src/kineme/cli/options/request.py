@@ -67,7 +67,7 @@ def asks(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable
     return with_options
 
 
-def of_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
+def split_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
     """Return whether all the people in a file are asked for, and how it is read otherwise."""
     if reading.get("person") != EVERYBODY:
         return False, reading
@@ -76,7 +76,7 @@ def of_everybody(reading: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
 
 @dataclass(frozen=True)
 class Request:
-    """The options of a command, checked: how recordings are read and segmented, in what detail."""
+    """Options of a command, checked: how recordings are read and segmented, in what detail."""
 
     options: SegmentOptions
     reading: dict[str, Any]
@@ -131,7 +131,7 @@ class Request:
 
         A single one, or the one who was named, goes without a name.
         """
-        everybody, others = of_everybody(self.reading)
+        everybody, others = split_everybody(self.reading)
         if not everybody:
             return [("", self)]
         from kineme.formats import ReadOptions, people_in

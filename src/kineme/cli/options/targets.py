@@ -54,7 +54,7 @@ def folders_for(option: str, given: Path, inputs: list[Path], *, single: bool) -
 
 
 def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -> list[Path]:
-    """The table of each recording: a file of all, by a pattern, or that of its name in a folder.
+    """Return table of each recording: a file of all, by a pattern, or that of its name in a folder.
 
     In a folder that of this ``person`` in it, where there is one.
     """
@@ -64,11 +64,11 @@ def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -
     if not given.exists() and not _FIELD.search(str(given)):
         raise ReadError(given, "there is no such file or folder")
     recordings, paths = set(inputs), _one_each(option, given / NAME, inputs)
-    usual = [_kept(path, recordings) for path in paths]
+    usual = [_find_kept(path, recordings) for path in paths]
     if not person:
         return usual
     named = [
-        _kept(path.with_name(f"{path.name}{make_person_suffix(person)}"), recordings)
+        _find_kept(path.with_name(f"{path.name}{make_person_suffix(person)}"), recordings)
         for path in paths
     ]
     return [
@@ -135,7 +135,7 @@ def _one_each(option: str, pattern: Path, inputs: list[Path]) -> list[Path]:
     depths = [0] * len(inputs)
     while True:
         paths = [
-            _filled(pattern, name, folder, depth)
+            _fill_pattern(pattern, name, folder, depth)
             for name, folder, depth in zip(names, folders, depths, strict=True)
         ]
         count = Counter(paths)
@@ -164,7 +164,7 @@ def _names(inputs: list[Path]) -> list[str]:
     ]
 
 
-def _filled(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> Path:
+def _fill_pattern(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> Path:
     """Return the pattern with a recording's name and folder, and more of its folders the deeper."""
     if PARENT in str(pattern):
         parent = "_".join(folders[-1 - depth :])
@@ -174,7 +174,7 @@ def _filled(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> P
     return Path(_FIELD.sub(lambda field: values[field[1]], str(pattern)))
 
 
-def _kept(path: Path, recordings: set[Path]) -> Path:
+def _find_kept(path: Path, recordings: set[Path]) -> Path:
     """Return the first file of a name, with one of the suffixes of tables, that is no recording."""
     from kineme.labels import written_suffixes
 

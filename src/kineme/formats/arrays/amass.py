@@ -64,7 +64,7 @@ def poses_to_motion(
     content: FileContent, arrays: Mapping[str, Any], options: ReadOptions
 ) -> Motion:
     """Return the motion of the body that ``poses`` and ``trans`` describe."""
-    poses = _checked(content, arrays, "poses")
+    poses = _check_arrays(content, arrays, "poses")
     if poses.shape[1] not in WIDTHS:
         raise content.error(
             f"poses have {poses.shape[1]} values per frame, not "
@@ -72,7 +72,7 @@ def poses_to_motion(
         )
     path = np.zeros((len(poses), 3))
     if "trans" in arrays:
-        path = _checked(content, arrays, "trans")
+        path = _check_arrays(content, arrays, "trans")
     if path.shape != (len(poses), 3):
         raise content.error(f"trans has shape {path.shape}, not ({len(poses)}, 3)")
     vectors = poses[:, : 3 * _N_TURNING].reshape(len(poses), _N_TURNING, 3)
@@ -103,7 +103,7 @@ def smpl_skeleton() -> Skeleton:
     return Skeleton(names, parents, offsets, frozenset({len(names) - 1}))
 
 
-def _checked(content: FileContent, arrays: Mapping[str, Any], name: str) -> Floats:
+def _check_arrays(content: FileContent, arrays: Mapping[str, Any], name: str) -> Floats:
     array = arrays[name]
     if array.dtype.kind not in "iuf" or array.ndim != 2 or len(array) == 0:
         raise content.error(

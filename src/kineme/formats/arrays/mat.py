@@ -45,7 +45,7 @@ _RATES = (
 def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """Return the motion in a MAT file, or the channels where it holds no joints."""
     variables = mat_variables(content)
-    labeled = _labeled(variables)
+    labeled = _find_labeled(variables)
     if labeled is not None and not options.channels:
         return _qtm_motion(content, *labeled, options)
     arrays = arrays_of(variables)
@@ -128,7 +128,9 @@ def _hold_channels(arrays: Arrays) -> bool:
     return hold_channels(flat) and not any(map(is_body, tracks))
 
 
-def _labeled(variables: Mapping[str, Any]) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
+def _find_labeled(
+    variables: Mapping[str, Any],
+) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
     """QTM's structure, and the labelled trajectories in it."""
     for value in variables.values():
         inner = value

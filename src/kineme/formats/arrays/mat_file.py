@@ -1,4 +1,4 @@
-"""The layout of MAT files of version 5 (MATLAB 5 to 7.2, the default up to -v7).
+"""Layout of MAT files of version 5 (MATLAB 5 to 7.2, the default up to -v7).
 
 128 bytes of text with the order of the bytes, then elements: type and size, and
 that many bytes, padded to eight. An element of type 15 holds another one,
@@ -56,7 +56,7 @@ def parse_mat(content: FileContent) -> dict[str, Value]:
     try:
         for kind, body in _elements(data[_HEADER:], order):
             if kind == _COMPRESSED:
-                unpacked = _unpacked(body, budget)
+                unpacked = _unpack(body, budget)
                 budget -= len(unpacked)
                 kind, body = next(_elements(unpacked, order), (0, memoryview(b"")))  # noqa: PLW2901
             if kind == _MATRIX:
@@ -68,7 +68,7 @@ def parse_mat(content: FileContent) -> dict[str, Value]:
     return variables
 
 
-def _unpacked(body: Bytes, budget: int) -> Bytes:
+def _unpack(body: Bytes, budget: int) -> Bytes:
     engine = zlib.decompressobj()
     unpacked = engine.decompress(body, max(1, budget))
     if engine.unconsumed_tail:
@@ -109,7 +109,7 @@ def _matrix(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
         raise _DamagedError("an array without flags or dimensions")
     kind, is_complex = flags[0] & 0xFF, flags[0] >> 8 & _COMPLEX
     if kind in _NUMERIC and not is_complex:
-        return name, _shaped(_numbers(*_next(parts), order), shape)
+        return name, _reshape(_numbers(*_next(parts), order), shape)
     if kind == _CHAR:
         return name, _text(*_next(parts), shape, order)
     if kind == _CELL:
@@ -140,7 +140,7 @@ def _counts(part: tuple[int, Bytes], order: str) -> list[int]:
     return [int(value) for value in values.tolist()]
 
 
-def _shaped(flat: Array, shape: list[int]) -> Array:
+def _reshape(flat: Array, shape: list[int]) -> Array:
     count = 1
     for n in shape:
         count *= n

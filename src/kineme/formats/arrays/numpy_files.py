@@ -26,7 +26,7 @@ from kineme._util.arrays import Array
 from kineme._util.files import atomic_write, shorten_error
 from kineme.formats.arrays.named_arrays import arrays_to_motion, positions_to_motion
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import FileContent, spelled
+from kineme.formats.files import FileContent, spell_names
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
@@ -59,7 +59,7 @@ def write_npz(motion: Motion, path: Path) -> None:
     arrays: dict[str, Any] = {
         "positions": motion.positions,
         "fps": motion.fps,
-        "names": np.array(spelled(path, skeleton.names, str)),
+        "names": np.array(spell_names(path, skeleton.names, str)),
         "parents": np.array(skeleton.parents),
         "offsets": skeleton.offsets,
         "end_sites": np.array(sorted(skeleton.end_sites), np.int64),
@@ -73,7 +73,9 @@ def write_npz(motion: Motion, path: Path) -> None:
 
 
 def members(content: FileContent) -> dict[str, Array]:
-    """The arrays of an npz by name; those of another kind than numbers or text are passed over.
+    """Return the arrays of an npz by name.
+
+    Those of another kind than numbers or text are passed over.
 
     ReadError where it is damaged, or claims to hold much more than it can.
     """

@@ -66,7 +66,7 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
 def parquet_channels(
     content: FileContent, file: Any, columns: Sequence[str] | None
 ) -> ChannelTable:
-    """The channels of a Parquet file: those named, in this order, or all that hold numbers."""
+    """Return channels of a Parquet file: those named, in this order, or all that hold numbers."""
     import pyarrow as pa
 
     names = named(file.schema_arrow.names)

@@ -31,7 +31,7 @@ from kineme._util.arrays import Floats, bridge_line
 from kineme._util.checks import format_count
 from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import FileContent
-from kineme.formats.gaps import LONGEST_S, covered
+from kineme.formats.gaps import LONGEST_S, mark_spans
 from kineme.formats.timing import NO_TIMES, Timing, clock_name, table_timing
 from kineme.recordings import Signals
 from kineme.recordings.arrays import spans_of
@@ -84,7 +84,10 @@ class ChannelTable:
 
 
 def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float | None) -> Signals:
-    """The signals in a table of channels; ``fps`` stands in place of what the table tells."""
+    """Return the signals in a table of channels.
+
+    ``fps`` stands in place of what the table tells.
+    """
     timing = table.timed(content, fps)
     values, gaps, filled = without_gaps(content, table.values, timing, table.names)
     provenance = content.provenance(name, [*table.notes, *timing.notes, *filled])
@@ -212,7 +215,7 @@ def without_gaps(
         for start, stop in spans_of(missing[:, channel]).tolist():
             if stop - start > LONGEST_S * timing.fps + 1e-9:
                 long[start:stop] = True
-    jumps = covered(timing.gaps, len(values))
+    jumps = mark_spans(timing.gaps, len(values))
     if (long | jumps).all():
         raise content.error("in every frame some channel is missing for long: choose columns")
     holes = spans_of(long)

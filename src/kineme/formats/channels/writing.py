@@ -31,7 +31,7 @@ from kineme.formats.channels.reading import ChannelTable, text_channels
 from kineme.formats.delimited import as_text, dotted, named
 from kineme.formats.devices import find_table
 from kineme.formats.files import FileContent, load
-from kineme.formats.gaps import covered
+from kineme.formats.gaps import mark_spans
 from kineme.formats.timing import RATE, is_rate, is_timing
 from kineme.recordings import Signals
 
@@ -165,7 +165,7 @@ class _ParquetRows:
         """Times and channels, null in gaps."""
         with require_extra("pyarrow", "tables"):
             import pyarrow as pa
-        missing = covered(signals.gaps, signals.n_frames)
+        missing = mark_spans(signals.gaps, signals.n_frames)
         rate = {RATE: pa.array([signals.fps])} if signals.n_frames < 2 else {}
         columns = {**rate, "time": pa.array(signals.times)} | {
             name: pa.array(values, mask=missing)
@@ -187,11 +187,14 @@ class _ParquetRows:
 
 
 Rows = _TextRows | _ParquetRows
-"""The frames of a recording as rows of a file; ``names`` is None where the file has none."""
+"""Frames of a recording as rows of a file; ``names`` is None where the file has none."""
 
 
 def _source_table(content: FileContent, signals: Signals) -> ChannelTable | None:
-    """The table on disk whose rows are the frames of signals, holes aside; None for another."""
+    """Return the table on disk whose rows are the frames of signals, holes aside.
+
+    None for another.
+    """
     try:
         if signals.provenance.format == PARQUET:
             table = parquet_channels(content, parquet_file(content), signals.names)
@@ -228,7 +231,7 @@ def _at_rate(rows: _TextRows, fps: float) -> _TextRows:
 
 def _of_values(signals: Signals) -> _TextRows:
     """Times and channels as a CSV that reads back to the same numbers."""
-    missing = covered(signals.gaps, signals.n_frames)
+    missing = mark_spans(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels
     rows = (
         [repr(i / signals.fps), *(empty if gap else map(repr, row))]
@@ -238,7 +241,7 @@ def _of_values(signals: Signals) -> _TextRows:
 
 
 def _table(rows: Rows, suffix: str, columns: Sequence[str] | None) -> _TextRows:
-    """The same cells between commas or tabs: all of them, or some columns and those of times."""
+    """Return same cells between commas or tabs: all of them, or some columns and those of times."""
     names = rows.names
     if columns is None:
         return _text_rows(suffix, names, rows.cells())

@@ -23,7 +23,7 @@ from kineme.formats.files import FileContent, unique
 from kineme.formats.keypoints.video import (
     Person,
     Video,
-    in_groups,
+    split_groups,
     video_to_motion,
 )
 from kineme.formats.options import ReadOptions
@@ -72,7 +72,7 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     )
     people = []
     for entry, frame in zip(entries, frames, strict=True):
-        groups = in_groups(content, entry["keypoints"], 3)
+        groups = split_groups(content, entry["keypoints"], 3)
         who = str(entry[tracked])[:40] if tracked else None
         people.append(Person(frame, groups[:, :2], groups[:, 2], who))
     count = len(people[0].points) if people else len(NAMES)

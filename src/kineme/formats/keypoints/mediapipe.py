@@ -33,7 +33,7 @@ import numpy as np
 
 from kineme._util.checks import is_number
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.video import Person, Video, by_number, video_to_motion
+from kineme.formats.keypoints.video import Person, Video, order_by_number, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
@@ -150,7 +150,7 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
         return [(0, data)] if _is_pose(data) else list(enumerate(data))
     if not isinstance(data, Mapping):
         return []
-    if numbered := by_number(data):
+    if numbered := order_by_number(data):
         return numbered
     for key, value in data.items():
         several = isinstance(value, list) and not _is_pose(value)
@@ -162,14 +162,14 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
 def _poses(frame: Any, *, world: bool) -> list[Any]:
     """Return the poses in a frame: lists of 33 landmarks."""
     found = frame
-    if isinstance(frame, Mapping) and not _by_name(frame):
+    if isinstance(frame, Mapping) and not _order_landmarks(frame):
         found = _first_value(frame, _WORLD if world else _IMAGE)
     elif world:
         return []
     if isinstance(found, Mapping) and "landmark" in found:
         found = found["landmark"]
     if isinstance(found, Mapping):
-        found = _by_name(found)
+        found = _order_landmarks(found)
     if not isinstance(found, list):
         return []
     if _is_pose(found):
@@ -187,7 +187,7 @@ def _is_landmark(value: Any) -> bool:
     return isinstance(value, list) and 2 <= len(value) <= 5 and not isinstance(value[0], list)
 
 
-def _by_name(frame: Mapping[str, Any]) -> list[Any]:
+def _order_landmarks(frame: Mapping[str, Any]) -> list[Any]:
     """Return the landmarks in order, from a mapping by their names; empty if it is none."""
     by_name = {plain(str(key)): landmark for key, landmark in frame.items()}
     names = [plain(name) for name in NAMES]

@@ -71,7 +71,10 @@ def _points(instance: Mapping[str, Any]) -> Sequence[Any]:
 
 
 def _names(data: Any, count: int) -> Sequence[str]:
-    """The names in the file, else those that so many keypoints usually have; none for others."""
+    """Return the names in the file, else those that so many keypoints usually have.
+
+    None for others.
+    """
     facts = data.get("meta_info") if isinstance(data, Mapping) else None
     named = facts.get("keypoint_id2name") if isinstance(facts, Mapping) else None
     if isinstance(named, Mapping) and count in (len(named), 133):

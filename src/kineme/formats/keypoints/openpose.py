@@ -32,9 +32,9 @@ from kineme.formats.keypoints.coco import LAYOUTS
 from kineme.formats.keypoints.video import (
     Person,
     Video,
-    by_number,
-    in_groups,
+    order_by_number,
     parsed_json,
+    split_groups,
     video_to_motion,
 )
 from kineme.formats.options import ReadOptions
@@ -71,7 +71,7 @@ def read_openpose(content: FileContent, data: Any, options: ReadOptions) -> Moti
 
 
 def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
-    """The motion of one person in a folder with a file for each frame, None if there are none."""
+    """Return the motion of one person in a folder with a file for each frame, or None."""
     numbered = frame_files(path)
     if not numbered:
         return None
@@ -94,7 +94,7 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
 
 
 def frame_files(folder: Path) -> list[tuple[int, Path]]:
-    """The files in a folder that hold a frame each, with the numbers of the frames, in order.
+    """Return files in a folder that hold a frame each, with the numbers of the frames, in order.
 
     Files numbered alike are frames where one of them begins as OpenPose's do; a numbered
     JSON of something else is none.
@@ -127,7 +127,7 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
         return [(0, data)]
     if isinstance(data, list):
         return list(enumerate(data))
-    return by_number(data) if isinstance(data, Mapping) else []
+    return order_by_number(data) if isinstance(data, Mapping) else []
 
 
 def _people(content: FileContent, number: int, frame: Any) -> list[Person]:
@@ -142,7 +142,7 @@ def _person(content: FileContent, number: int, person: Any) -> Person:
         raise content.error(f"frame {number} has a person without keypoints")
     for key, width in _KEYS.items():
         if person.get(key):
-            groups = in_groups(content, person[key], width)
+            groups = split_groups(content, person[key], width)
             return Person(number, groups[:, :-1], groups[:, -1], _id(person.get("person_id")))
     raise content.error(f"frame {number} has a person without {', '.join(_KEYS)}")
 

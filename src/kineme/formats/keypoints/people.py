@@ -39,7 +39,7 @@ class Detections:
 
 
 class PersonFound(NamedTuple):
-    """The rows of a person, who that is, of which people, and what was done."""
+    """Rows of a person, who that is, of which people, and what was done."""
 
     rows: Rows
     name: str

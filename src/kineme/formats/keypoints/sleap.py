@@ -42,7 +42,7 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
     old = tracks.shape[1:3] == (2, len(nodes)) and len(names) in (0, tracks.shape[0])
     if not old and tracks.shape[2:] != (len(nodes), 2):
         raise content.error(f"tracks of shape {tracks.shape} do not go with {len(nodes)} nodes")
-    positions, confidence = _arranged(content, tracks, found.get("point_scores"), old=old)
+    positions, confidence = _arrange(content, tracks, found.get("point_scores"), old=old)
     if len(names) != len(positions):
         names = [str(i) for i in range(len(positions))]
     visible = np.any(np.isfinite(positions).all(axis=3), axis=2)
@@ -78,9 +78,7 @@ def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
     return video_to_motion(content, Video("SLEAP", nodes, people, LIMIT, frames=start), options)
 
 
-def _arranged(
-    content: FileContent, tracks: Any, scores: Any, *, old: bool
-) -> tuple[Floats, Floats]:
+def _arrange(content: FileContent, tracks: Any, scores: Any, *, old: bool) -> tuple[Floats, Floats]:
     """Positions (tracks, frames, nodes, 2) and how sure they are (tracks, frames, nodes)."""
     if tracks.dtype.kind not in "iuf":
         raise content.error(f"tracks hold {tracks.dtype}, not numbers")

@@ -55,17 +55,20 @@ class Video:
 
 
 def video_to_motion(content: FileContent, video: Video, options: ReadOptions) -> Motion:
-    """The motion of one person in a video; ReadError where nothing tells which one, or the rate."""
+    """Return the motion of one person in a video.
+
+    ReadError where nothing tells which one, or the rate.
+    """
     fps = options.fps or video.fps
     if not fps:
         raise content.error("keypoints have no frame rate: give fps= (--fps), that of the video")
     people = sorted(video.people, key=lambda person: person.frame)
     if not people:
         raise content.error("nobody is found in any frame")
-    frames, n_frames = _numbered(content, video, [person.frame for person in people])
+    frames, n_frames = _number_frames(content, video, [person.frame for person in people])
     size = 8 * 4 * len(video.names) * max(n_frames, len(people))
     content.claim(size, f"{len(video.names)} keypoints in {n_frames} frames")
-    points, confidence = _stacked(content, people, len(video.names))
+    points, confidence = _stack_people(content, people, len(video.names))
     limit = video.limit if options.confidence is None else options.confidence
     unsure = ~(confidence >= limit)
     points[unsure] = np.nan
@@ -95,14 +98,14 @@ def parsed_json(content: FileContent) -> Any:
         raise content.error(f"is no whole JSON file: {str(error).split(';')[0]}") from None
 
 
-def by_number(frames: Mapping[Any, Any]) -> list[tuple[int, Any]]:
+def order_by_number(frames: Mapping[Any, Any]) -> list[tuple[int, Any]]:
     """Frames that JSON holds by their numbers, in this order; empty where it holds others."""
     if not all(isinstance(key, str) and key.isdecimal() and len(key) < 19 for key in frames):
         return []
     return sorted(((int(key), frame) for key, frame in frames.items()), key=itemgetter(0))
 
 
-def in_groups(content: FileContent, values: Any, width: int) -> Floats:
+def split_groups(content: FileContent, values: Any, width: int) -> Floats:
     """(keypoints, width): a flat list of numbers, as OpenPose and COCO store them."""
     try:
         flat = np.asarray(values, np.float64).ravel()
@@ -120,7 +123,9 @@ def frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
     return np.rint(frames).astype(np.int64)
 
 
-def _numbered(content: FileContent, video: Video, found: list[int]) -> tuple[NDArray[np.intp], int]:
+def _number_frames(
+    content: FileContent, video: Video, found: list[int]
+) -> tuple[NDArray[np.intp], int]:
     """Frames counted from 0, and how many there are."""
     numbers = {*found, *video.frames}
     first, last = min(numbers), max(numbers)
@@ -132,7 +137,7 @@ def _numbered(content: FileContent, video: Video, found: list[int]) -> tuple[NDA
     return np.array([frame - first for frame in found], np.intp), last - first + 1
 
 
-def _stacked(content: FileContent, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:
+def _stack_people(content: FileContent, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:
     """(people, keypoints, 3) and (people, keypoints); z is 0 where there is none."""
     points, confidence = [], []
     for person in people:

@@ -1,4 +1,4 @@
-"""The layout of C3D files: header, parameters, then points and analog samples frame by frame.
+"""Layout of C3D files: header, parameters, then points and analog samples frame by frame.
 
 Blocks are of 512 bytes. Integers and floats are those of the processor that the
 parameter section names: Intel, DEC or MIPS (SGI). A frame holds four numbers
@@ -63,7 +63,10 @@ class C3D:
 
 
 def parse_c3d(content: FileContent) -> C3D:
-    """The contents of a C3D file; ReadError where it is none, or holds less than one frame."""
+    """Return the contents of a C3D file.
+
+    ReadError where it is none, or holds less than one frame.
+    """
     parameters = read_parameters(content)
     file = Layout(content, parameters, read_header(content, parameters))
     raw = file.frames()
@@ -78,7 +81,7 @@ def parse_c3d(content: FileContent) -> C3D:
         first_frame=file.first_frame,
         analog=analog,
         analog_labels=_labels(parameters, "ANALOG", analog.shape[1], "channel"),
-        analog_units=_padded(parameters.strings("ANALOG", "UNITS"), analog.shape[1]),
+        analog_units=_pad(parameters.strings("ANALOG", "UNITS"), analog.shape[1]),
         analog_rate=file.rate * len(analog) / len(raw),
         events=_events(file),
         parameters=parameters,
@@ -95,13 +98,13 @@ def _analog(file: Layout, raw: Stored) -> Floats:
     values = raw.reshape(-1, channels)
     if "UNSIGNED" in file.parameters.strings("ANALOG", "FORMAT") and values.dtype.kind == "i":
         values = values.view(values.dtype.str.replace("i", "u"))
-    scale = _per_channel(file.parameters, "SCALE", channels, 1.0)
+    scale = _repeat_per_channel(file.parameters, "SCALE", channels, 1.0)
     scale *= file.parameters.number("ANALOG", "GEN_SCALE", 1.0)
-    scaled = (values - _per_channel(file.parameters, "OFFSET", channels, 0.0)) * scale
+    scaled = (values - _repeat_per_channel(file.parameters, "OFFSET", channels, 0.0)) * scale
     return np.asarray(scaled, np.float64)
 
 
-def _per_channel(parameters: Parameters, name: str, channels: int, usual: float) -> Floats:
+def _repeat_per_channel(parameters: Parameters, name: str, channels: int, usual: float) -> Floats:
     values = parameters.numbers("ANALOG", name, signed=True)[:channels]
     return np.array(values + [usual] * (channels - len(values)))
 
@@ -119,7 +122,7 @@ def _group_events(parameters: Parameters) -> list[tuple[float, str]]:
     used = int(parameters.number("EVENT", "USED", 0))
     times = parameters.numbers("EVENT", "TIMES")
     labels = parameters.strings("EVENT", "LABELS")
-    contexts = _padded(parameters.strings("EVENT", "CONTEXTS"), len(labels))
+    contexts = _pad(parameters.strings("EVENT", "CONTEXTS"), len(labels))
     names = [f"{who} {label}".strip() for who, label in zip(contexts, labels, strict=False)]
     minutes = zip(times[::2], times[1::2], strict=False)
     return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
@@ -153,16 +156,16 @@ def _labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]
         if not more or len(labels) >= n:
             break
         labels += more
-    return [label or f"{usual}{i}" for i, label in enumerate(_padded(labels, n), 1)]
+    return [label or f"{usual}{i}" for i, label in enumerate(_pad(labels, n), 1)]
 
 
-def _padded(labels: list[str], n: int) -> list[str]:
+def _pad(labels: list[str], n: int) -> list[str]:
     return labels[:n] + [""] * (n - len(labels))
 
 
 @dataclass(frozen=True)
 class Header:
-    """The first block, as far as it is used."""
+    """First block, as far as it is used."""
 
     points: int
     analog_per_frame: int
@@ -307,7 +310,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Parameters:
-    """The values of a C3D file by group and name, both in upper case."""
+    """Values of a C3D file by group and name, both in upper case."""
 
     content: FileContent
     processor: int
@@ -330,7 +333,10 @@ class Parameters:
         return values[0] if values and np.isfinite(values[0]) else usual
 
     def numbers(self, group: str, name: str, *, signed: bool = False) -> list[float]:
-        """The values as numbers, none if they are text; integers are counts unless signed."""
+        """Return the values as numbers, none if they are text.
+
+        Integers are counts unless signed.
+        """
         kind, _, data = self.stored(group, name)
         if kind == 4:
             reals = np.frombuffer(data, number_type(self.processor, real=True))
@@ -407,7 +413,7 @@ def number_type(processor: int, *, real: bool) -> np.dtype[Any]:
 
 
 def as_float32(values: NDArray[Any], processor: int) -> NDArray[np.float32]:
-    """The values, with DEC's floats (words exchanged, exponents larger by two) made IEEE's."""
+    """Return values, with DEC's floats (words exchanged, exponents larger by two) made IEEE's."""
     if processor != DEC:
         return values
     words = np.ascontiguousarray(values).view("<u2")

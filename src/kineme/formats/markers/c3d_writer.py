@@ -69,7 +69,7 @@ class C3DEvent:
     label: str
 
 
-def with_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
+def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
     """Return the bytes of a C3D file that has these events besides its own."""
     parameters = read_parameters(content)
     layout = Layout(content, parameters, read_header(content, parameters))
@@ -84,7 +84,7 @@ def with_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
         )
     if not events:
         return content.data
-    data = _with_section(layout, _records_with(layout, table))
+    data = _replace_section(layout, _records_with(layout, table))
     if not _is_kept(parameters, read_parameters(FileContent(content.path, data)), table):
         raise content.error("has records of parameters over each other: it is damaged")
     return data
@@ -166,7 +166,7 @@ def _records_with(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord
 
 
 def _records(parameters: Parameters) -> list[RawRecord]:
-    """The records as stored, each from the length of its name to where the next one begins."""
+    """Return records as stored, each from the length of its name to where the next one begins."""
     data, records = parameters.content.data, []
     for each in parameters.records:
         stop = each.stop
@@ -198,7 +198,7 @@ def _step(length: int, processor: int) -> bytes:
     return length.to_bytes(2, "big" if processor == MIPS else "little")
 
 
-def _with_section(layout: Layout, records: list[RawRecord]) -> bytes:
+def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
     """Return the file with these records as its parameters."""
     content, parameters = layout.content, layout.parameters
     data, kind = content.data, parameters.processor

@@ -16,7 +16,7 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme.formats.delimited import DelimitedText, dotted, separator_of
-from kineme.formats.files import FileContent, in_a_cell, numbers, save, spelled
+from kineme.formats.files import FileContent, format_point_name, numbers, save, spell_names
 from kineme.formats.gaps import split_at, unseen
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
@@ -75,7 +75,7 @@ def _is_image(content: FileContent, head: dict[str, str], positions: Floats) -> 
 
 def write_trc(motion: Motion, path: Path) -> None:
     """Leave the joints' positions in a TRC file, in millimetres; cells in gaps are empty."""
-    names = spelled(path, motion.skeleton.names, in_a_cell)
+    names = spell_names(path, motion.skeleton.names, format_point_name)
     n, m = motion.n_frames, len(names)
     fps = f"{motion.fps!r}"
     head = (

@@ -92,9 +92,9 @@ def assemble(
     number_of = {node: j for j, node in enumerate(joints)}
     parents = [number_of.get(nodes[node].parent, -1) for node in joints]
     above = carriers(nodes, joints[0])[::-1]  # topmost first
-    found = _scaled(above, joints, parents, transform, n_frames, turn)
+    found = _apply_scale(above, joints, parents, transform, n_frames, turn)
     if found is None:
-        found = _multiplied(above, joints, parents, transform, n_frames, turn)
+        found = _multiply_matrices(above, joints, parents, transform, n_frames, turn)
     content.let_go()
     rotations, offsets, slides = found
     inner = set(parents)
@@ -112,7 +112,7 @@ def assemble(
     return place(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
 
 
-def _scaled(
+def _apply_scale(
     above: Sequence[int],
     joints: Sequence[int],
     parents: Sequence[int],
@@ -129,7 +129,7 @@ def _scaled(
             return None
         position = position + world * rot.rotate(rotation, found.translation)
         rotation = rot.multiply(rotation, found.rotation)
-        world, node_scale = _inherited(world, node_scale, factor, found.inheritance), factor
+        world, node_scale = _multiply_scale(world, node_scale, factor, found.inheritance), factor
     rotations = np.empty((n_frames, len(joints), 4))
     offsets = np.zeros((len(joints), 3))
     slides: dict[int, Floats] = {}
@@ -143,16 +143,16 @@ def _scaled(
             at = position + world * rot.rotate(rotation, found.translation)
             slides[j] = np.array(np.broadcast_to(at, (n_frames, 3)))
             rotations[:, j] = rot.multiply(rotation, found.rotation)
-            scales.append((_inherited(world, node_scale, factor, found.inheritance), factor))
+            scales.append((_multiply_scale(world, node_scale, factor, found.inheritance), factor))
             continue
         scale, parent_factor = scales[parent]
         rotations[:, j] = found.rotation
-        scales.append((_inherited(scale, parent_factor, factor, found.inheritance), factor))
+        scales.append((_multiply_scale(scale, parent_factor, factor, found.inheritance), factor))
         _carry(j, scale * found.translation, offsets, slides)
     return Local(rotations, offsets, slides)
 
 
-def _inherited(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
+def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
     """Return a node's scale in the world, from that of its parent and its own factor."""
     return world / parent * factor if inheritance == "Rrs" else world * factor
 
@@ -175,7 +175,7 @@ def _carry(j: int, shift: Floats, offsets: Floats, slides: dict[int, Floats]) ->
         slides[j] = shift
 
 
-def _multiplied(
+def _multiply_matrices(
     above: Sequence[int],
     joints: Sequence[int],
     parents: Sequence[int],

@@ -101,7 +101,10 @@ def carriers(nodes: Sequence[SceneNode], node: int) -> list[int]:
 
 
 def lively_takes(moved: Sequence[set[int]], bones: set[int]) -> list[int]:
-    """The animations that move a bone, by what each moves; anything where there are no bones."""
+    """Return the animations that move a bone, by what each moves.
+
+    Anything where there are no bones.
+    """
     return [number for number, nodes in enumerate(moved) if (nodes & bones if bones else nodes)]
 
 
@@ -113,7 +116,7 @@ def choose_take(
     Where none is wanted, it is the first of the lively ones, which move a skeleton.
     """
     if name is not None:
-        number = _numbered(names, name)
+        number = _find_take(names, name)
         if number is None:
             shown = join_names(names) or "none"
             raise content.error(f"there is no take {name!r}: choose from {shown}")
@@ -133,8 +136,8 @@ def choose_take(
     return first, [Note(remark, "warning")]
 
 
-def _numbered(names: Sequence[str], name: str) -> int | None:
-    """The number of a take, by its name, what follows the armature's in it, or its number."""
+def _find_take(names: Sequence[str], name: str) -> int | None:
+    """Return number of a take, by its name, what follows the armature's in it, or its number."""
     if name in names:
         return names.index(name)
     short = [name.rpartition("|")[2] for name in names]
@@ -204,7 +207,7 @@ def _names(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
 
 
 def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
-    """The topmost nodes that are animated, or bones, and neither part of a body nor above one."""
+    """Return the topmost nodes that are animated or bones, but neither in a body nor above one."""
     body = {joint for joints in bodies for joint in joints}
     body.update(above for joints in bodies for above in carriers(nodes, joints[0]))
     names: list[str] = []

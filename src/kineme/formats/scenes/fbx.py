@@ -36,7 +36,7 @@ RATES = {
 """Frames per second of a ``TimeMode``."""
 
 CUSTOM = 14
-"""The ``TimeMode`` whose rate is in ``CustomFrameRate``."""
+"""``TimeMode`` whose rate is in ``CustomFrameRate``."""
 
 USUAL_RATE = 30.0
 """Of files that tell none, and have no keys that do."""

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.scenes.fbx_nodes import FBXNode
-from kineme.formats.scenes.sampling import between
+from kineme.formats.scenes.sampling import find_keys
 
 TICKS = 46_186_158_000
 """In a second."""
@@ -185,11 +185,11 @@ class Sampler:
         return True
 
     def _find(self, times: Floats) -> None:
-        """The key before each frame, and the share of the interval that has passed."""
+        """Return the key before each frame, and the share of the interval that has passed."""
         if len(times) == len(self._times) and np.array_equal(times, self._times):
             return
         self._times = times
-        self._index, self._share = between(times, self.at, SLACK)
+        self._index, self._share = find_keys(times, self.at, SLACK)
 
 
 def _bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:

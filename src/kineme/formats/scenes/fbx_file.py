@@ -1,4 +1,4 @@
-"""The nodes of an FBX file of version 7, be it binary or text.
+"""Nodes of an FBX file of version 7, be it binary or text.
 
 In a binary file a node is::
 
@@ -48,7 +48,7 @@ _ARRAYS = {
 
 
 def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
-    """The version of an FBX file, in thousandths, and its nodes, below one without a name."""
+    """Return version of an FBX file, in thousandths, and its nodes, below one without a name."""
     if content.data.startswith(MAGIC):
         if len(content.data) < _START:
             raise content.error("the file ends in its header: it is truncated")

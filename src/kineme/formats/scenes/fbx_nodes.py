@@ -1,4 +1,4 @@
-"""The nodes of an FBX file: a tree of names and values, whichever way it is written."""
+"""Nodes of an FBX file: a tree of names and values, whichever way it is written."""
 
 from __future__ import annotations
 

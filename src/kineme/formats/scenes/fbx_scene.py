@@ -1,4 +1,4 @@
-"""The objects of an FBX file, how they are connected, and the transforms of its models.
+"""Objects of an FBX file, how they are connected, and the transforms of its models.
 
 Objects have a number, a name, a class and properties; what a file leaves out is in the templates
 of its classes. Connections make one object part of another, or drive a property of it. An
@@ -111,7 +111,7 @@ class FBXScene:
             self._driving.setdefault(parent, []).append((part, link.text(3)))
 
     def _bones(self) -> set[int]:
-        """The numbers of the models that are bones: by their kind, or as a skin hangs on them."""
+        """Return the numbers of the models that are bones: by kind, or as a skin hangs on them."""
         bones: set[int] = set()
         for number, node in self.objects.items():
             if node.name == "Model" and node.text(2) in BONES:
@@ -228,7 +228,7 @@ class FBXScene:
 
 
 class Pose:
-    """The transforms of models at the frames of a take."""
+    """Transforms of models at the frames of a take."""
 
     def __init__(self, scene: FBXScene, take: Take, sampler: Sampler) -> None:
         self.scene, self.sampler = scene, sampler
@@ -247,7 +247,7 @@ class Pose:
         if after.any():
             turn = rot.multiply(turn, rot.conjugate(_euler(after, "zyx")))
         scale, shift = self._values(model, SCALING, 1.0), self._values(model, TRANSLATION, 0.0)
-        shift = _pivoted(properties, shift, turn, scale)
+        shift = _add_pivots(properties, shift, turn, scale)
         inheritance = _INHERITANCE[_choice(properties, "InheritType", len(_INHERITANCE))]
         return Transform(shift, turn, scale, inheritance)
 
@@ -291,12 +291,12 @@ class Pose:
         for layer, part in self.tracks.get((model.number, what), ()):
             table = self.layers[layer]
             if layer == base:
-                yield self._sampled(part, usual), None, table
+                yield self._sample_curve(part, usual), None, table
             elif not _number(table, "Mute", 0):
                 rest = np.full(3, 1.0 if what == SCALING else 0.0)
                 overrides = _choice(table, "BlendMode", 3) == _OVERRIDE
                 yield (
-                    self._sampled(part, rest),
+                    self._sample_curve(part, rest),
                     None if overrides else self._weight(layer),
                     table,
                 )
@@ -310,7 +310,7 @@ class Pose:
                 return sampled[:, None] if sampled.ndim else float(sampled)
         return min(max(_number(table, "Weight", 100.0) / 100, 0.0), 1.0)
 
-    def _sampled(self, part: int, usual: Floats) -> Floats:
+    def _sample_curve(self, part: int, usual: Floats) -> Floats:
         """(3,) or (frames, 3): what a curve node has for the three axes."""
         curves, table = self.scene.curves(part), self.scene.properties(part)
         axes = []
@@ -329,7 +329,7 @@ def _replaces(properties: Properties) -> bool:
 
 
 def _euler(angles: Floats, axes: str) -> Floats:
-    """The rotation (..., 4) by angles about x, y and z in degrees, multiplied in this order."""
+    """Return rotation (..., 4) by angles about x, y and z in degrees, multiplied in this order."""
     order = ["xyz".index(axis) for axis in axes]
     if angles.ndim == 1:
         return rot.from_euler(np.radians(angles[None, order]), axes).reshape(4)
@@ -347,7 +347,7 @@ def _angles(turn: Floats, axes: str) -> Floats:
     return np.asarray(columns[..., [axes.index(axis) for axis in "xyz"]], np.float64)
 
 
-def _pivoted(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
+def _add_pivots(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
     """Return the translation with what pivots and their offsets add to it."""
     shift = shift + _vector(properties, "RotationOffset")
     pivot, center = _vector(properties, "RotationPivot"), _vector(properties, "ScalingPivot")
@@ -370,7 +370,7 @@ def _templates(root: FBXNode) -> dict[str, Properties]:
 
 
 def _spans(root: FBXNode) -> dict[str, tuple[float, float]]:
-    """The spans of takes by their names, as programs write them for older ones."""
+    """Return the spans of takes by their names, as programs write them for older ones."""
     found = {}
     for group in root.all("Takes"):
         for take in group.all("Take"):

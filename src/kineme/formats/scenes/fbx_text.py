@@ -79,7 +79,7 @@ class _Text:
             self.node.values.append(self._array(value))
             self.node = None
         elif kind == "text":
-            self.node.values.append(_unquoted(value))
+            self.node.values.append(_unquote(value))
         elif kind == "word":
             self.node.values.append(_word(value))
 
@@ -93,7 +93,7 @@ class _Text:
         return found
 
 
-def _unquoted(quoted: bytes) -> str:
+def _unquote(quoted: bytes) -> str:
     raw = quoted[1:-1]
     for escape, letter in _ESCAPES:
         raw = raw.replace(escape, letter)

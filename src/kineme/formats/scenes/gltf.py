@@ -39,7 +39,7 @@ from kineme.formats.scenes.characters import (
 )
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
 from kineme.formats.scenes.gltf_writer import EXTRAS, write_animations, write_gltf
-from kineme.formats.scenes.sampling import between
+from kineme.formats.scenes.sampling import find_keys
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
 
@@ -97,7 +97,9 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         for j, each in enumerate(objects)
     ]
     character = character_of(content, nodes, options.person)
-    keys = _keys(file, file.tree.animations[number], _needed(nodes, character.joints, order))
+    keys = _keys(
+        file, file.tree.animations[number], _find_needed_nodes(nodes, character.joints, order)
+    )
     fps, rated = _rate(file, keys, options)
     start, n_frames = _span(keys, fps)
     claim_frames(content, len(character.joints), n_frames, beside=file.beside)
@@ -131,7 +133,7 @@ def _is_marked(each: SceneObject) -> bool:
 
 
 def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
-    """The numbers of the nodes, parents first, and the place of each one's parent among them."""
+    """Return numbers of the nodes, parents first, and the place of each one's parent among them."""
     nodes = file.tree.nodes
     carried = {child for node in nodes for child in node.children}
     waiting = [(number, -1) for number in reversed(range(len(nodes))) if number not in carried]
@@ -149,7 +151,7 @@ def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
     return order, parents
 
 
-def _needed(nodes: list[SceneNode], joints: list[int], order: list[int]) -> set[int]:
+def _find_needed_nodes(nodes: list[SceneNode], joints: list[int], order: list[int]) -> set[int]:
     """Return the numbers of the nodes that a character consists of, and of those that carry it."""
     return {order[j] for j in (*joints, *carriers(nodes, joints[0]))}
 
@@ -209,7 +211,7 @@ def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> T
     """Return a node's transform at these seconds."""
     rest = _rest(node)
     found = {
-        what: rest[what] if track is None else _sampled(track, at, turns=what == ROTATION)
+        what: rest[what] if track is None else _sample_channel(track, at, turns=what == ROTATION)
         for what, track in keys.items()
     }
     return Transform(found[TRANSLATION], found[ROTATION], found[SCALE])
@@ -238,7 +240,7 @@ def _numbers(values: list[float] | None, usual: list[float]) -> Floats:
     return np.array(values if fits else usual, np.float64)
 
 
-def _sampled(keys: Keys, at: Floats, *, turns: bool) -> Floats:
+def _sample_channel(keys: Keys, at: Floats, *, turns: bool) -> Floats:
     """Values at these seconds, (frames, 3); rotations as (frames, 4), w first."""
     times, values = keys.times, keys.values
     cubic = keys.interpolation == "CUBICSPLINE"
@@ -247,14 +249,14 @@ def _sampled(keys: Keys, at: Floats, *, turns: bool) -> Floats:
         tangents = np.roll(tangents, 1, axis=-1)  # w first
     values = tangents[:, 1] if cubic else tangents[:, 0]
     if turns:
-        values = rot.normalized(values)
+        values = rot.normalize(values)
     slack = SLACK * (at[1] - at[0] if len(at) > 1 else 1.0)
     if len(times) == 1:
         found = values[0]
     elif len(times) == len(at) and np.abs(times - at).max() <= slack:
         found = values
     else:
-        index, share = between(times, at, slack)
+        index, share = find_keys(times, at, slack)
         start, stop = values[index], values[index + 1]
         if keys.interpolation == "STEP":
             found = np.where(share[:, None] >= 1, stop, start)
@@ -263,10 +265,10 @@ def _sampled(keys: Keys, at: Floats, *, turns: bool) -> Floats:
             out, into = tangents[index, 2], tangents[index + 1, 0]
             found = _hermite(start, stop, out, into, share[:, None], step[:, None])
         elif turns:
-            found = rot.between(start, stop, share[:, None])
+            found = rot.slerp(start, stop, share[:, None])
         else:
             found = start + share[:, None] * (stop - start)
-    return rot.normalized(found) if turns else found
+    return rot.normalize(found) if turns else found
 
 
 def _hermite(

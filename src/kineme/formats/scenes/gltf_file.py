@@ -1,4 +1,4 @@
-"""The parts of a glTF 2.0 file: its JSON, and the arrays in its buffers.
+"""Parts of a glTF 2.0 file: its JSON, and the arrays in its buffers.
 
 A GLB is a header and two chunks, JSON and bytes. A ``.gltf`` is the JSON alone, with buffers in
 base64 or in files beside it. An accessor is an array in a view of a buffer: its type says how many
@@ -22,7 +22,7 @@ from msgspec import Struct, field
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
-from kineme._util.json import decoded
+from kineme._util.json import decode_json
 from kineme.formats.files import FileContent, find_beside, load
 
 Part = TypeVar("Part")
@@ -70,7 +70,7 @@ class BufferView(Struct, rename="camel"):
 
 
 class SparsePart(Struct, rename="camel"):
-    """The rows or the values that take the place of others."""
+    """Rows or the values that take the place of others."""
 
     buffer_view: int
     byte_offset: int = 0
@@ -112,7 +112,7 @@ class SceneObject(Struct):
 
 
 class Skin(Struct):
-    """The joints that carry a mesh."""
+    """Joints that carry a mesh."""
 
     joints: list[int]
 
@@ -167,10 +167,10 @@ class GLTFFile:
         text, self._chunk = content.data, b""
         if text.startswith(MAGIC):
             text, self._chunk = _chunks(content)
-        version = str(decoded(text, content.path, Head).asset.version)
+        version = str(decode_json(text, content.path, Head).asset.version)
         if not version.startswith("2"):
             raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
-        self.tree = decoded(text, content.path, Tree)
+        self.tree = decode_json(text, content.path, Tree)
         self.beside = 0
         """Bytes of files beside it."""
         self._buffers: dict[int, bytes] = {}

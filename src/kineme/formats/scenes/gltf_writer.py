@@ -29,15 +29,15 @@ from kineme._util.arrays import Floats
 from kineme._util.files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
-from kineme.formats.files import rotations_of, spelled
+from kineme.formats.files import rotations_of, spell_names
 from kineme.formats.gaps import warn_of_gaps
 from kineme.formats.scenes.gltf_file import BYTES, CHUNK, HEADER, JSON, MAGIC
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import at_rest, local_translations
+from kineme.recordings.kinematics import local_translations, place_at_rest
 
 EXTRAS = "kineme"
-"""The name of what kineme adds to the extras of a file."""
+"""Name of what kineme adds to the extras of a file."""
 
 THICK = 0.08
 """Share of its length that a bone of the mesh is wide."""
@@ -111,7 +111,7 @@ class _Writer:
     def _nodes(self, path: Path) -> list[dict[str, Any]]:
         """Return a node for each joint, then what carries them, then the mesh."""
         skeleton = self.skeleton
-        names = spelled(path, skeleton.names, str.strip)
+        names = spell_names(path, skeleton.names, str.strip)
         nodes: list[dict[str, Any]] = []
         for j, name in enumerate(names):
             node: dict[str, Any] = {"name": name}
@@ -132,7 +132,7 @@ class _Writer:
     def _add_mesh(self) -> None:
         """Bones to look at, bound to the joints where they are without rotations."""
         skeleton = self.skeleton
-        places = at_rest(skeleton)
+        places = place_at_rest(skeleton)
         vertices, faces, joints = _bones(skeleton, places)
         kind = np.uint8 if skeleton.n_joints <= 256 else np.uint16
         bound = np.zeros((len(vertices), 4), kind)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 
 
-def between(times: Floats, at: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:
+def find_keys(times: Floats, at: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:
     """Return the key before each frame, and the share of the interval to the next that has passed.
 
     Before the first key and after the last one the shares are 0 and 1; by the slack a key may

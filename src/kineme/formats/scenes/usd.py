@@ -210,7 +210,7 @@ class _Skeleton:
             shift, turn, scale = (part[0] for part in rest[:3])
             if (at := places.get(joint)) is not None:
                 shift = shift if shifts is None else shifts[:, at]
-                turn = turn if turns is None else rot.normalized(turns[:, at])
+                turn = turn if turns is None else rot.normalize(turns[:, at])
                 scale = scale if scales is None else scales[:, at]
             found.append(Transform(shift, turn, scale))
         return found

@@ -19,10 +19,10 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import WriteError
-from kineme.formats.files import rotations_of, spelled, unique
+from kineme.formats.files import rotations_of, spell_names, unique
 from kineme.formats.gaps import warn_of_gaps
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import at_rest, local_translations
+from kineme.recordings.kinematics import local_translations, place_at_rest
 
 END_SITES = "kineme:endSites"
 
@@ -34,7 +34,7 @@ def write_usd(motion: Motion, path: Path) -> None:
         from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
     warn_of_gaps([motion], path)
     skeleton = motion.skeleton
-    names = spelled(path, skeleton.names, str.strip)
+    names = spell_names(path, skeleton.names, str.strip)
     words = unique(Tf.MakeValidIdentifier(name) for name in names)
     joints: list[str] = []
     for word, parent in zip(words, skeleton.parents, strict=True):
@@ -53,7 +53,7 @@ def write_usd(motion: Motion, path: Path) -> None:
     bound.CreateJointsAttr(joints)
     bound.CreateJointNamesAttr(names)
     bound.CreateRestTransformsAttr([_shift(Gf, offset) for offset in skeleton.offsets])
-    bound.CreateBindTransformsAttr([_shift(Gf, place) for place in at_rest(skeleton)])
+    bound.CreateBindTransformsAttr([_shift(Gf, place) for place in place_at_rest(skeleton)])
     ends = [names[j] for j in sorted(skeleton.end_sites)]
     bound.GetPrim().SetCustomDataByKey(END_SITES, Vt.StringArray(ends))
     animation = UsdSkel.Animation.Define(stage, bound.GetPath().AppendChild("Animation"))

@@ -195,7 +195,7 @@ def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floa
         if not np.array_equal(labels, np.arange(first, following)):
             return None
         blocks.append(rows)
-    return None if layout is None else _by_bone(blocks, layout, figure)
+    return None if layout is None else _split_by_bone(blocks, layout, figure)
 
 
 def _chunks(data: bytes, start: int) -> Iterator[bytes]:
@@ -271,7 +271,7 @@ def _compiled_rows(text: bytes, layout: Layout) -> Floats | None:
     return rows[:found].copy() if found > 0 else None
 
 
-def _by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict[str, Floats]:
+def _split_by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict[str, Floats]:
     """Return the values of each bone, none where it is not named."""
     ends = np.cumsum([1, *layout.values()])
     columns = dict(zip(layout, starmap(slice, pairwise(ends.tolist())), strict=True))

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme.errors import WriteError
-from kineme.formats.files import save, spelled, table
+from kineme.formats.files import save, spell_names, table
 from kineme.formats.skeletons.asf import ROOT
 from kineme.formats.skeletons.bvh_writer import euler_angles
 from kineme.formats.units import UNITS
@@ -71,7 +71,7 @@ def write_amc(motion: Motion, path: Path) -> None:
 def _bones(skeleton: Skeleton, slides: NDArray[np.bool_], path: Path) -> list[Bone]:
     """Return the root and all bones, parents first."""
     inner = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
-    words = spelled(path, [ROOT, *(skeleton.names[j] for j in inner[1:])], _word)
+    words = spell_names(path, [ROOT, *(skeleton.names[j] for j in inner[1:])], _word)
     names = dict(zip(inner, words, strict=True))
     bones: list[Bone] = []
     hangs_on = {0: ROOT}

@@ -65,7 +65,7 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     content.let_go()
     turned = _local(head.joints, values)
     del values  # before as much again is made of it
-    return _placed(head.joints, turned, head.fps, options, provenance)
+    return _place_joints(head.joints, turned, head.fps, options, provenance)
 
 
 def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch | None:
@@ -76,7 +76,7 @@ def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch 
     if values is None or len(values) != -(-head.declared // every):
         return None
     turned, provenance = _local(head.joints, values), Provenance(str(content.path), "BVH")
-    motion = _placed(head.joints, turned, head.fps / every, options, provenance)
+    motion = _place_joints(head.joints, turned, head.fps / every, options, provenance)
     return Sketch(motion, head.declared, head.fps)
 
 
@@ -112,7 +112,7 @@ def _head(content: FileContent, options: ReadOptions) -> _Head:
     return _Head(joints, int(header.group(1)), fps, notes, line, header.end())
 
 
-def _placed(
+def _place_joints(
     joints: list[Joint],
     turned: tuple[Floats, dict[int, Floats]],
     fps: float,
@@ -182,7 +182,7 @@ class Joint:
 
 
 class _Hierarchy:
-    """The joints of the HIERARCHY section, the bytes before ``stop``; parents first."""
+    """Joints of the HIERARCHY section, the bytes before ``stop``; parents first."""
 
     def __init__(self, content: FileContent, stop: int):
         self.content = content
@@ -358,7 +358,7 @@ def _end(data: bytes, start: int) -> int:
 
 
 def _row(line: bytes) -> tuple[list[float], bool]:
-    """The numbers of a line, and whether some were not apart (``0.0-7.5``, as SlimeVR wrote)."""
+    """Return numbers of a line, and whether some were not apart (``0.0-7.5``, as SlimeVR wrote)."""
     try:
         return numbers(line.split()), False
     except ValueError:

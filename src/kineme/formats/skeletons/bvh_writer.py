@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme.formats.files import rotations_of, save, spelled, table
+from kineme.formats.files import rotations_of, save, spell_names, table
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
 
@@ -60,7 +60,7 @@ def _names(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
     """Return the names of joints as a line holds them; end sites have none."""
     named = [j for j in range(motion.skeleton.n_joints) if j not in ends]
     return dict(
-        zip(named, spelled(path, [motion.skeleton.names[j] for j in named], _line), strict=True)
+        zip(named, spell_names(path, [motion.skeleton.names[j] for j in named], _line), strict=True)
     )
 
 

@@ -68,7 +68,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         raise content.error("none of its segments is a 'Pelvis'")
     n, chosen = len(subject.segments), [subject.segments.index(name) for name in names]
     parents = [_parent(name, names) for name in names]
-    positions = _stacked(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
+    positions = _stack_frames(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
     if not np.isfinite(positions).all():
         raise content.error("positions are not all numbers")
     fps = options.fps or subject.rate
@@ -85,7 +85,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         offsets = tallest - np.where(np.array(parents)[:, None] < 0, tallest, tallest[parents])
         skeleton = Skeleton(tuple(names), tuple(parents), offsets)
         return Motion(skeleton, positions, fps, None, provenance)
-    world = _stacked(content, subject, "orientation", 4 * n).reshape(-1, n, 4)[:, chosen]
+    world = _stack_frames(content, subject, "orientation", 4 * n).reshape(-1, n, 4)[:, chosen]
     if len(positions) != len(world):
         raise content.error("some frames have orientations and others none: export all with them")
     lengths = np.linalg.norm(world, axis=2, keepdims=True)
@@ -111,7 +111,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
 
 
 class _Subjects(NoEntities):
-    """The people in a file, made of its elements as they come; nothing else is kept."""
+    """People in a file, made of its elements as they come; nothing else is kept."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
@@ -158,7 +158,7 @@ def _subjects(content: FileContent) -> list[Subject]:
     return found.people
 
 
-def _stacked(content: FileContent, subject: Subject, what: str, width: int) -> Floats:
+def _stack_frames(content: FileContent, subject: Subject, what: str, width: int) -> Floats:
     frames = subject.values[what]
     if not frames:
         raise content.error(f"no frame has a {what} of segments: export it with them")
@@ -168,7 +168,10 @@ def _stacked(content: FileContent, subject: Subject, what: str, width: int) -> F
 
 
 def _parent(name: str, names: list[str]) -> int:
-    """The place of the nearest segment that is there of those that one hangs on; -1 for none."""
+    """Return the place of the nearest segment that is there of those that one hangs on.
+
+    -1 for none.
+    """
     parent = PARENTS[name]
     while parent and parent not in names:
         parent = PARENTS[parent]

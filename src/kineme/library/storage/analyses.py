@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.files import translate_read_errors
-from kineme._util.json import decoded
+from kineme._util.json import decode_json
 from kineme.errors import ReadError
 from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.places import near, written
@@ -109,7 +109,7 @@ def read_analysis(folder: Path, key: str) -> Analysis:
     with translate_read_errors(path):
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
-        facts = decoded(table.schema.metadata[METADATA], path, dict[str, Any])
+        facts = decode_json(table.schema.metadata[METADATA], path, dict[str, Any])
         columns = {name: _column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
     return Analysis(facts, SegmentTable(**columns), flat.reshape(-1, EMBEDDED))

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from kineme._util.checks import is_number
 from kineme._util.files import refuse_link
-from kineme._util.json import loaded
+from kineme._util.json import load_json
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.library.storage.places import is_remote, place, written
 
@@ -81,7 +81,7 @@ def _is_complete(head: Mapping[str, Any]) -> bool:
 def read_json(path: Path, values: Any = Any) -> dict[str, Any]:
     """The object in a JSON file, whose values are of a type; an empty one where there is none."""
     try:
-        return loaded(path, dict[str, values])
+        return load_json(path, dict[str, values])
     except ReadError as error:
         if isinstance(error.__cause__, FileNotFoundError):
             return {}

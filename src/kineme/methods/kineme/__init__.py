@@ -1,4 +1,4 @@
-"""The method of ``kineme`` and ``sensors``: the shortest description of a recording by segments.
+"""Method of ``kineme`` and ``sensors``: the shortest description of a recording by segments.
 
 A segment is described by the similarity of its samples, or by a movement that it repeats.
 

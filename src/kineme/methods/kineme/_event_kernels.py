@@ -121,7 +121,7 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
     **OPTIONS,
 )
 def follow(samples, costs, ends, scale, worst):
-    """The best path between two pairs: its partner of each sample, and its score up to there.
+    """Return best path between two pairs: its partner of each sample, and its score up to there.
 
     Both from the first side and from the second.
     """
@@ -184,7 +184,9 @@ def set_in(flags, start, stop):
 def recurrences(
     start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
 ):
-    """The total gain and number of recurrences of ``[start, stop)``; spans and gains hold them.
+    """Return the total gain and number of recurrences of ``[start, stop)``.
+
+    Spans and gains hold them.
 
     Each is the partner of a part of the span, by a path that covers a share of ``cover`` at least
     of it. Spans hold (start, stop) of the partner and of the part, the strongest first. None
@@ -237,7 +239,7 @@ def recurrences(
 
 @njit("int64(float64[::1], int64)", **OPTIONS)
 def largest(values, count):
-    """The place of the largest of the first ``count`` values, the first if there are several."""
+    """Return place of the largest of the first ``count`` values, the first if there are several."""
     best = 0
     for i in range(1, count):
         if values[i] > values[best]:

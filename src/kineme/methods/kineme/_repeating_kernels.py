@@ -31,8 +31,8 @@ def center(repetitions):
 
 
 @njit("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, :, ::1])", **SUMS)
-def explained(poses, path, visits, centered):
-    """The share of the variance of repetitions that the mean of the others explains, in time.
+def explain_variance(poses, path, visits, centered):
+    """Return share of the variance of repetitions that the mean of the others explains, in time.
 
     The variance is about the mean of each repetition. The mean of the others is scaled by the
     factor that fits best. ``centered`` are the repetitions, each with a mean of 0.
@@ -126,7 +126,7 @@ def best_parting(centered):
 
 @njit("float64(float32[:, ::1], int64, int64, int64)", **SUMS)
 def spread(view, start, stop, most):
-    """The cost of a span: half the mean distance of two samples, times its number of samples.
+    """Return cost of a span: half the mean distance of two samples, times its number of samples.
 
     It is estimated from ``most`` of its samples at most.
     """

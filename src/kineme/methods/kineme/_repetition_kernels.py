@@ -106,7 +106,7 @@ def dips(distances, least):
 
 
 @njit("Tuple((float64[:, ::1], float64[::1]))(float32[:, ::1], int64)", **OPTIONS)
-def smoothed(rows, smoothing):
+def smooth_rows(rows, smoothing):
     """Rows averaged over so many before and after, and the mean speed per frame over the same."""
     n, dims = rows.shape
     # Sums up to each row, so that a mean is one difference.
@@ -131,7 +131,7 @@ def smoothed(rows, smoothing):
 
 @njit("float64[:, ::1](float64[:, ::1], float64[::1], float64[::1])", **OPTIONS)
 def poses_at(poses, path, lengths):
-    """The poses at these lengths along the path."""
+    """Return the poses at these lengths along the path."""
     found = np.empty((len(lengths), poses.shape[1]))
     for i in range(len(lengths)):
         low, high = 0, len(path)  # the first frame that is farther
@@ -148,8 +148,8 @@ def poses_at(poses, path, lengths):
 
 
 @njit("float64[::1](float64[:, :, ::1], float64)", **SUMS)
-def unexplained(repetitions, centering):
-    """The share of each repetition that the mean of all others does not explain, 0 to 1.
+def measure_unexplained(repetitions, centering):
+    """Return the share of each repetition that the mean of all others does not explain, 0 to 1.
 
     It is 1 minus the square of their correlation if that is positive, and so does not depend on
     size. Before, ``centering`` times its mean is subtracted from each repetition (places, dims).
@@ -200,7 +200,7 @@ def repetitions_between(poses, path, visits, places):
 
 @njit("float64(float64[::1])", **OPTIONS)
 def upper_median(values):
-    """The middle value, the upper one of two."""
+    """Return the middle value, the upper one of two."""
     ordered = np.empty(len(values))
     for k in range(len(values)):
         place = k
@@ -240,7 +240,7 @@ def scatter(repetitions, mean):
 
 
 @njit("Tuple((int64, float64))(float64[:, ::1], float64)", **OPTIONS)
-def matched(gains, full):
+def match_columns(gains, full):
     """Columns up to which the rows follow them, and how many of these count; 0 if no path gains.
 
     They are those of the warping path with the largest gain. Paths begin before the first row and
@@ -306,7 +306,7 @@ def follow_end(poses, path, lengths, mean, near, full):
                 difference = reached[i, d] - mean[j, d]
                 square += difference * difference
             gains[i, j] -= square
-    return matched(gains, near - full)
+    return match_columns(gains, near - full)
 
 
 @njit(
@@ -357,7 +357,7 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
             for d in range(poses.shape[1]):
                 both[0, p, d], both[1, p, d] = inner[0, p, d], reached[p, d]
         inner = both
-    shares = unexplained(inner, centering)[:count]
+    shares = measure_unexplained(inner, centering)[:count]
     inside = max(total_length - outside - lengths.sum(), 0.0)
     total = (shares.sum() / count * inside + outside) / total_length
     for k in range(count):  # a short repetition counts as much as one of mean length
@@ -367,7 +367,7 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
 
 @njit("void(float32[:, ::1], float64, float64[::1])", **OPTIONS)
 def pose_at(rows, at, found):
-    """The row at a time between two rows, in frames; the first or last one beyond them."""
+    """Return the row at a time between two rows, in frames; the first or last one beyond them."""
     before = min(max(int(np.floor(at)), 0), len(rows) - 1)
     after = min(before + 1, len(rows) - 1)
     share = min(max(at - before, 0.0), 1.0)
@@ -388,7 +388,7 @@ def evenly_in_time(rows, starts, lengths, places):
 
 @njit("int64(float32[:, ::1], int64, int64, int64, float64[:, ::1])", **SUMS)
 def best_length(rows, stop, shortest, longest, mean):
-    """The length of the span up to a frame that is nearest to the mean, evenly in time."""
+    """Return the length of the span up to a frame that is nearest to the mean, evenly in time."""
     places, dims = mean.shape
     pose = np.empty(dims)
     best, least = shortest, np.inf

@@ -31,6 +31,30 @@ def similarity_band(features, unit, start, stop, similarity):
             similarity[i, lag] = one - np.sqrt(square) * units
 
 
+@njit("float64[::1](float32[:, ::1], int64[::1], int64)", **OPTIONS)
+def near_distances(features, chosen, width):
+    """Distances of the chosen samples, ascending, of which two are less than `width` apart."""
+    count = 0
+    for i in range(len(chosen)):
+        for j in range(i + 1, len(chosen)):
+            if chosen[j] - chosen[i] >= width:
+                break
+            count += 1
+    found = np.empty(count)
+    at = 0
+    for i in range(len(chosen)):
+        for j in range(i + 1, len(chosen)):
+            if chosen[j] - chosen[i] >= width:
+                break
+            square = 0.0
+            for d in range(features.shape[1]):
+                difference = np.float64(features[chosen[i], d]) - features[chosen[j], d]
+                square += difference * difference
+            found[at] = np.sqrt(square)
+            at += 1
+    return found
+
+
 @njit("int64[::1](float32[:, ::1], float64)", **OPTIONS)
 def change_points(similarity, penalty):
     """Borders of the segments whose samples are most similar, ends included.
@@ -94,7 +118,7 @@ def mean_distances(features, chosen, borders, start, stop, means):
 
 @njit("float64(float64[:, ::1], float64[::1], int64, int64, float64)", **OPTIONS)
 def _distance(sums, lengths, g, h, spread_share):
-    """The mean distance of two clusters, less a share of the mean distance within them.
+    """Return the mean distance of two clusters, less a share of the mean distance within them.
 
     ``sums`` are summed distances of the samples of each two clusters, ``lengths`` their numbers.
     """
@@ -107,7 +131,7 @@ def _distance(sums, lengths, g, h, spread_share):
     **OPTIONS,
 )
 def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
-    """The cluster whose distance to cluster g is least, and that distance."""
+    """Return the cluster whose distance to cluster g is least, and that distance."""
     apart[g] = np.inf
     for h in range(len(lengths)):
         if h != g and owner[h] == h:
@@ -122,7 +146,7 @@ def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
     **OPTIONS,
 )
 def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share, labels):
-    """The least cost of a grouping of segments; `labels` gets the grouping.
+    """Return the least cost of a grouping of segments; `labels` gets the grouping.
 
     The two clusters that are nearest are joined, again and again: by their mean distance,
     less `spread_share` of the mean of the distances within them. A grouping costs half the

@@ -66,6 +66,7 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
         right_side = slice(at + averaged // 2, min(last, at + learnt))
         if min(left_side.stop - left_side.start, right_side.stop - right_side.start) < averaged:
             continue
+        # A border moves by the averaged time at most, and never far into a short segment.
         first = at - min(averaged, (at - start) // SHARE)
         near = scaled[first : at + min(averaged, (stop - at) // SHARE)]
         # Log-likelihoods of both sides, less that of the whole recording: up to each frame by the
@@ -76,6 +77,7 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
         behind = np.append(np.cumsum(gains[::-1])[::-1], 0.0)
         likeliest = int(np.argmax(before + behind))
         left, right = _apart(before, behind, averaged - 1)
+        # What lies between is described by neither side: by "anything", at no gain and no loss.
         gained = before[left] + behind[right] - before[likeliest] - behind[likeliest]
         if gained > preset.transition_cost * preset.working_fps:
             stops[i - 1], starts[i] = first + left, first + right
@@ -87,6 +89,7 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
 
 def _apart(before: Floats, behind: Floats, longest: int) -> tuple[int, int]:
     """Where to end the first side and begin the second, at most so far apart: the likeliest."""
+    # For each end of the gap, the best start within `longest` before it.
     rights = np.arange(len(before))
     firsts = np.maximum(rights - longest, 0)
     spans = zip(firsts.tolist(), rights.tolist(), strict=True)
@@ -103,10 +106,14 @@ def _likelihoods(rows: Floats, side: Floats) -> Floats:
     return likelihoods
 
 
-def in_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frames:
-    """The samples nearest to borders in frames, from 0 to n; each segment has one at least."""
+def convert_to_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frames:
+    """Return the samples nearest to borders in frames, from 0 to n.
+
+    Each segment has one at least.
+    """
     nearest = np.rint(frames / (preset.working_fps / preset.rate)).astype(np.int64)
     order = np.arange(len(frames))
+    # Less its own index, a strictly ascending sequence only has to ascend: a running maximum.
     after = np.maximum.accumulate(nearest - order)
     borders: Frames = np.minimum(after, n - order[-1]) + order
     borders[-1] = n
@@ -128,6 +135,7 @@ def carried_over(fine: Frames, before: Frames, after: Frames) -> Frames:
     >>> carried_over(np.array([0, 2, 5, 6, 9]), np.array([0, 5, 9]), np.array([0, 7, 9])).tolist()
     [0, 2, 7, 9]
     """
+    # Fine borders between the old and the new place of a border are passed over: they go.
     low, high = np.minimum(before, after), np.maximum(before, after)
     at = np.searchsorted(low, fine, side="right") - 1
     passed = fine <= high[at]

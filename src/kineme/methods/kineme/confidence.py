@@ -136,7 +136,6 @@ def probability(statistic: Floats, weights: tuple[float, float]) -> Floats:
     >>> probability(np.array([0.0, 2.0]), (0.0, 1.0)).round(2).tolist()
     [0.5, 0.88]
     """
-    from scipy.special import expit
-
-    found: Floats = expit(weights[0] + weights[1] * statistic)
+    # The logistic function as a hyperbolic tangent, which does not overflow.
+    found: Floats = 0.5 + 0.5 * np.tanh((weights[0] + weights[1] * statistic) / 2)
     return found

@@ -1,4 +1,4 @@
-"""The constants of the method, stage by stage, with their values for bodies.
+"""Constants of the method, stage by stage, with their values for bodies.
 
 Costs are times at the median distance, which is that of two samples within a minute: a second of
 samples that are so far from their cluster costs 1 s. So costs mean the same whatever is measured,

@@ -62,7 +62,7 @@ def fitted_ends(
     cuts: Sequence[Frames],
     preset: KinemeConstants,
 ) -> Ends:
-    """The ends of activities where repetitions fit; neighbours do not overlap.
+    """Return the ends of activities where repetitions fit; neighbours do not overlap.
 
     Parameters
     ----------
@@ -77,6 +77,7 @@ def fitted_ends(
     preset : KinemeConstants
     """
     n = len(features)
+    # The last repetition is the first one of the recording played backwards.
     back = np.ascontiguousarray(features[::-1])
 
     def fitted(i: int) -> tuple[int, int, int, int]:
@@ -89,6 +90,7 @@ def fitted_ends(
     for left in np.flatnonzero(ends[:-1] >= begins[1:]).tolist():
         right = left + 1
         low, high = int(stops[left]), int(starts[right])
+        # One movement with a pause: the pause stays, or both would become one activity.
         if labels[left] == labels[right]:
             ends[left], begins[right] = low, high
         elif ends[left] > begins[right]:  # both reach into the time between them

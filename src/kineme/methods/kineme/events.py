@@ -281,11 +281,11 @@ def warped_path(
         kernels.follow(columns, costs, np.append(start, stop), scale, WORST)
         for stop, start in pairwise(pairs)
     ]
-    forth, forth_sums, back, back_sums = map(_joined, zip(*legs[::-1], strict=True))
+    forth, forth_sums, back, back_sums = map(_join_legs, zip(*legs[::-1], strict=True))
     return forth, forth_sums, back, back_sums
 
 
-def _joined(legs: tuple[Floats, ...]) -> Floats:
+def _join_legs(legs: tuple[Floats, ...]) -> Floats:
     """Values of legs one after the other, each going on from the last value of the one before."""
     shifts = np.cumsum([before[-1] - after[0] for before, after in pairwise(legs)])
     rest = [leg[1:] + shift for leg, shift in zip(legs[1:], shifts, strict=True)]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from kineme.methods.base import Columns
 from kineme.methods.doubts import doubts
 from kineme.methods.kineme import tree
-from kineme.methods.kineme.borders import in_samples
+from kineme.methods.kineme.borders import convert_to_samples
 from kineme.methods.kineme.confidence import Confidence, Evidence, confidence
 from kineme.methods.kineme.primitives import Segments
 from kineme.methods.levels import DETAILS, FineSegments, clusters_at, tables_at
@@ -110,16 +110,16 @@ class KinemeFound:
     def _fine_segments(self) -> tuple[FineSegments, Frames]:
         """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
         n, per_sample = len(self.features), self.preset.working_fps / self.preset.rate
-        coarse = in_samples(self.borders, self.preset, n)
+        coarse = convert_to_samples(self.borders, self.preset, n)
         nearest = np.rint(self.fine[:-1] / per_sample).astype(np.int64)
         fine = np.unique(np.append(np.minimum(nearest, n - 1), n))
-        found = tree.levels(fine, tree.between_segments(self.features, fine, self.unit))
+        found = tree.levels(fine, tree.sum_between_segments(self.features, fine, self.unit))
         most = min(len(found), EACH * len(coarse), max(MOST, len(coarse)))
         borders = np.unique(np.concatenate([coarse, fine[found[most - 1]]]))
         frames = np.rint(borders * per_sample).astype(np.int64)
         frames[np.searchsorted(borders, coarse)] = self.borders
         parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
-        sums = tree.between_segments(self.features, borders, self.unit) / 2
+        sums = tree.sum_between_segments(self.features, borders, self.unit) / 2
         return FineSegments(borders, np.arange(len(parents)), parents, sums), frames
 
     @cached_property

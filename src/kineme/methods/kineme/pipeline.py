@@ -1,4 +1,4 @@
-"""The method, stage by stage, from features to segments, repetitions and events.
+"""Method, stage by stage, from features to segments, repetitions and events.
 
 Skeletons and sensors are unknown here: features are any array of frames x dims.
 
@@ -30,9 +30,13 @@ from kineme.features.channels import sampled_at
 from kineme.methods.kineme.borders import carried_over, to_the_frame
 from kineme.methods.kineme.confidence import evidence
 from kineme.methods.kineme.found import KinemeFound
-from kineme.methods.kineme.primitives import with_clusters, with_events, with_repetitions
+from kineme.methods.kineme.primitives import (
+    divide_into_repetitions,
+    find_events,
+    merge_similar_clusters,
+)
 from kineme.methods.kineme.repeating import Repeating
-from kineme.methods.kineme.tree import Level, level_of, linked, median_distance, part_ends
+from kineme.methods.kineme.tree import Level, level_of, link_parts, median_distance, part_ends
 from kineme.methods.kineme.views import Views, most_agreed, views_of
 from kineme.methods.stages import Progress, stopwatch
 
@@ -110,17 +114,19 @@ def _analyze(
         unit = median_distance(features, preset.near)
         at = sampled_at(n, preset.working_fps, preset.rate)
         price = preset.cluster_price(len(parts[0].view))
-        level = linked(features, at, [part.level for part in parts], unit=unit, price=price)
+        level = link_parts(features, at, [part.level for part in parts], unit=unit, price=price)
     with stage("borders"):
         starts, stops = to_the_frame(rows, level.borders, preset)
         fine = carried_over(level.fine, level.borders, np.append(starts, n))
     with stage("repetitions"):
-        segments = with_repetitions(poses, starts, stops, level.labels, level.preference, preset)
+        segments = divide_into_repetitions(
+            poses, starts, stops, level.labels, level.preference, preset
+        )
         if preset.min_similarity < 1:
-            segments = with_clusters(poses, segments, preset)
+            segments = merge_similar_clusters(poses, segments, preset)
     if preset.event_scale:
         with stage("events"):
-            segments = with_events(poses, segments, preset)
+            segments = find_events(poses, segments, preset)
     with stage("confidence"):
         statistics = evidence(poses, segments, preset)
     return KinemeFound(features, preset, unit, segments, statistics, fine, timings)

@@ -1,4 +1,4 @@
-"""The two presets of the method: for bodies, and for signals."""
+"""Two presets of the method: for bodies, and for signals."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class KinemePreset(KinemeConstants):
-    """The method by its constants."""
+    """Method by its constants."""
 
     def analyze(
         self,

@@ -73,7 +73,7 @@ class Segments:
 
     @cached_property
     def firsts(self) -> Frames:
-        """The first primitive of each activity or transition, and the number of primitives."""
+        """First primitive of each activity or transition, and the number of primitives."""
         return np.searchsorted(self.parents, np.arange(len(self.labels) + 1))
 
     @cached_property
@@ -89,7 +89,7 @@ class Segments:
         return np.bincount(self.parents[self.repeats], minlength=len(self.labels))
 
 
-def with_repetitions(
+def divide_into_repetitions(
     rows: Rows,
     starts: Frames,
     stops: Frames,
@@ -111,9 +111,10 @@ def with_repetitions(
     """
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
     cuts = map_threads(lambda span: repetitions(rows, *span, preset), spans)
+    # Cuts of one activity do not depend on others; ends do, as they may fit another's repetition.
     ends = fitted_ends(rows, starts, stops, labels, cuts, preset)
-    borders, segment = _tiled(len(rows), ends.starts, ends.stops)
-    primitives, repeated = _tiled(len(rows), ends.firsts, ends.lasts, [borders, *cuts])
+    borders, segment = _tile(len(rows), ends.starts, ends.stops)
+    primitives, repeated = _tile(len(rows), ends.firsts, ends.lasts, [borders, *cuts])
     labels, preference = np.append(labels, -1), np.append(preference, np.nan)
     none = np.empty(0, np.int64)
     return Segments(
@@ -121,7 +122,7 @@ def with_repetitions(
     )
 
 
-def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
+def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
     """Segments whose clusters are one movement at any pace; neighbours of one cluster are joined.
 
     Parameters
@@ -134,22 +135,24 @@ def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Se
     """
     means = {}
     for segment in np.flatnonzero(segments.counts > 1).tolist():
-        movement, _, repeated = _repeated(rows, segments, segment, preset)
+        movement, _, repeated = _find_repeated(rows, segments, segment, preset)
+        # Centred poses plus their mean: posture tells two movements apart, too.
         means[segment] = repeated.mean(axis=0) + movement.middle
-    labels = linked(segments.labels, means, preset.min_similarity)
+    labels = link_clusters(segments.labels, means, preset.min_similarity)
     if (labels == segments.labels).all():
         return segments
     activities = np.flatnonzero(labels >= 0)
     first = np.flatnonzero(np.diff(labels[activities], prepend=-1))
+    # Neighbours that are one cluster now are one segment, with repetitions found anew.
     starts = segments.borders[:-1][activities[first]]
     stops = segments.borders[1:][activities[np.append(first[1:], len(activities)) - 1]]
     groups = np.split(segments.preference[activities], first[1:])
     preference = np.array([group.mean() for group in groups])
     labels = number_by_appearance(labels[activities[first]])
-    return with_repetitions(rows, starts, stops, labels, preference, preset)
+    return divide_into_repetitions(rows, starts, stops, labels, preference, preset)
 
 
-def linked(labels: Frames, movements: dict[int, Floats], least: float) -> Frames:
+def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) -> Frames:
     """Return the labels of segments; clusters whose movements are similar become one.
 
     The similarity of two movements is, at the phase at which they fit best,
@@ -174,6 +177,7 @@ def linked(labels: Frames, movements: dict[int, Floats], least: float) -> Frames
         return labels
     _, rank = np.unique(labels[repeating], return_inverse=True)
     first = np.argsort(rank, kind="stable")
+    # Rank of each segment in its cluster; the first `COMPARED` of each stand for it.
     within = np.arange(len(repeating)) - np.searchsorted(rank[first], rank[first])
     compared = repeating[np.sort(first[within < COMPARED])]
     similarity = kernels.similarities(np.stack([movements[at] for at in compared.tolist()]))
@@ -181,6 +185,7 @@ def linked(labels: Frames, movements: dict[int, Floats], least: float) -> Frames
         names, of = np.unique(labels[compared], return_inverse=True)
         members = np.eye(len(names))[of]
         sizes = members.sum(axis=0)
+        # Mean linkage: all pairs of segments of two clusters weigh the same.
         means = (members.T @ similarity @ members) / np.outer(sizes, sizes)
         np.fill_diagonal(means, -np.inf)
         one, other = sorted(divmod(int(means.argmax()), len(names)))
@@ -189,7 +194,7 @@ def linked(labels: Frames, movements: dict[int, Floats], least: float) -> Frames
         labels[labels == names[other]] = names[one]
 
 
-def with_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
+def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
     """Occurrences for primitives, where no segment repeats.
 
     A cluster whose repetitions explain each other keeps them. The others lose theirs where
@@ -203,39 +208,44 @@ def with_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     segments : Segments
     preset : KinemeConstants
     """
-    shares = explained(rows, segments, preset)
+    shares = measure_explained(rows, segments, preset)
     shares = action_means(shares, np.ones_like(segments.labels), segments.labels)
     weak = shares < preset.min_explained
     if weak.any():
         lengths = np.diff(segments.borders)
         searched = np.repeat(weak | (weak & (segments.labels >= 0)).any(), lengths)
+        # Where no activity is weak, transitions are not searched: there is nothing to recur with.
         found = occurrences(rows, searched, preset)
         recurring = found.within(segments.borders, weak).explained(segments.borders)
         recurring = action_means(recurring, lengths, segments.labels)
+        # Repetitions give way only where occurrences cover more of the activity than they explain.
         free = weak & ((segments.labels < 0) | (recurring > shares))
         found = found.within(segments.borders, free)
         if len(found):
-            segments = with_occurrences(segments, found, free)
-    return without_still(segments, rows, preset.event_scale / 4)
+            segments = replace_by_occurrences(segments, found, free)
+    return drop_still_clusters(segments, rows, preset.event_scale / 4)
 
 
-def explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
-    """The share of each segment's repetitions that the mean of the others explains; 0 of one."""
+def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
+    """Return the share of each segment's repetitions that the mean of the others explains.
+
+    0 of one.
+    """
     found = np.zeros(len(segments.labels))
 
     def explain(segment: int) -> None:
-        movement, visits, repeated = _repeated(rows, segments, segment, preset)
+        movement, visits, repeated = _find_repeated(rows, segments, segment, preset)
         kernels.center(repeated)
-        found[segment] = kernels.explained(movement.poses, movement.path, visits, repeated)
+        found[segment] = kernels.explain_variance(movement.poses, movement.path, visits, repeated)
 
     map_threads(explain, np.flatnonzero(segments.counts > 1).tolist())
     return found
 
 
-def _repeated(
+def _find_repeated(
     rows: Rows, segments: Segments, segment: int, preset: KinemeConstants
 ) -> tuple[Movement, Frames, Floats]:
-    """The span of a segment that repeats, the frames in it at which repetitions begin, and these.
+    """Return the span of a segment that repeats, the frames at which repetitions begin, and these.
 
     Repetitions are (repetitions, places, dims), evenly along their path.
     """
@@ -257,7 +267,7 @@ def action_means(shares: Floats, weights: NDArray[np.integer], labels: Frames) -
     return means
 
 
-def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Segments:
+def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Segments:
     """Return the segments with occurrences for primitives where no activity is periodic.
 
     Parameters
@@ -268,7 +278,8 @@ def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Seg
     free : (activities,) array of bool
         Transitions, and activities of clusters that are not periodic.
     """
-    borders, old = _without_empty(_out_of(found, segments.borders), segments.labels)
+    # A border inside an occurrence moves to its nearer end, which may empty a segment.
+    borders, old = _drop_empty(_out_of(found, segments.borders), segments.labels)
     free = free[old]
     cuts = segments.primitives[:-1]
     cuts = cuts[~free[_segment_at(borders, cuts)]]
@@ -294,7 +305,7 @@ def with_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Seg
     return Segments(borders, labels, segments.preference[old], primitives, clusters, not_periodic)
 
 
-def without_still(segments: Segments, rows: Rows, near: float) -> Segments:
+def drop_still_clusters(segments: Segments, rows: Rows, near: float) -> Segments:
     """Return the segments without primitives in clusters that neither repeat nor move.
 
     Parameters
@@ -306,9 +317,10 @@ def without_still(segments: Segments, rows: Rows, near: float) -> Segments:
     """
     actions, repeats = segments.labels[segments.parents], segments.repeats
     several = segments.counts[segments.parents] > 1
+    # One small movement in any primitive of a cluster is enough to keep all of them.
     moves = np.array([_reach(part) > near for part in np.split(rows, segments.primitives[1:-1])])
     still = np.setdiff1d(actions[repeats], actions[repeats & (moves | several)])
-    return without_repetitions(segments, still)
+    return drop_repetitions(segments, still)
 
 
 def _reach(rows: Rows) -> float:
@@ -316,7 +328,7 @@ def _reach(rows: Rows) -> float:
     return float(np.linalg.norm(rows - rows.mean(axis=0), axis=1).max())
 
 
-def without_repetitions(segments: Segments, actions: Frames) -> Segments:
+def drop_repetitions(segments: Segments, actions: Frames) -> Segments:
     """Return the segments without the repetitions of some clusters."""
     if not len(actions):
         return segments
@@ -328,7 +340,7 @@ def without_repetitions(segments: Segments, actions: Frames) -> Segments:
     )
 
 
-def _tiled(
+def _tile(
     n: int, starts: Frames, stops: Frames, cuts: Sequence[Frames] = ()
 ) -> tuple[Frames, Frames]:
     """Borders from 0 to n with these spans and cuts among them, and the span of each segment.
@@ -337,6 +349,7 @@ def _tiled(
     """
     borders: Frames = np.unique(np.concatenate([[0, n], starts, stops, *cuts]))
     spans = _segment_at(starts, borders[:-1])
+    # The span that began last may have ended; -1 indexes the 0 appended, which is never above.
     inside = (spans >= 0) & (borders[:-1] < np.append(stops, 0)[spans])
     return borders, np.where(inside, spans, -1)
 
@@ -347,9 +360,10 @@ def _segment_at(borders: Frames, frames: Frames) -> Frames:
     return segments
 
 
-def _without_empty(borders: Frames, labels: Frames) -> tuple[Frames, Frames]:
+def _drop_empty(borders: Frames, labels: Frames) -> tuple[Frames, Frames]:
     """Borders of the segments that have frames, and which they are; equal neighbours are one."""
     kept = np.flatnonzero(np.diff(borders) > 0)
+    # Segments that became neighbours and are of one cluster are one.
     kept = kept[np.append(True, labels[kept[1:]] != labels[kept[:-1]])]
     return np.append(borders[kept], borders[-1]), kept
 
@@ -361,5 +375,6 @@ def _out_of(found: Occurrences, borders: Frames) -> Frames:
     before = np.maximum(_segment_at(found.starts, borders), 0)
     starts, stops = found.starts[before], found.stops[before]
     inside = (starts < borders) & (borders < stops)
+    # Ties go to the start, so that no frame is lost from the occurrence before.
     nearer = np.where(borders - starts <= stops - borders, starts, stops)
     return np.where(inside, nearer, borders)

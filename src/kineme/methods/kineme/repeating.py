@@ -76,6 +76,7 @@ class Repeating:
         rows = self.rows[round(start / rate * fps) : round(stop / rate * fps)]
         if not SPAN[0] <= (stop - start) / rate <= SPAN[1] or len(rows) < PLACES:
             return None
+        # Where a pose is visited once per repetition, the visits divide the span.
         movement = movement_of(rows, self.preset)
         divisions = (
             (self._share(movement, visits), visits)
@@ -88,6 +89,7 @@ class Repeating:
         )
         if share <= 0:
             return None
+        # A part of a repetition before the first visit and after the last repeats, too.
         ends = candidate(movement, visits, self.preset, centering=1.0)
         period = (visits[-1] - visits[0]) / (len(visits) - 1)
         first = start + (visits[0] - min(ends.before, 1.0) * period) / fps * rate
@@ -98,9 +100,11 @@ class Repeating:
         """Return the share that a division saves, 0 to 1."""
         preset, count = self.preset, len(visits)  # both ends together are about one more
         durations = np.diff(visits) / preset.working_fps
+        # Two visits enclose one repetition, which nothing else can explain.
         if count < 3 or durations.max() > preset.max_repetition:
             return 0.0
         fast = min(preset.chance_period / float(durations.mean()), 1.0) ** 2
+        # Logarithms, since twice as long and half as long are equally uneven.
         even = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
         chance = min(preset.chance_count, preset.chance_duration / float(durations.mean()))
         share = even * (1 - max(fast, min(chance / count, 1.0)))
@@ -108,7 +112,8 @@ class Repeating:
             return 0.0
         repetitions = repetitions_between(movement.poses, movement.path, visits, PLACES)
         kernels.center(repetitions)
-        explained = kernels.explained(movement.poses, movement.path, visits, repetitions)
+        # The cheap factors are known to be above 0; these need all repetitions.
+        explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
         share *= _beyond(explained, preset.min_explained)
         share = share and share * _beyond(kernels.best_parting(repetitions), preset.two_movements)
         return share and share * _beyond(

@@ -115,7 +115,7 @@ class Candidate:
 
     @property
     def count(self) -> int:
-        return _rounded(self.number)
+        return _round_count(self.number)
 
     def is_chance(self, most: float) -> bool:
         """Return whether the mean of many repetitions would leave more than ``most`` unexplained.
@@ -123,6 +123,7 @@ class Candidate:
         The mean of few others has noise of its own, and explains less. That is allowed for: with
         the correlation 1 - ``most`` between any two, the mean of these others explains so much.
         """
+        # Variance of a mean: the common part stays, the noise of each is divided by their number.
         common, others = 1 - most, max(self.number - 1, 1)
         explained = common**2 * others / (1 + (others - 1) * common)
         return self.unexplained >= 1 - explained
@@ -164,18 +165,20 @@ def repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) 
         if each.cost <= best.cost + preset.same_cost
         and abs(each.number - best.number) <= SAME_COUNT
     ]
-    count = _rounded(float(np.mean([each.number for each in same])))
+    # Several divisions of nearly the same cost are more certain about the ends than one.
+    count = _round_count(float(np.mean([each.number for each in same])))
     divisions = [cuts for each in same if (cuts := each.cuts(count)) is not None]
     if not divisions:
         divisions = [cuts for cuts in [best.cuts(best.count)] if cuts is not None]
+    # Of divisions with that count the one with the most even repetitions.
     lengths = np.diff(np.array(divisions), axis=1, prepend=0, append=len(rows))
     cuts = divisions[lengths.std(axis=1).argmin()]
-    return start + at_rest(cuts, movement.path, preset.frames(REST_AVERAGED))
+    return start + shift_to_rest(cuts, movement.path, preset.frames(REST_AVERAGED))
 
 
 def movement_of(rows: Rows, preset: KinemeConstants) -> Movement:
     """Return a span of a recording as a path of poses."""
-    poses, speeds = kernels.smoothed(rows, preset.frames(SMOOTHED))
+    poses, speeds = kernels.smooth_rows(rows, preset.frames(SMOOTHED))
     path = np.append(0, np.cumsum(speeds))
     shares = speeds / max(path[-1], 1e-12)
     middle = shares @ poses
@@ -185,11 +188,15 @@ def movement_of(rows: Rows, preset: KinemeConstants) -> Movement:
 
 def visits_tried(rows: Rows, movement: Movement, preset: KinemeConstants) -> Iterator[Frames]:
     """Frames at which a pose is visited, once per repetition, of each division that is tried."""
+    # Some poses, evenly in time, each of which is searched everywhere.
     references = np.unique(np.linspace(0, len(rows) - 1, min(VOTERS, len(rows))).astype(np.int64))
     depths, centers = _dips(rows, references, preset)
+    # Dips are sorted by depth: after the last true visit the next dip is much shallower.
     falls = depths - np.pad(depths[:, 1:], ((0, 0), (0, 1)))
+    # A pose votes with its speed, since poses at rest are visited without a repetition.
     votes = np.diff(movement.path)[references] @ falls
     votes[0] = 0  # every pose visits itself
+    # Numbers of visits with most votes; for each the poses that are clearest about it.
     for column in np.argsort(-votes, kind="stable")[:COUNTS]:
         clear = np.argsort(-falls[:, column], kind="stable")[:POSES]
         if votes[column] > 0:
@@ -200,6 +207,7 @@ def _dips(rows: Rows, references: Frames, preset: KinemeConstants) -> tuple[Rows
     """Depths, 0 to 1, of each reference's dips, deepest first, and where they are."""
     distances = kernels.distances_to(rows, references)
     rank = int(DEEP * (len(rows) - 1))
+    # A quantile in place of the largest distance, which one outlier decides.
     large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
     noise = np.float32(preset.noise_share)
     depths, centers = kernels.dips(distances, noise * large)
@@ -239,12 +247,12 @@ def candidate(
     return Candidate(visits, before, after, ends, unexplained, preset)
 
 
-def _rounded(number: float) -> int:
+def _round_count(number: float) -> int:
     """Return a number of repetitions in whole ones, parts of them included."""
     return int(number + 1 - ROUNDED_UP)
 
 
-def at_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
+def shift_to_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     """Return the cuts, all moved by the same phase to where movement is slowest.
 
     They stay where there is no rest, and where the first or the last repetition would be less
@@ -262,12 +270,13 @@ def at_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     Examples
     --------
     >>> path = np.append(0, np.cumsum(np.tile([1.0, 1, 1, 1, 0, 0, 0, 1], 3)))
-    >>> at_rest(np.array([8, 16]), path, 1).tolist()
+    >>> shift_to_rest(np.array([8, 16]), path, 1).tolist()
     [5, 13]
     """
     if not len(cuts):
         return cuts
     n = len(path) - 1
+    # All cuts move by the same phase: by half a repetition to either side at most.
     usual = float(np.median(np.diff(cuts, prepend=0, append=n)))
     half = usual / 2
     shifts = np.arange(-int(half), int(half) + 1)
@@ -276,10 +285,13 @@ def at_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
         return cuts
     frames = np.arange(n)
     first, last = np.maximum(frames - averaged, 0), np.minimum(frames + averaged + 1, n)
+    # The path is a running sum of speeds, so differences give means at once.
     speeds = (path[last] - path[first]) / (last - first)
+    # (shifts,): mean speed at all cuts, if they were moved by that much.
     slowness = speeds[cuts[:, None] + shifts].mean(axis=0)
     if slowness.min() > RESTING * path[-1] / n:
         return cuts
+    # Then each cut goes to the slowest frame close by, as rests are never exactly even.
     rests = cuts + shifts[slowness.argmin()]
     reach = int(NEAR * usual)
     near = np.arange(-reach, reach + 1)

@@ -108,10 +108,10 @@ def level_of(features: Rows, preset: KinemeConstants, repeating: Repeating | Non
 
     cost = preset.samples(preset.fine_cost)
     fine = fine_borders(features, unit, width=preset.near, cost=cost)
-    sums = between_segments(features, fine, unit)
+    sums = sum_between_segments(features, fine, unit)
     level = best_level(fine, sums, preset, saved)
     at = np.searchsorted(fine, level.borders[:-1])
-    preference = preferences(summed(sums, at), np.diff(level.borders), level.labels)
+    preference = preferences(sum_runs(sums, at), np.diff(level.borders), level.labels)
     return Level(fine, level.borders, level.labels, preference)
 
 
@@ -148,11 +148,9 @@ def median_distance(features: Rows, width: int) -> float:
     width : int
         Samples that two are apart, at most.
     """
-    from scipy.spatial.distance import pdist
-
     at = spread(0, len(features), PAIRED)
-    near = pdist(at[:, None]) < max(width, 2 * len(features) // PAIRED)
-    apart = pdist(features[at])[near]
+    # Samples stand 1/PAIRED of the recording apart: of hours, neighbours must still be a pair.
+    apart = kernels.near_distances(features, at, max(width, 2 * len(features) // PAIRED))
     middle = float(np.median(apart)) if len(apart) else 0.0
     return middle if middle > 1e-9 else 1.0
 
@@ -176,16 +174,19 @@ def fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Sam
         kernels.similarity_band(features, unit, rows.start, rows.stop, similarity)
 
     map_threads(fill, make_even_slices(len(features)))
+    # The cost of a span is half the sum over ordered pairs, so a border costs twice as much there.
     borders: Samples = kernels.change_points(similarity, 2 * cost)
     return borders
 
 
-def between_segments(features: Rows, borders: Samples, unit: float) -> Floats:
+def sum_between_segments(features: Rows, borders: Samples, unit: float) -> Floats:
     """Summed distances of the samples of each two segments, (segments, segments), in units."""
     k = len(borders) - 1
+    # Few samples stand for a segment where there are many: time and memory stay bounded.
     most = max(LEAST, min(MOST, COMPARED // k))
     groups = [spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
     lengths = np.diff(borders)
+    # A mean distance times the number of pairs estimates the sum over all samples.
     sums = mean_distances(features, groups) * np.outer(lengths, lengths)
     return np.asarray(sums / unit, np.float64)
 
@@ -200,6 +201,7 @@ def mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
         kernels.mean_distances(features, chosen, ends, rows.start, rows.stop, means)
 
     map_threads(fill, make_even_slices(len(groups)))
+    # Kernels fill the upper half only.
     return np.triu(means) + np.triu(means, 1).T
 
 
@@ -210,13 +212,14 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
     ----------
     borders : (segments + 1,) array
     sums : (segments, segments) array
-        Of `between_segments`; is used up.
+        Of `sum_between_segments`; is used up.
     """
     lengths = np.diff(borders).astype(np.float64)
     alive = list(range(len(lengths)))
     found = [np.append(alive, len(lengths))]
 
     def loss(g: int, h: int) -> float:
+        # What two segments cost as one, less what they cost apart (Ward's criterion for distances).
         union = (sums[g, g] + sums[h, h] + 2 * sums[g, h]) / (lengths[g] + lengths[h])
         return float(union - sums[g, g] / lengths[g] - sums[h, h] / lengths[h])
 
@@ -224,10 +227,12 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
     while losses:
         at = int(np.argmin(losses))
         g, h = alive[at], alive[at + 1]
+        # Row and column g become the union; those of h are not read again.
         sums[g] += sums[h]
         sums[:, g] += sums[:, h]
         lengths[g] += lengths[h]
         del alive[at + 1], losses[at]
+        # Only the losses of the union with its two neighbours have changed.
         for left in (at - 1, at):
             if 0 <= left < len(losses):
                 losses[left] = loss(alive[left], alive[left + 1])
@@ -245,20 +250,22 @@ def best_level(
     borders : (segments + 1,) array
         Of the finest level.
     sums : (segments, segments) array
-        Of `between_segments`.
+        Of `sum_between_segments`.
     preset : KinemeConstants
     saved : callable
         Samples that a segment, from one to another, saves by repeating itself. They are subtracted
         from the cost of a level, and do not change its grouping.
     """
     tree = levels(borders, sums.copy())
+    # Levels of few segments differ most: each is tried; of many segments, ever sparser ones.
     tried = {*range(min(len(tree), EACH_LEVEL))}
     tried |= {int(at) for at in np.geomspace(1, len(tree), LEVELS).astype(np.int64) - 1}
     chosen = [tree[at] for at in sorted(tried)]
-    found = [grouped(borders[each], summed(sums, each[:-1]), preset) for each in chosen]
+    found = [group_segments(borders[each], sum_runs(sums, each[:-1]), preset) for each in chosen]
     segment_cost = preset.samples(preset.segment_cost)
     savings: dict[tuple[int, int], float] = {}
     best, cheapest = found[0], np.inf
+    # Best first: no level can cost less than if each segment saved all that it costs alone.
     for level in sorted(found, key=lambda level: level.cost - level.alone.sum()):
         if level.cost - level.alone.sum() >= cheapest:  # of those that follow none is cheaper
             break
@@ -273,7 +280,7 @@ def best_level(
     return best
 
 
-def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
+def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
     """Segments in clusters, without clusters that are too short, and what that costs.
 
     Parameters
@@ -292,10 +299,12 @@ def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
         sums.copy(), lengths.copy(), most, segment_cost, cluster_cost, share, labels
     )
     shortest = round(preset.samples(preset.min_action))
-    labels = without_short(labels, lengths, sums, shortest)
+    labels = absorb_short_clusters(labels, lengths, sums, shortest)
+    # Neighbours of one cluster are one segment.
     first = np.flatnonzero(np.diff(labels, prepend=-1))
-    lengths, sums = np.add.reduceat(lengths, first), summed(sums, first)
+    lengths, sums = np.add.reduceat(lengths, first), sum_runs(sums, first)
     labels = number_by_appearance(labels[first])
+    # (segments, clusters): 1 where a segment is in a cluster.
     members = np.eye(int(labels.max()) + 1)[labels]
     within = np.einsum("sc,st,tc->c", members, sums, members) / (2 * lengths @ members)
     cost = within.sum() + segment_cost * len(labels) + cluster_cost * len(within)
@@ -304,7 +313,9 @@ def grouped(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
     )
 
 
-def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: float) -> Samples:
+def absorb_short_clusters(
+    labels: Samples, lengths: Floats, sums: Floats, shortest: float
+) -> Samples:
     """Return the clusters of segments, where segments of short clusters have that of a neighbour.
 
     A cluster is short if no run of its segments is `shortest` samples long. Of short segments
@@ -316,7 +327,7 @@ def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: floa
     >>> places = np.array([0.0, 1.0, 4.0, 5.0])
     >>> lengths = np.array([9.0, 2.0, 2.0, 9.0])
     >>> sums = np.abs(places - places[:, None]) * np.outer(lengths, lengths)
-    >>> without_short(np.arange(4), lengths, sums, 7).tolist()
+    >>> absorb_short_clusters(np.arange(4), lengths, sums, 7).tolist()
     [0, 0, 3, 3]
     """
     first = np.flatnonzero(np.diff(labels, prepend=-1))
@@ -326,19 +337,21 @@ def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: floa
     if not len(long):
         return np.zeros_like(labels)
     kept = labels.copy()
+    # Before the first long segment and after the last there is one neighbour only.
     kept[: long[0]], kept[long[-1] :] = labels[long[0]], labels[long[-1]]
     members = np.eye(len(longest))[labels]
     apart = (sums @ members) / np.maximum(lengths @ members, 1.0)
     for before, after in pairwise(long.tolist()):
         short = slice(before + 1, after)
         gained = apart[short, labels[after]] - apart[short, labels[before]]
+        # The sum is least where the segments so far prefer the cluster before, the rest the other.
         border = before + 1 + int(np.cumsum([0.0, *-gained]).argmin())
         kept[before + 1 : border] = labels[before]
         kept[border:after] = labels[after]
     return kept
 
 
-def summed(sums: Floats, first: Samples) -> Floats:
+def sum_runs(sums: Floats, first: Samples) -> Floats:
     """Sums (segments, segments) added up to those of runs of segments that begin at `first`."""
     return np.asarray(np.add.reduceat(np.add.reduceat(sums, first, 0), first, 1), np.float64)
 
@@ -356,6 +369,7 @@ def preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
     means = (sums @ members) / np.outer(lengths, lengths @ members)
     each = np.arange(len(labels))
     inside = means[each, labels]
+    # The nearest other cluster, not the own one.
     means[each, labels] = np.inf
     return np.asarray(np.clip(1 - inside / np.maximum(means.min(axis=1), 1e-12), 0, 1), np.float64)
 
@@ -384,7 +398,7 @@ def part_ends(n: int, longest: int) -> list[int]:
     return [round(n * part / count) for part in range(count + 1)]
 
 
-def linked(
+def link_parts(
     features: Rows, at: Samples, parts: Sequence[Level], *, unit: float, price: float
 ) -> Level:
     """Return the parts one after the other, with clusters that mean the same in all of them.
@@ -409,6 +423,7 @@ def linked(
     labels = np.concatenate([part.labels + number for part, number in numbers])
     ends = np.concatenate([[0], *(part.borders[1:] for part in parts)])
     fine = np.concatenate([[0], *(part.fine[1:] for part in parts)])
+    # A cluster is compared by some of its samples, so each sample needs its cluster.
     per_sample = labels[np.searchsorted(ends, at, side="right") - 1]
     sizes = np.bincount(per_sample, minlength=int(firsts[-1]))
     if sizes.all():  # a part shorter than a sample has nothing to compare: parts stay apart
@@ -424,7 +439,7 @@ def linked(
 
 
 def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Samples:
-    """The clusters of all parts, where those of different parts may be one: a number for each.
+    """Return clusters of all parts, where those of different parts may be one: a number for each.
 
     Parameters
     ----------
@@ -449,12 +464,15 @@ def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Sampl
     owner = np.arange(len(means))
     while True:
         within = np.diag(means)
+        # The energy distance: between two clusters, less the mean of what is within them.
         gaps = means - np.add.outer(within, within) / 2
         costs = gaps * np.outer(lengths, lengths) / np.maximum(np.add.outer(lengths, lengths), 1)
+        # Clusters that share a part stay apart: there they were told from each other.
         costs[parts @ parts.T] = np.inf
         a, b = sorted(divmod(int(np.argmin(costs)), len(costs)))
         if not costs[a, b] < price:
             return owner
+        # Mean distances of the union are means weighted by the lengths.
         share = lengths[b] / (lengths[a] + lengths[b])
         means[a] += share * (means[b] - means[a])
         means[:, a] += share * (means[:, b] - means[:, a])

@@ -56,7 +56,7 @@ class Views:
 
 
 class Scale(NamedTuple):
-    """The constants of one view; see `KinemeConstants`."""
+    """Constants of one view; see `KinemeConstants`."""
 
     shared: float
     weight: float
@@ -85,19 +85,20 @@ def views_of(
     requested = [(np.arange(scaled.shape[1]), scale) for scale in scales]
     if len(scales) > 1:
         halves = slow_and_fast(scaled)
+        # An answer that half of the channels gives as well depends on no single channel.
         requested += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
-    found = _in_scales(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
+    found = _make_scales(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
     return Views(found[: len(scales)], found[len(scales) :])
 
 
-def with_velocities(
+def append_velocities(
     view: NDArray[np.float32], channels: int, steps: int, weight: float
 ) -> NDArray[np.float32]:
-    """The view and, `weight` times, how its means change from `steps` before to `steps` after.
+    """Return view and, `weight` times, how its means change from `steps` before to `steps` after.
 
     Examples
     --------
-    >>> with_velocities(np.float32([[0], [1], [5], [5]]), 1, 1, 0.5)[:, 1].tolist()
+    >>> append_velocities(np.float32([[0], [1], [5], [5]]), 1, 1, 0.5)[:, 1].tolist()
     [0.5, 2.5, 2.0, 0.0]
     """
     means, at = view[:, :channels], np.arange(len(view))
@@ -122,7 +123,7 @@ def slow_and_fast(scaled: Floats) -> list[Ints]:
     return [np.sort(order[:middle]), np.sort(order[middle:])]
 
 
-def _in_scales(
+def _make_scales(
     scaled: Floats,
     requested: Sequence[tuple[Ints, Scale]],
     preset: KinemeConstants,
@@ -130,6 +131,7 @@ def _in_scales(
 ) -> list[NDArray[np.float32]]:
     """A view for each request of channels and a scale, with velocities if they have a weight."""
     mixtures = {
+        # Scales that reduce the same variance share one mixture, which takes most of the time.
         (channels.tobytes(), scale.shared): Mixture(
             channels, reduce_shared(scaled[:, channels], scale.shared)
         )
@@ -148,13 +150,13 @@ def _in_scales(
     for channels, scale in requested:
         values = statistics[channels.tobytes(), scale.shared]
         view = (
-            by_restlessness(values, round(preset.samples(scale.restless_over)), scale.weight)
+            divide_by_change(values, round(preset.samples(scale.restless_over)), scale.weight)
             if scale.restless_over
-            else by_deviation(values, len(channels), scale.weight)
+            else divide_by_deviation(values, len(channels), scale.weight)
         )
         steps = max(1, round(preset.samples(VELOCITY_OVER)))
         weight = velocity_weight
-        found.append(with_velocities(view, len(channels), steps, weight) if weight else view)
+        found.append(append_velocities(view, len(channels), steps, weight) if weight else view)
     return found
 
 
@@ -181,6 +183,7 @@ def reduce_shared(scaled: Floats, most: float) -> Reduction | None:
         variances, weights = np.linalg.eigh(scaled @ scaled.T / frames)
         large = variances > most
         variances = variances[large]
+        # Left singular vectors times the data give the right ones.
         directions = scaled.T @ (weights[:, large] / np.sqrt(frames * variances))
     factors = np.sqrt(most / variances)
     # Variance of each channel, less what its large directions lose.
@@ -189,7 +192,7 @@ def reduce_shared(scaled: Floats, most: float) -> Reduction | None:
     return Reduction(directions, factors, 1 / np.where(left > TINY, left, 1.0))
 
 
-def by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np.float32]:
+def divide_by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np.float32]:
     """Means, and each band, divided by their whole deviation to the power `weight`.
 
     Parameters
@@ -200,25 +203,28 @@ def by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np
         1 gives each group the same weight, 0 leaves them as they are.
     """
     centred = statistics - statistics.mean(axis=0)
+    # Columns are grouped: means of all channels, then energies of all in each band.
     groups = centred.reshape(len(centred), -1, channels)
     deviations = np.sqrt((groups**2).mean(axis=(0, 2), keepdims=True))
     scaled = groups / np.where(deviations > TINY, deviations, 1.0) ** weight
     return np.ascontiguousarray(scaled.reshape(centred.shape), np.float32)
 
 
-def by_restlessness(statistics: Floats, steps: int, weight: float) -> NDArray[np.float32]:
+def divide_by_change(statistics: Floats, steps: int, weight: float) -> NDArray[np.float32]:
     """Return each statistic divided by its mean change over so many samples to the power `weight`.
 
     Examples
     --------
     >>> restless = np.column_stack([np.arange(8) % 2, np.arange(8) // 4])
-    >>> by_restlessness(restless.astype(float), 1, 1.0).std(axis=0).round(2).tolist()
+    >>> divide_by_change(restless.astype(float), 1, 1.0).std(axis=0).round(2).tolist()
     [0.5, 3.5]
     """
     centred = statistics - statistics.mean(axis=0)
+    # Of a short recording a third is enough to see a change.
     steps = max(1, min(steps, len(centred) // 3))
     changes = np.abs(centred[steps:] - centred[:-steps])
     restless = changes.mean(axis=0) if len(changes) else np.zeros(centred.shape[1])
+    # A statistic that never changes would grow without bounds.
     least = STILL * float(np.sqrt((restless**2).mean()))
     if least < TINY:
         return np.ascontiguousarray(centred, np.float32)
@@ -255,7 +261,7 @@ def most_agreed(answers: Sequence[Labels], others: Sequence[Labels] = ()) -> int
 
 
 def mutual_information(first: Labels, second: Labels) -> float:
-    """The mutual information of two clusterings of the same samples, over their mean entropy.
+    """Return mutual information of two clusterings of the same samples, over their mean entropy.
 
     Examples
     --------
@@ -264,6 +270,7 @@ def mutual_information(first: Labels, second: Labels) -> float:
     >>> mutual_information(np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1]))
     0.0
     """
+    # Two labels as one number, so that one count gives the table of both.
     width = int(second.max()) + 1
     together = np.bincount(first * width + second, minlength=(int(first.max()) + 1) * width)
     table = together.reshape(-1, width)

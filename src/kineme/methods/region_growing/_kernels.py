@@ -36,7 +36,7 @@ def group_pairs(indptr, indices, by_later):
 
 @njit("int64(int64[::1], int64, int64)", **OPTIONS)
 def most(counts, first, last):
-    """The largest of the counts from first to last, both inclusive."""
+    """Return the largest of the counts from first to last, both inclusive."""
     largest = counts[first]
     for i in range(first + 1, last + 1):
         largest = max(largest, counts[i])
@@ -74,7 +74,7 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
 
 @njit("int64[::1](int64[::1], int32[::1], boolean[::1], int64, int64)", **OPTIONS)
 def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
-    """The same from the end; regions also end at forward cuts.
+    """Return the same from the end; regions also end at forward cuts.
 
     ``later[indptr[i]:indptr[i + 1]]`` holds the later frame of every stored
     pair whose earlier frame is i.
@@ -124,7 +124,7 @@ def scan_lines_forward(indptr, indices, min_gap, min_count):
 
 @njit("int64[::1](int64[::1], int32[::1], boolean[::1], int64, int64)", **OPTIONS)
 def scan_lines_backward(indptr, indices, forward_cuts, min_gap, min_count):
-    """The same from the end; regions also end at forward cuts."""
+    """Return the same from the end; regions also end at forward cuts."""
     cuts = []
     end = len(indptr) - 2
     region = still = 0
@@ -176,7 +176,7 @@ def coherent_paths(ptr, rows, columns, share):
 
 @njit("int64(int32[::1], int32[::1], int64)", **OPTIONS)
 def row_of_column(rows, columns, column):
-    """The row at which a path passes a column, between two nodes their mean rounded half up."""
+    """Return row at which a path passes a column, between two nodes their mean rounded half up."""
     at = max(np.searchsorted(columns, column, side="right") - 1, 0)
     if columns[at] < column and at + 1 < len(rows):
         return (rows[at] + rows[at + 1] + 1) // 2

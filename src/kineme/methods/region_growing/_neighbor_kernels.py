@@ -19,7 +19,7 @@ RUN = 32
 
 @njit("float32(float32[::1], int64, int64)", **OPTIONS)
 def smallest(values, count, rank):
-    """The value of this rank, from 0, among the first ``count``, which are reordered.
+    """Return the value of this rank, from 0, among the first ``count``, which are reordered.
 
     Hoare's quickselect: numpy's partition would take seconds to compile.
     """

@@ -47,7 +47,7 @@ def used_columns(indices, first, node):
 
 @njit("Tuple((int32[::1], int64, int64))(int64[:, ::1], int64)", **OPTIONS)
 def empty_ring(steps, width):
-    """The ring, the length of its rows, and how far steps reach to the left."""
+    """Return the ring, the length of its rows, and how far steps reach to the left."""
     depth, reach = 1, 0
     for s in range(len(steps)):
         depth = max(depth, steps[s, 0] + 1)

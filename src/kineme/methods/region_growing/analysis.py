@@ -1,4 +1,4 @@
-"""The published methods: what each stage finds, in frames of the working rate.
+"""Published methods: what each stage finds, in frames of the working rate.
 
 Nothing here knows what a skeleton is: any array of frames × dims will do.
 """
@@ -95,7 +95,7 @@ def analyze_regions(
         with stage("mirroring"):
             graph_across = _neighbors(mirror(compared), compared, preset)
             mirrored = _primitives(graph_across, borders, preset)
-            cuts_inside = _merged(divided, mirrored, preset)
+            cuts_inside = _merge_cuts(divided, mirrored, preset)
             symmetry = _symmetry(borders, repeats, divided, mirrored, preset)
     with stage("clusters"):
         primitives = _borders(np.concatenate([borders, *cuts_inside]), len(graph))
@@ -185,7 +185,7 @@ def _primitives(
     return map_threads(cuts_of, range(len(borders) - 1))
 
 
-def _merged(
+def _merge_cuts(
     main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionGrowingConstants
 ) -> list[Frames]:
     gap = preset.min_primitive * preset.working_fps

@@ -1,4 +1,4 @@
-"""The constants of the published methods: what each does, its unit and its limits.
+"""Constants of the published methods: what each does, its unit and its limits.
 
 Lengths are metres, times seconds.
 """

@@ -31,7 +31,7 @@ HALF = 0.5  # of the frames; more are most of them
 def merged_cuts(
     main: NDArray[np.int64], mirrored: NDArray[np.int64], gap: float
 ) -> NDArray[np.int64]:
-    """The main cuts, and those mirrored ones that are farther than ``gap`` frames from them all.
+    """Return main cuts, and those mirrored ones that are farther than ``gap`` frames from them all.
 
     Mirrored cuts are not compared with each other.
     """

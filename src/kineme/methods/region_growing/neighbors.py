@@ -92,7 +92,10 @@ class NeighborGraph:
         return np.diff(self.indptr)
 
     def nearest(self, k: int) -> NeighborGraph:
-        """The same graph with the k nearest of each frame only; ties to the earlier frame."""
+        """Return the same graph with the k nearest of each frame only.
+
+        Ties to the earlier frame.
+        """
         if not (is_number(k) and k >= 1):
             raise ParameterError(f"the number of neighbours must be at least 1, not {k!r}")
         if self.n_entries == 0 or k >= self.counts.max():
@@ -115,7 +118,7 @@ class NeighborGraph:
         )
 
     def restrict(self, *, radius: float | None = None, min_lag: int = 0) -> NeighborGraph:
-        """The same graph with the entries within a smaller radius and with |j − i| ≥ min_lag."""
+        """Return same graph with the entries within a smaller radius and with |j − i| ≥ min_lag."""
         radius = self.radius if radius is None else min(radius, self.radius)
         indptr = np.zeros_like(self.indptr)
         indices = np.empty_like(self.indices)
@@ -256,7 +259,7 @@ def _measure(
     k: int | None,
     part: slice,
 ) -> Part:
-    """The neighbours of some rows of a block: screened by estimate, measured, the k nearest."""
+    """Return neighbours of some rows of a block: screened by estimate, measured, the k nearest."""
     counts = np.empty(part.stop - part.start, np.int64)
     hits = screened[part]
     _kernels.screen_columns(

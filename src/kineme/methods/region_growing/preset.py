@@ -1,4 +1,4 @@
-"""The published methods' constants, and where each comes from.
+"""Published methods' constants, and where each comes from.
 
 Lengths are metres, times seconds. Sources are named as
 

@@ -77,7 +77,7 @@ def primitive_cuts(
         separation=separation,
     )
     coherent = _kernels.coherent_paths(paths.ptr, paths.rows, paths.columns, symmetry)
-    paths = paths.select(coherent & paths.within_slope(max_slope))
+    paths = paths.select(coherent & paths.is_within_slope(max_slope))
     return _choose(paths, first + min_length, last - min_length, min_length)
 
 

@@ -83,7 +83,7 @@ class WarpingPaths:
         (row_start, column_start), (row_end, column_end) = self.starts, self.ends
         return (column_end - column_start) / (row_end - row_start)
 
-    def within_slope(self, max_slope: float) -> NDArray[np.bool_]:
+    def is_within_slope(self, max_slope: float) -> NDArray[np.bool_]:
         """Return which paths match spans that differ by this factor at most in length."""
         slopes = self.slopes
         return (slopes >= 1 / max_slope) & (slopes <= max_slope)
@@ -165,7 +165,7 @@ def warping_paths(
     paths = WarpingPaths(ptr, path_rows, path_columns, costs)
     keep = paths.n_nodes >= min_nodes
     if max_slope is not None:
-        keep &= paths.within_slope(max_slope)
+        keep &= paths.is_within_slope(max_slope)
     return paths.select(keep)
 
 

@@ -13,7 +13,7 @@ changed lose theirs.
 
 from kineme.segments.editing.annotating import check, comment, comments, exclude
 from kineme.segments.editing.borders import delete_border, merge, move_border, split
-from kineme.segments.editing.carrying import carried
+from kineme.segments.editing.carrying import carry_corrections
 from kineme.segments.editing.clusters import (
     merge_clusters,
     order_clusters,
@@ -24,7 +24,7 @@ from kineme.segments.editing.clusters import (
 from kineme.segments.editing.naming import cluster_names, name_cluster, name_segment
 
 __all__ = [
-    "carried",
+    "carry_corrections",
     "check",
     "cluster_names",
     "comment",

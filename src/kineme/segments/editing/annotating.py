@@ -51,8 +51,8 @@ def check(
     (('activity', 380, 928),)
     """
     chosen = {span_of(starting(segmentation, level, frame)) for frame in frames}
-    before = marked(segmentation, "checked")
-    return with_marked(segmentation, "checked", before | chosen if checked else before - chosen)
+    before = find_marked(segmentation, "checked")
+    return set_marked(segmentation, "checked", before | chosen if checked else before - chosen)
 
 
 def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> Segmentation:
@@ -87,8 +87,8 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
     row = starting(segmentation, level, frame)
     kept = [each for each in comments(segmentation) if not _is_of(each, row)]
     if text:
-        kept.append(_of(row, text))
-    return with_comments(segmentation, kept)
+        kept.append(_make_comment(row, text))
+    return set_comments(segmentation, kept)
 
 
 def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -> Segmentation:
@@ -151,44 +151,49 @@ def span_of(row: Segment) -> Span:
     return row.level, row.start_frame, row.stop_frame
 
 
-def marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
+def find_marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
     """Return the segments that people vouch for in this sense."""
     spans: set[Span] = {*getattr(segmentation.annotation, mark)}
     table = segmentation.table
     return spans.intersection(_columns(table.level, table.start_frame, table.stop_frame))
 
 
-def with_marked(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
+def set_marked(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
     """Return the same segments, of which people vouch for these and no others in this sense."""
     entry: dict[str, Any] = {mark: tuple(sorted(set(spans)))}
     return replace(segmentation, annotation=replace(segmentation.annotation, **entry))
 
 
-def noted(before: Segmentation, after: Segmentation) -> Segmentation:
+def mark_edited(before: Segmentation, after: Segmentation) -> Segmentation:
     """Return the segmentation after an edit, with what the edit made marked as made by hand."""
     earlier, now = (
         {*_columns(rows.level, rows.start_frame, rows.stop_frame, rows.kind, rows.cluster)}
         for rows in (before.table, after.table)
     )
     made = {(level, start, stop) for level, start, stop, *_ in now - earlier}
-    return with_marked(after, "by_hand", made | marked(after, "by_hand"))
+    return set_marked(after, "by_hand", made | find_marked(after, "by_hand"))
 
 
-def in_rows(segmentation: Segmentation) -> list[str]:
+def assign_comments(segmentation: Segmentation) -> list[str]:
     """Return the comments on each row, in their order; empty where there is none."""
     entries = comments(segmentation)
     return ["; ".join(each[2] for each in entries if _is_of(each, row)) for row in segmentation]
 
 
 def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
-    """The same segments with these comments, one for each row; as they are where they say that."""
-    if list(texts) == in_rows(segmentation):
+    """Return the same segments with these comments, one for each row.
+
+    As they are where they say that.
+    """
+    if list(texts) == assign_comments(segmentation):
         return segmentation
-    entries = [_of(row, text) for row, text in zip(segmentation, texts, strict=True) if text]
-    return with_comments(segmentation, entries)
+    entries = [
+        _make_comment(row, text) for row, text in zip(segmentation, texts, strict=True) if text
+    ]
+    return set_comments(segmentation, entries)
 
 
-def with_comments(segmentation: Segmentation, entries: list[Comment]) -> Segmentation:
+def set_comments(segmentation: Segmentation, entries: list[Comment]) -> Segmentation:
     """Return the same segments with these comments and no others."""
     annotation = replace(segmentation.annotation, comments=tuple(entries))
     return replace(segmentation, annotation=annotation)
@@ -199,7 +204,7 @@ def _columns(*columns: NDArray[Any]) -> Iterator[tuple[Any, ...]]:
     return zip(*(column.tolist() for column in columns), strict=True)
 
 
-def _of(row: Segment, text: str) -> Comment:
+def _make_comment(row: Segment, text: str) -> Comment:
     """Return a comment on a segment, at its middle frame."""
     return row.level, _middle(row), text
 

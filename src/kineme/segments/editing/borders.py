@@ -6,21 +6,21 @@ from kineme.errors import ParameterError
 from kineme.segments.editing.rows import (
     Part,
     Rows,
-    adopted,
-    after_border,
+    change_parent,
     cut,
     cuts,
+    find_row_after,
     handed_over,
-    joined,
+    join_rows,
     length,
-    moved,
+    move_border_rows,
 )
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
 
 def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -> Segmentation:
-    """The border at ``frame`` stands at ``to``, between those before and after it.
+    """Move the border at ``frame`` to ``to``, between those before and after it.
 
     Of the primitive borders that an activity's border passes, the last one
     moves with it; primitives between the others go to the activity that grew.
@@ -53,7 +53,7 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
     >>> moved.cuts()[0].item(), moved.cuts("primitive")[4].item()
     (330, 330)
     """
-    after = after_border(segmentation, level, frame)
+    after = find_row_after(segmentation, level, frame)
     table = segmentation.level(level)
     low, high = table[after - 1].start_frame, table[after].stop_frame
     if not low < to < high:
@@ -66,9 +66,9 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
     activities, primitives = part.activities, part.primitives
     if level == "primitive":
         if frame in cuts(activities):
-            activities = moved(activities, frame, to)
-        return part.replaced(activities, moved(primitives, frame, to))
-    wider = moved(activities, frame, to)
+            activities = move_border_rows(activities, frame, to)
+        return part.replaced(activities, move_border_rows(primitives, frame, to))
+    wider = move_border_rows(activities, frame, to)
     if primitives:
         primitives = handed_over(primitives, activities, wider, (1, frame, to))
     return part.replaced(wider, primitives)
@@ -149,7 +149,7 @@ def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Se
         )
     part = Part.of(segmentation, start, stop)
     first = _number(part.of_level(level), start)
-    return _merged(part, level, first, first + len(chosen) - 1, like=first)
+    return _merge_rows(part, level, first, first + len(chosen) - 1, like=first)
 
 
 def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
@@ -179,12 +179,12 @@ def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segme
     >>> delete_border(found, "activity", 326).activities[0].stop_frame
     380
     """
-    after_border(segmentation, level, frame)
+    find_row_after(segmentation, level, frame)
     part = Part.of(segmentation, frame - 1, frame + 1)
     rows = part.of_level(level)
     after = _number(rows, frame)
     longer = after if length(rows[after]) > length(rows[after - 1]) else after - 1
-    return _merged(part, level, after - 1, after, like=longer)
+    return _merge_rows(part, level, after - 1, after, like=longer)
 
 
 def _number(rows: Rows, frame: int) -> int:
@@ -192,7 +192,7 @@ def _number(rows: Rows, frame: int) -> int:
     return next(i for i, row in enumerate(rows) if row.start_frame == frame)
 
 
-def _merged(part: Part, level: Level, first: int, last: int, *, like: int) -> Segmentation:
+def _merge_rows(part: Part, level: Level, first: int, last: int, *, like: int) -> Segmentation:
     activities, primitives = part.activities, [*part.primitives]
     if level == "primitive":
         if primitives[first].activity != primitives[last].activity:
@@ -200,11 +200,13 @@ def _merged(part: Part, level: Level, first: int, last: int, *, like: int) -> Se
             raise ParameterError(
                 f"the border at frame {border} is one of activities: delete it on that level"
             )
-        return part.replaced(activities, joined(primitives, first, last, like))
-    merged = joined(activities, first, last, like)
+        return part.replaced(activities, join_rows(primitives, first, last, like))
+    merged = join_rows(activities, first, last, like)
     inside = [i for i, row in enumerate(primitives) if first <= row.activity <= last]
     for i in inside:
-        primitives[i] = adopted(primitives[i], activities[primitives[i].activity], merged[first])
+        primitives[i] = change_parent(
+            primitives[i], activities[primitives[i].activity], merged[first]
+        )
     if inside and merged[first].kind == "transition":
-        primitives = joined(primitives, inside[0], inside[-1], inside[0])
+        primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
     return part.replaced(merged, primitives)

@@ -24,21 +24,21 @@ from kineme.segments.annotation import Span
 from kineme.segments.editing.annotating import (
     Mark,
     comments,
-    marked,
+    find_marked,
+    set_comments,
+    set_marked,
     span_of,
-    with_comments,
-    with_marked,
 )
-from kineme.segments.editing.naming import cluster_names, name_cluster, with_cluster_names
+from kineme.segments.editing.naming import cluster_names, name_cluster, set_cluster_names
 from kineme.segments.editing.rows import (
     Rows,
-    adopted,
+    change_parent,
     cut,
     cuts,
-    joined,
+    join_rows,
     length,
-    renumbered,
-    with_rows,
+    renumber_clusters,
+    replace_rows,
 )
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
@@ -66,7 +66,7 @@ class Carried:
     lost: list[str]
 
 
-def carried(before: Segmentation, found: Segmentation) -> Carried:
+def carry_corrections(before: Segmentation, found: Segmentation) -> Carried:
     """Return a new segmentation with the corrections and names of the one before.
 
     Parameters
@@ -86,24 +86,24 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
     >>> from kineme.datasets import bundled_truth
     >>> found = kineme.read_segments(bundled_truth())
     >>> anew = kineme.segment(kineme.read(kineme.bundled_recording()))
-    >>> "squat" in carried(found, anew).segmentation.activities.label.tolist()
+    >>> "squat" in carry_corrections(found, anew).segmentation.activities.label.tolist()
     True
     """
-    flags = {mark: marked(before, mark) for mark in get_args(Mark)}
+    flags = {mark: find_marked(before, mark) for mark in get_args(Mark)}
     fixed = [row for row in before if span_of(row) in set().union(*flags.values())]
     if not len(found.primitives):
         fixed = [row for row in fixed if row.level == "activity"]
     singles = {span_of(row) for row in _singly_named(before)}
     placed = [row if span_of(row) in singles else replace(row, label="") for row in fixed]
-    now = _imposed(_numbered_like(before, found), placed)
+    now = _impose_segments(_numbered_like(before, found), placed)
     for mark, spans in flags.items():
-        now = with_marked(now, mark, spans)
-    now = with_comments(now, comments(before))
+        now = set_marked(now, mark, spans)
+    now = set_comments(now, comments(before))
     annotation = replace(now.annotation, excluded=before.annotation.excluded)
     if fixed:
         annotation = replace(annotation, corrections=before.annotation.corrections)
     now = replace(now, annotation=annotation)
-    return _named(now, before, len(fixed))
+    return _carry_names(now, before, len(fixed))
 
 
 def names_of(segmentation: Segmentation) -> int:
@@ -124,14 +124,14 @@ def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
     number = {}
     for cluster in sorted(set(found.table.cluster.tolist()) - {-1}):
         number[cluster] = match[cluster] if cluster in match else next(free)
-    return renumbered(found, number)
+    return renumber_clusters(found, number)
 
 
 def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]:
     """Return the old number of each new cluster that has one."""
     shared: dict[int, Counter[int]] = {}
     for level in get_args(Level):
-        pairs = np.stack([_by_frame(before, level), _by_frame(found, level)])
+        pairs = np.stack([_spread_clusters(before, level), _spread_clusters(found, level)])
         for (old, new), frames in zip(*_counts(pairs), strict=True):
             if old >= 0:
                 shared.setdefault(old, Counter())[new] += frames
@@ -146,7 +146,7 @@ def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, i
     return match
 
 
-def _by_frame(segmentation: Segmentation, level: Level) -> NDArray[np.int64]:
+def _spread_clusters(segmentation: Segmentation, level: Level) -> NDArray[np.int64]:
     """Return the cluster of each frame; -1 everywhere where there is no such level."""
     rows = segmentation.level(level)
     if not len(rows):
@@ -159,7 +159,7 @@ def _counts(pairs: NDArray[np.int64]) -> tuple[list[list[int]], list[int]]:
     return values.T.tolist(), counts.tolist()
 
 
-def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
+def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
     """Return the new table with the names of the old one, and the names that found no place."""
     lost, new_names = [], dict[int, str]()
     present = set(now.table.cluster.tolist())
@@ -182,7 +182,7 @@ def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
         else:
             labels[span_of(twin)] = row.label
     rows = [replace(row, label=labels.get(span_of(row), row.label)) for row in now]
-    now = with_cluster_names(with_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
+    now = set_cluster_names(replace_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
     return Carried(now, fixed, len(names) + len(singles), lost)
 
 
@@ -191,22 +191,22 @@ def _twin(segmentation: Segmentation, row: Segment) -> Segment | None:
     rows = segmentation.level(row.level)
     if not len(rows):
         return None
-    other = _in_the_middle(rows, row)
+    other = _find_middle_row(rows, row)
     return other if 2 * _overlap(row, other) > max(length(row), length(other)) else None
 
 
-def _imposed(found: Segmentation, fixed: Rows) -> Segmentation:
+def _impose_segments(found: Segmentation, fixed: Rows) -> Segmentation:
     """Return the segmentation with these segments in it as they are."""
     by_level = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
     activities = _sparing(list(found.activities), by_level["primitive"])
-    activities = _with_fixed(activities, by_level["activity"])
+    activities = _insert_fixed(activities, by_level["activity"])
     if not len(found.primitives):
-        return with_rows(found, activities, [])
+        return replace_rows(found, activities, [])
     primitives = _cut_at(activities, list(found.primitives))
     for row in by_level["activity"]:
         primitives = _inside(primitives, row, found)
-    primitives = _cut_at(activities, _with_fixed(primitives, by_level["primitive"]))
-    return with_rows(found, activities, primitives)
+    primitives = _cut_at(activities, _insert_fixed(primitives, by_level["primitive"]))
+    return replace_rows(found, activities, primitives)
 
 
 def _cut_at(activities: Rows, primitives: Rows) -> Rows:
@@ -217,7 +217,7 @@ def _cut_at(activities: Rows, primitives: Rows) -> Rows:
 
 
 def _sparing(activities: Rows, primitives: Rows) -> Rows:
-    """The activities, whose borders inside primitives that stay go to the nearer end of those."""
+    """Return the activities, their borders moved out of primitives that stay, to the nearer end."""
     starts = [row.start_frame for row in primitives]
 
     def moved(border: int) -> int:
@@ -231,22 +231,25 @@ def _sparing(activities: Rows, primitives: Rows) -> Rows:
     return [row for row in rows if row.start_frame < row.stop_frame]
 
 
-def _with_fixed(rows: Rows, fixed: Rows) -> Rows:
-    """The rows with others in their place; what is left of less than half of a row is joined on."""
+def _insert_fixed(rows: Rows, fixed: Rows) -> Rows:
+    """Return the rows with others in their place.
+
+    What is left of less than half of a row is joined on.
+    """
     edges = {_edges(one) for one in fixed}
     for one in fixed:
         start, stop = _edges(one)
         before = [row for row in rows if row.start_frame < start]
         after = [row for row in rows if row.stop_frame > stop]
         if before and before[-1].stop_frame > start:
-            before = _shortened(before, -1, -2, (before[-1].start_frame, start), edges)
+            before = _shorten_row(before, -1, -2, (before[-1].start_frame, start), edges)
         if after and after[0].start_frame < stop:
-            after = _shortened(after, 0, 1, (stop, after[0].stop_frame), edges)
+            after = _shorten_row(after, 0, 1, (stop, after[0].stop_frame), edges)
         rows = [*before, one, *after]
     return rows
 
 
-def _shortened(
+def _shorten_row(
     rows: Rows, at: int, beside: int, span: tuple[int, int], edges: set[tuple[int, int]]
 ) -> Rows:
     """Return a row with the frames that it keeps; they go to the row beside it if they are few."""
@@ -255,23 +258,23 @@ def _shortened(
     few = 2 * length(rows[at]) < length(row) and len(rows) > 1
     if few and _edges(rows[beside]) not in edges:
         i, j, k = (k % len(rows) for k in (min(at, beside), max(at, beside), beside))
-        return joined(rows, min(i, j), max(i, j), k)
+        return join_rows(rows, min(i, j), max(i, j), k)
     return rows
 
 
 def _inside(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
-    """The primitives of an activity that stays, called what it is where they were what it was."""
+    """Return the primitives of an activity that stays, with its label where they had its old."""
     inside = [i for i, row in enumerate(primitives) if _overlap(row, activity)]
-    was = _in_the_middle(found.activities, activity)
+    was = _find_middle_row(found.activities, activity)
     if activity.kind == "transition" and was.kind != "transition":
         one = replace(activity, level="primitive", label="")
         return [*primitives[: inside[0]], one, *primitives[inside[-1] + 1 :]]
     for i in inside:
-        primitives[i] = adopted(primitives[i], was, activity)
+        primitives[i] = change_parent(primitives[i], was, activity)
     return primitives
 
 
-def _in_the_middle(rows: SegmentTable, row: Segment) -> Segment:
+def _find_middle_row(rows: SegmentTable, row: Segment) -> Segment:
     """Return the one of the rows of a level that holds the middle frame of another."""
     middle = (row.start_frame + row.stop_frame - 1) // 2
     return rows[int(np.searchsorted(rows.start_frame, middle, side="right")) - 1]

@@ -8,25 +8,25 @@ from typing import get_args
 
 from kineme.errors import ParameterError
 from kineme.segments.editing.naming import (
-    changed,
+    change_columns,
     members_of,
     names_by_cluster,
-    with_cluster_names,
+    set_cluster_names,
 )
 from kineme.segments.editing.rows import (
     as_movement,
     as_transition,
-    joined,
-    renumbered,
+    join_rows,
+    renumber_clusters,
+    replace_rows,
     starting,
-    with_rows,
 )
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
 
 
 def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: int) -> Segmentation:
-    """The segment that starts at ``frame`` is in a cluster, and so no transition; -1: in none.
+    """Put the segment that starts at ``frame`` into a cluster, as no transition; -1: into none.
 
     The primitives of an activity that were in its cluster go with it. Who was called by
     the old cluster's name is called by the new one's.
@@ -69,11 +69,11 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     become = as_transition if cluster < 0 and chosen.kind == "transition" else as_movement
     places = {(row.level, row.start_frame) for _, row in members}
     rows = [become(row) if (row.level, row.start_frame) in places else row for row in moved]
-    return with_rows(moved, rows, [])
+    return replace_rows(moved, rows, [])
 
 
 def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segmentation:
-    """The segments of one cluster are in another, and called by its name where it has one.
+    """Move the segments of a cluster into another, with its name where it has one.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
 
 
 def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int]) -> Segmentation:
-    """The primitives of a cluster that start at ``frames`` are in a new cluster of their own.
+    """Move the primitives of a cluster that start at ``frames`` into a new cluster.
 
     So is an activity all of whose primitives of that cluster go.
 
@@ -190,7 +190,7 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
     new = {cluster: number for number, cluster in enumerate(order)}
     names = names_by_cluster(segmentation)
     renamed = {new[cluster]: name for cluster, name in names.items()}
-    return with_cluster_names(renumbered(segmentation, new), renamed)
+    return set_cluster_names(renumber_clusters(segmentation, new), renamed)
 
 
 def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -> Segmentation:
@@ -233,15 +233,15 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     activities, primitives = list(segmentation.activities), list(segmentation.primitives)
     if level == "primitive":
         primitives = [become(row) if row.start_frame == frame else row for row in primitives]
-        return with_rows(segmentation, activities, primitives)
+        return replace_rows(segmentation, activities, primitives)
     inside = [i for i, row in enumerate(primitives) if row.activity == chosen.activity]
     if inside and kind == "transition":
-        primitives = joined(primitives, inside[0], inside[-1], inside[0])
+        primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
         inside = inside[:1]
     for i in inside:
         primitives[i] = become(primitives[i])
     activities = [become(row) if row.start_frame == frame else row for row in activities]
-    return with_rows(segmentation, activities, primitives)
+    return replace_rows(segmentation, activities, primitives)
 
 
 def _moved_to(
@@ -260,5 +260,5 @@ def _moved_to(
         ]
         label = {"label": names.get(cluster, "")} if inherits else {}
         if some:
-            moved = changed(moved, some, cluster=cluster, confidence=math.nan, **label)
-    return with_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)
+            moved = change_columns(moved, some, cluster=cluster, confidence=math.nan, **label)
+    return set_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)

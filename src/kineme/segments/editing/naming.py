@@ -14,7 +14,7 @@ from dataclasses import replace
 from typing import Any
 
 from kineme.errors import ParameterError
-from kineme.segments.editing.rows import starting, with_columns
+from kineme.segments.editing.rows import replace_columns, starting
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -51,8 +51,8 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     """
     row, names = starting(segmentation, level, frame), names_by_cluster(segmentation)
     label = label or names.get(row.cluster, "")
-    named = changed(segmentation, [(level, row)], label=label)
-    return named if row.cluster < 0 else with_cluster_names(named, {row.cluster: ""} | names)
+    named = change_columns(segmentation, [(level, row)], label=label)
+    return named if row.cluster < 0 else set_cluster_names(named, {row.cluster: ""} | names)
 
 
 def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmentation:
@@ -90,7 +90,9 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
         for row in members_of(segmentation, cluster)
         if row.label in ("", names.get(cluster, ""))
     ]
-    return with_cluster_names(changed(segmentation, called, label=label), names | {cluster: label})
+    return set_cluster_names(
+        change_columns(segmentation, called, label=label), names | {cluster: label}
+    )
 
 
 def cluster_names(segmentation: Segmentation) -> dict[int, str]:
@@ -115,8 +117,8 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
     return {cluster: name for cluster, name in names_by_cluster(segmentation).items() if name}
 
 
-def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
-    """The same segments, whose clusters have these names and no others; labels stay as they are.
+def set_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
+    """Give the clusters these names and no others; labels stay as they are.
 
     The name of a cluster is empty if it has none, whatever its segments are called.
     """
@@ -143,7 +145,7 @@ def members_of(segmentation: Segmentation, cluster: int) -> list[Segment]:
     return [*table.select(table.cluster == cluster)] if cluster >= 0 else []
 
 
-def changed(
+def change_columns(
     segmentation: Segmentation, members: Sequence[tuple[Level, Segment]], **columns: object
 ) -> Segmentation:
     """Return the members with other values in these columns."""
@@ -156,4 +158,4 @@ def changed(
         values[name] = values[name].tolist()
         for row in rows:
             values[name][row] = value
-    return with_columns(segmentation, values)
+    return replace_columns(segmentation, values)

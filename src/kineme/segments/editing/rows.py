@@ -22,7 +22,7 @@ Rows = list[Segment]
 
 @dataclass(frozen=True)
 class Part:
-    """The activities that hold some frames, and their primitives.
+    """Activities that hold some frames, and their primitives.
 
     ``activity`` of their rows counts from the first of these; ``spans`` are their rows in the
     table.
@@ -62,7 +62,7 @@ class Part:
             )
             parts = column[:before], upper, column[first:last], lower, column[after:]
             columns[name] = np.concatenate(parts)
-        return with_columns(self.segmentation, columns)
+        return replace_columns(self.segmentation, columns)
 
 
 def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
@@ -74,8 +74,8 @@ def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
     return rows[at]
 
 
-def moved(rows: Rows, frame: int, to: int) -> Rows:
-    """The border at ``frame`` stands at ``to``."""
+def move_border_rows(rows: Rows, frame: int, to: int) -> Rows:
+    """Move the border at ``frame`` to ``to``."""
     return [
         replace(row, stop_frame=to, confidence=math.nan)
         if row.stop_frame == frame
@@ -99,7 +99,7 @@ def cut(rows: Rows, frame: int) -> Rows:
     return parts
 
 
-def joined(rows: Rows, first: int, last: int, like: int) -> Rows:
+def join_rows(rows: Rows, first: int, last: int, like: int) -> Rows:
     """Rows ``first`` to ``last`` as one that is like one of them."""
     if first == last:
         return rows
@@ -113,7 +113,7 @@ def joined(rows: Rows, first: int, last: int, like: int) -> Rows:
     return [*rows[:first], one, *rows[last + 1 :]]
 
 
-def adopted(row: Segment, before: Segment, after: Segment) -> Segment:
+def change_parent(row: Segment, before: Segment, after: Segment) -> Segment:
     """Return a primitive that lay in one activity and lies in another."""
     same = (row.kind == "transition") == (before.kind == "transition")
     kind = kind_of(row.level, transition=after.kind == "transition")
@@ -144,15 +144,17 @@ def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, in
     borders = cuts(primitives)
     if to not in borders:
         passed = [border for border in borders if low <= border <= high]
-        primitives = moved(primitives, min(passed, key=lambda border: abs(border - to)), to)
+        primitives = move_border_rows(
+            primitives, min(passed, key=lambda border: abs(border - to)), to
+        )
     gave, took = (number - 1, number) if to < frame else (number, number - 1)
     inside = [i for i, row in enumerate(primitives) if low <= row.start_frame < high]
     inside = [i for i in inside if primitives[i].stop_frame <= high]
     for i in inside:
-        primitives[i] = adopted(primitives[i], before[gave], after[took])
+        primitives[i] = change_parent(primitives[i], before[gave], after[took])
     if inside and after[took].kind == "transition":
         host = inside[-1] + 1 if to < frame else inside[0] - 1
-        primitives = joined(primitives, min(host, inside[0]), max(host, inside[-1]), host)
+        primitives = join_rows(primitives, min(host, inside[0]), max(host, inside[-1]), host)
     return primitives
 
 
@@ -161,7 +163,7 @@ def cuts(rows: Rows) -> list[int]:
     return [row.start_frame for row in rows[1:]]
 
 
-def after_border(segmentation: Segmentation, level: Level, frame: int) -> int:
+def find_row_after(segmentation: Segmentation, level: Level, frame: int) -> int:
     """Return the number of the segment after the border; ParameterError where there is none."""
     borders: list[int] = segmentation.cuts(level).tolist()
     if frame not in borders:
@@ -176,17 +178,17 @@ def length(row: Segment) -> int:
     return row.stop_frame - row.start_frame
 
 
-def with_rows(
+def replace_rows(
     segmentation: Segmentation, activities: Iterable[Segment], primitives: Iterable[Segment]
 ) -> Segmentation:
     """Return the same recording with these rows; seconds and parents follow from their frames."""
     rows = [*activities, *primitives]
-    return with_columns(
+    return replace_columns(
         segmentation, {name: [getattr(row, name) for row in rows] for name in COLUMNS}
     )
 
 
-def with_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]) -> Segmentation:
+def replace_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]) -> Segmentation:
     """Return the same recording with these columns; seconds and parents follow from frames."""
     return Segmentation.from_columns(
         {name: values for name, values in columns.items() if name != "activity"},
@@ -198,8 +200,8 @@ def with_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]) -
     )
 
 
-def renumbered(segmentation: Segmentation, numbers: Mapping[int, int]) -> Segmentation:
-    """The same segments, whose clusters have these numbers; those without one are in none."""
+def renumber_clusters(segmentation: Segmentation, numbers: Mapping[int, int]) -> Segmentation:
+    """Give the clusters these numbers; segments of clusters without one are in none."""
     table = segmentation.table
     clusters = np.array([numbers.get(c, -1) for c in table.cluster.tolist()], np.int64)
     actions = clusters[table.level == "activity"][table.activity]

@@ -27,7 +27,7 @@ LONGEST_ORIGIN = 8
 
 @dataclass(frozen=True)
 class Identities:
-    """The identities of the segments of one table.
+    """Identities of the segments of one table.
 
     ``origin`` is the edit that made it, empty for one that was found; ``others`` has, by level and
     first frame (``p150``), identities of segments that came from or started elsewhere.

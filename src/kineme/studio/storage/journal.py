@@ -82,7 +82,7 @@ class Change:
 
 
 class Journal:
-    """The history of one table; ``notes`` say that a damaged one was left alone.
+    """History of one table; ``notes`` say that a damaged one was left alone.
 
     ``table`` is what the file that people have holds, or what was found if it is not there. Where
     the history ends with another table, that one is kept. Nothing is written before the first
@@ -198,7 +198,7 @@ class Journal:
         and the edit is known by its name.
         """
         names = (*self._record.names, name)[-MOST_NAMES:]
-        record = pruned(replace(change.record, revision=revision, names=names))
+        record = prune_steps(replace(change.record, revision=revision, names=names))
         try:
             self._write(record)
             save(change.content)
@@ -254,7 +254,7 @@ class Journal:
 
 
 def read_record(folder: Path) -> tuple[Record, list[str]]:
-    """The history in a folder, empty where none can be read, and what people should know of it."""
+    """Return the history in a folder, empty where none can be read, and notes on it."""
     record, notes = read_sidecar(folder / HISTORY, Record, Record())
     complete = record.schema == SCHEMA and needed_by(record) <= record.steps.keys()
     if complete or record == Record():
@@ -268,7 +268,7 @@ def write_record(folder: Path, record: Record) -> None:
     write_file(folder / HISTORY, content)
 
 
-def pruned(record: Record) -> Record:
+def prune_steps(record: Record) -> Record:
     """Return the record without the steps that nothing needs any more."""
     needed = needed_by(record)
     return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})

@@ -52,7 +52,7 @@ class ListedRecording:
 
     @property
     def called(self) -> Path:
-        """The file that it would be by itself, after which labels and downloads are called."""
+        """File that it would be by itself, after which labels and downloads are called."""
         return add_person(self.path, self.person)
 
     @property

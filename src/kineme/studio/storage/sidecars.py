@@ -22,7 +22,7 @@ from typing import Annotated, Any, TypedDict, TypeVar
 from msgspec import Meta, Struct
 
 from kineme._util.files import OwnedFolder, atomic_write, find_video
-from kineme._util.json import loaded
+from kineme._util.json import load_json
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
 from kineme.studio.storage.listed import ListedRecording
@@ -77,7 +77,7 @@ def options_of(recording: Path) -> dict[str, Any]:
 
 
 def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
-    """The recordings in some files: those of which the people are known have one for each."""
+    """Return recordings in some files: those of which the people are known have one for each."""
     present: dict[Path, set[str]] = {}
     found: list[ListedRecording] = []
     for path in paths:
@@ -102,11 +102,11 @@ def read_options(
 
 def keep_reading(recording: Path, choice: Reading) -> None:
     """Keep what people say of how a file is read, and who is in it."""
-    content = {**given(choice.options), "people": [*choice.people]}
+    content = {**keep_given(choice.options), "people": [*choice.people]}
     write_file(_sidecar(recording, READING), json.dumps(content).encode())
 
 
-def given(options: Mapping[str, Any]) -> dict[str, Any]:
+def keep_given(options: Mapping[str, Any]) -> dict[str, Any]:
     """Those of the options that say something."""
     return {name: value for name, value in options.items() if name in OPTIONS and value}
 
@@ -151,7 +151,7 @@ def read_sidecar(path: Path, shape: type[Content], otherwise: Content) -> tuple[
     ``otherwise`` counts where there is none, or a damaged one, which is left alone.
     """
     try:
-        return loaded(path, shape), []
+        return load_json(path, shape), []
     except ReadError as error:
         if isinstance(error.__cause__, FileNotFoundError | NotADirectoryError):
             return otherwise, []
@@ -184,7 +184,7 @@ def _root_of(path: Path) -> Path:
 def _reading(recording: Path) -> tuple[Reading, list[str]]:
     path = _sidecar(recording, READING)
     content, notes = read_sidecar(path, _Reading, _Reading())
-    choice = Reading(given(content), content.get("people", []))
+    choice = Reading(keep_given(content), content.get("people", []))
     try:
         ReadOptions(**choice.options)
     except KinemeError as error:

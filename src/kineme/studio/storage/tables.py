@@ -21,11 +21,11 @@ from kineme.studio.storage.listed import ListedRecording
 
 
 class ChangedOnDiskError(Exception):
-    """The file is not the one that was last read or written here."""
+    """Raised where the file is not the one that was last read or written here."""
 
 
 class TableFile:
-    """The file that a table is saved in, as it was last read or written here; or will be."""
+    """File that a table is saved in, as it was last read or written here; or will be."""
 
     def __init__(self, path: Path):
         self.path = path

@@ -1,4 +1,4 @@
-"""The TypeScript types of the messages and of the server's paths.
+"""TypeScript types of the messages and of the server's paths.
 
     python src/kineme/web/pages/make_messages.py
 
@@ -76,7 +76,7 @@ def typescript(named: dict[str, Any]) -> str:
 
 
 def types_of(*modules: ModuleType) -> dict[str, Any]:
-    """The structs that modules hold, but those that are there to be derived from, and unions."""
+    """Return structs that modules hold, but those that are there to be derived from, and unions."""
     return {
         name: kind
         for module in modules
@@ -196,7 +196,7 @@ def _paths(routes: list[Route], method: str) -> str:
     return "".join(f'\n  | "{path}"' for path in paths if ":" not in path)  # but for any other
 
 
-def made() -> dict[Path, str]:
+def make_files() -> dict[Path, str]:
     """Return the files that are made, and what they hold."""
     return {
         SOURCES / "messages.ts": messages_typescript(),
@@ -205,6 +205,6 @@ def made() -> dict[Path, str]:
 
 
 if __name__ == "__main__":
-    for target, text in made().items():
+    for target, text in make_files().items():
         with atomic_write(target) as draft:
             draft.write_text(text, encoding="utf-8")

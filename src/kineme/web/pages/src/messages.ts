@@ -99,7 +99,7 @@ export interface MotionHead {
 }
 
 /**
- * The pyramid of self-similarity tiles; see `kineme.web.matrix`.
+ * Pyramid of self-similarity tiles; see `kineme.web.matrix`.
  *
  * Level 0 has one cell per sample of `fps` and `sizes[0]` cells a side;
  * each next level halves that; the last is one tile. Tiles are square, `tile`
@@ -122,7 +122,7 @@ export interface Curve {
   unit: string;
 }
 
-/** The curves of a recording and their levels; see `kineme.web.curves`. */
+/** Curves of a recording and their levels; see `kineme.web.curves`. */
 export interface CurveList {
   curves: Curve[];
   factor: number;
@@ -142,7 +142,7 @@ export interface CycleChannel {
   opposite: string;
 }
 
-/** The channels of a recording, those first that are measured where nobody says which. */
+/** Channels of a recording, those first that are measured where nobody says which. */
 export interface CycleChannels {
   channels: CycleChannel[];
 }
@@ -165,7 +165,7 @@ export interface CycleCurve {
 }
 
 /**
- * The mean curve of the same movement in another recording, of `n` of `total` repetitions.
+ * Mean curve of the same movement in another recording, of `n` of `total` repetitions.
  *
  * `differs` says where the bounds of the difference leave out 0.
  */
@@ -201,7 +201,7 @@ export interface ClusterCurves {
 }
 
 /**
- * The curves in a report.
+ * Curves in a report.
  *
  * `curves` have them by channel, `tables` by cluster the number of those, for the table that
  * is shown and then for each of the `levels` of a `Recording`.
@@ -212,7 +212,7 @@ export interface ReportCurves {
   tables: Record<string, number>[];
 }
 
-/** The same recording, coarser (`detail` below 1) or finer. */
+/** Same recording, coarser (`detail` below 1) or finer. */
 export interface TableAtDetail {
   detail: number;
   segments: Segment[];
@@ -263,7 +263,7 @@ export interface Recording {
 }
 
 /**
- * The rows in which a table differs from that of the revision `of`.
+ * Rows in which a table differs from that of the revision `of`.
  *
  * `removed` are the numbers of rows of that table which are not in this one, `at` the numbers
  * of the rows of this one that are `added`.
@@ -276,7 +276,7 @@ export interface TableChange {
 }
 
 /**
- * The table after an edit, already on the disk as `saved`; `ids` as of a `Recording`.
+ * Table after an edit, already on the disk as `saved`; `ids` as of a `Recording`.
  *
  * Where there is a `change`, its rows are those of the table before with this change, and
  * `segmentation` has none.
@@ -312,7 +312,7 @@ export interface ScoreMeaning {
 }
 
 /**
- * The other result, and how well the shown one agrees with it.
+ * Other result, and how well the shown one agrees with it.
  *
  * `meanings` are those of the scores; `differences` are spans in seconds, in order, in which
  * the two say different things.
@@ -351,7 +351,7 @@ export interface Version {
   names: number;
 }
 
-/** The tables of a recording that were replaced, the latest first. */
+/** Tables of a recording that were replaced, the latest first. */
 export interface Versions {
   versions: Version[];
 }
@@ -371,7 +371,7 @@ export interface LoopRow {
   speed_m_s: number;
 }
 
-/** The repetitions of a recording as loops, those of a cluster together, the best first. */
+/** Repetitions of a recording as loops, those of a cluster together, the best first. */
 export interface Loops {
   loops: LoopRow[];
 }
@@ -417,7 +417,7 @@ export interface FolderRecording {
   table: BriefTable | null;
 }
 
-/** The tables of all recordings of the folder, in the order of the list. */
+/** Tables of all recordings of the folder, in the order of the list. */
 export interface FolderTables {
   recordings: FolderRecording[];
 }
@@ -526,7 +526,7 @@ export interface State {
   export_formats: ExportFormat[];
 }
 
-/** The border at `frame` of a level goes to `to`. */
+/** Move the border at `frame` of a level to `to`. */
 export interface MoveBorder {
   kind: "move_border";
   level: Level;
@@ -541,7 +541,7 @@ export interface Split {
   frame: number;
 }
 
-/** The segments of `[start_frame, stop_frame)` become one. */
+/** Make the segments of `[start_frame, stop_frame)` one. */
 export interface Merge {
   kind: "merge";
   level: Level;
@@ -549,14 +549,14 @@ export interface Merge {
   stop_frame: number;
 }
 
-/** The two segments that meet at `frame` become one, like the longer of them. */
+/** Make the two segments that meet at `frame` one, like the longer of them. */
 export interface DeleteBorder {
   kind: "delete_border";
   level: Level;
   frame: number;
 }
 
-/** The segment that starts at `frame` gets a label; an empty one takes it away. */
+/** Label the segment that starts at `frame`; an empty label removes it. */
 export interface NameSegment {
   kind: "name_segment";
   level: Level;
@@ -571,7 +571,7 @@ export interface NameCluster {
   label: string;
 }
 
-/** The segment that starts at `frame` joins a cluster; -1: none. */
+/** Put the segment that starts at `frame` into a cluster; -1: into none. */
 export interface SetCluster {
   kind: "set_cluster";
   level: Level;
@@ -580,7 +580,7 @@ export interface SetCluster {
 }
 
 /**
- * The segment that starts at `frame` is a transition and in no cluster, or none.
+ * Make the segment that starts at `frame` a transition in no cluster, or no transition.
  *
  * `to` is `transition`, or what its level says.
  */
@@ -592,7 +592,7 @@ export interface SetKind {
 }
 
 /**
- * The whole table anew, by a preset; with `keep`, corrections and names are taken over.
+ * Segment the recording again by a preset; `keep` takes over corrections and names.
  *
  * `detail` is 1 by default, less is coarser.
  */
@@ -604,27 +604,27 @@ export interface SegmentAgain {
   detail?: number;
 }
 
-/** The segments of a cluster are in another one, `into`, from then on. */
+/** Move the segments of a cluster into another one, `into`. */
 export interface MergeClusters {
   kind: "merge_clusters";
   cluster: number;
   into: number;
 }
 
-/** The primitives of a cluster that start at `frames` are a new cluster. */
+/** Move the primitives of a cluster that start at `frames` into a new cluster. */
 export interface SplitCluster {
   kind: "split_cluster";
   cluster: number;
   frames: number[];
 }
 
-/** The clusters are numbered in this order. */
+/** Number the clusters in this order. */
 export interface OrderClusters {
   kind: "order_clusters";
   order: number[];
 }
 
-/** The segment that starts at `frame` has a comment; an empty one takes it away. */
+/** Comment the segment that starts at `frame`; an empty comment removes it. */
 export interface Remark {
   kind: "comment";
   level: Level;
@@ -632,7 +632,7 @@ export interface Remark {
   text: string;
 }
 
-/** The segments that start at `frames` are checked, or not any more. */
+/** Mark the segments that start at `frames` as checked, or no longer. */
 export interface Check {
   kind: "check";
   level: Level;
@@ -640,7 +640,7 @@ export interface Check {
   checked: boolean;
 }
 
-/** The primitives that start at `frames` count in no mean, or do so again. */
+/** Leave the primitives that start at `frames` out of all means, or count them again. */
 export interface Exclude {
   kind: "exclude";
   frames: number[];
@@ -667,12 +667,12 @@ export interface Transfer {
   spread?: boolean;
 }
 
-/** The last edit is taken back. */
+/** Undo the last edit. */
 export interface Undo {
   kind: "undo";
 }
 
-/** The last edit taken back is done again. */
+/** Redo the last edit that was undone. */
 export interface Redo {
   kind: "redo";
 }
@@ -706,7 +706,7 @@ export interface PreviewRequest {
   detail?: number;
 }
 
-/** The labels that all recordings of the folder share, those on the keys 1 to 9 first. */
+/** Labels that all recordings of the folder share, those on the keys 1 to 9 first. */
 export interface LabelsRequest {
   labels: string[];
 }
@@ -930,7 +930,7 @@ export interface PartCluster {
   recordings: string[];
 }
 
-/** The last edit of the clusters of the library is taken back. */
+/** Undo the last edit of the clusters of the library. */
 export interface UndoEdit {
   kind: "undo";
 }

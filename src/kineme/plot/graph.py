@@ -1,4 +1,4 @@
-"""The picture of a motion graph: nodes in a circle, jumps as arcs (the paper's figure 8).
+"""Picture of a motion graph: nodes in a circle, jumps as arcs (the paper's figure 8).
 
 Time runs clockwise from the top; nodes are coloured by cluster, transition
 phases grey. Fine arcs are jumps in the colour of the node they leave. The

@@ -1,4 +1,4 @@
-"""A segment table along a line of seconds: on Axes of matplotlib, and as HTML for notebooks.
+"""A segment table along a line of seconds, as HTML for notebooks.
 
 Each level is a row, each segment a bar in the colour of its cluster, the same
 in every picture; grey is what is in no cluster, lighter grey a transition.
@@ -9,22 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
-from typing import TYPE_CHECKING, Any, Protocol, Self
+from typing import Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.segments.colors import cluster_color, label_colors
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-BAND = 0.8
-"""Height of a row's bars; the rest parts it from the next."""
-NAMED = 0.06
-"""Share of the time from which a bar has room for its label."""
-MOST_EDGES = 400
-"""Bars of a row; more are drawn without white lines between them."""
 TRANSITION = "#F0F0F0"
 NO_LABELS: Mapping[str, str] = {}
 WIDTH, HEIGHT = 720, 16
@@ -76,40 +67,8 @@ def segment_color(segment: Row, labels: Mapping[str, str] = NO_LABELS) -> str:
     return cluster_color(segment.cluster)
 
 
-def draw_timeline(
-    rows: Mapping[str, Rows],
-    seconds: float,
-    *,
-    colors: Sequence[Sequence[str]] | None = None,
-    ax: Axes | None = None,
-) -> Axes:
-    """Rows of segments below each other, each with its name at the left."""
-    axes = new_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
-    if colors is None:
-        labels = label_colors(segment for table in rows.values() for segment in table)
-        colors = [[segment_color(segment, labels) for segment in table] for table in rows.values()]
-    for number, (table, shades) in enumerate(zip(rows.values(), colors, strict=True)):
-        axes.broken_barh(
-            list(zip(table.start_s, table.duration_s, strict=True)),
-            (number - BAND / 2, BAND),
-            facecolors=shades,
-            edgecolors="white",
-            linewidth=0.6 if len(table) < MOST_EDGES else 0.0,
-        )
-        for segment, color in zip(table, shades, strict=True):
-            if segment.label and segment.duration_s > NAMED * seconds:
-                _write_label(axes, segment, number, color)
-    axes.set_yticks(range(len(rows)), list(rows))
-    axes.set_ylim(len(rows) - 0.5, -0.5)
-    axes.set_xlim(0, seconds)
-    axes.set_xlabel("seconds")
-    axes.spines[["left", "right", "top"]].set_visible(False)
-    axes.tick_params(axis="y", length=0)
-    return axes
-
-
 def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
-    """Return the same as an ``<svg>``: never more bars in a row than it has pixels."""
+    """Return rows of segments as an ``<svg>``: never more bars in a row than it has pixels."""
     height = HEIGHT * len(rows)
     labels = label_colors(segment for table in rows for segment in table)
     bars = [
@@ -159,7 +118,7 @@ def _cells(segment: Row) -> str:
 
 
 def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float, float]]:
-    """The segments that begin a pixel of their own, with the pixels where they start and stop."""
+    """Return the segments that begin a pixel of their own, and the pixels of start and stop."""
     scale = WIDTH / max(stop_s - start_s, 1e-9)
     left = (table.start_s - start_s) * scale
     _, first = np.unique(left.astype(np.int64), return_index=True)
@@ -177,25 +136,3 @@ def _description(segment: Row) -> str:
     """Return what a bar says when the pointer is on it."""
     name = segment.label or (f"cluster {segment.cluster}" if segment.cluster >= 0 else segment.kind)
     return escape(f"{name}: {segment.start_s:.2f} to {segment.stop_s:.2f} s")
-
-
-def _write_label(axes: Axes, segment: Row, row: int, color: str) -> None:
-    red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
-    dark = 0.299 * red + 0.587 * green + 0.114 * blue < 140
-    axes.text(
-        (segment.start_s + segment.stop_s) / 2,
-        row,
-        segment.label.replace("$", r"\$"),  # no formula
-        ha="center",
-        va="center",
-        fontsize=8,
-        color="white" if dark else "black",
-        clip_on=True,
-    )
-
-
-def new_axes(width: float, height: float) -> Axes:
-    """Axes of a new figure of pyplot, so many inches wide and high."""
-    from matplotlib import pyplot as plt  # its figures a notebook shows unasked
-
-    return plt.subplots(figsize=(width, height), layout="constrained")[1]

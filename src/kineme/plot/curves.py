@@ -9,8 +9,8 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme.cycles.table import Columns, Cycles
 from kineme.errors import ParameterError
+from kineme.plot.timeline import new_axes
 from kineme.segments.colors import PALETTE, cluster_color
-from kineme.segments.timeline import new_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -46,7 +46,7 @@ def plot_curves(
     Examples
     --------
     >>> import kineme
-    >>> from kineme.cycles import plot_curves
+    >>> from kineme.plot import plot_curves
     >>> from kineme.datasets import bundled_truth
     >>> from matplotlib.figure import Figure
     >>> motion = kineme.read(kineme.bundled_recording())
@@ -101,7 +101,7 @@ def plot_sides(
     Examples
     --------
     >>> import kineme
-    >>> from kineme.cycles import plot_sides
+    >>> from kineme.plot import plot_sides
     >>> from kineme.datasets import bundled_truth
     >>> from matplotlib.figure import Figure
     >>> motion = kineme.read(kineme.bundled_recording())
