@@ -24,7 +24,7 @@ from time import process_time
 import numpy as np
 
 import kineme
-import kineme.library.clusters
+import kineme.library.compiling
 from _figures import add_option, record
 from _libraries import SHAKEN, library_of
 from _options import command_line, few
@@ -123,7 +123,7 @@ def show_others(folder: Path) -> None:
 
 def show_growth(folder: Path, sizes: list[int], most: int) -> None:
     """Processor seconds of joining so many local clusters."""
-    kineme.library.clusters.CONSTANTS = replace(CONSTANTS, most=most)
+    kineme.library.compiling.CONSTANTS = replace(CONSTANTS, most=most)
     cases = subject_86()
     library = library_of(folder / "subject_86", [(case.name, case.motion) for case in cases])
     for size in sizes:
@@ -166,7 +166,7 @@ def main() -> None:
     options.add_argument("--growth", type=int, nargs="+", default=[])
     add_option(options)
     given = options.parse_args()
-    kineme.library.clusters.CONSTANTS = replace(CONSTANTS, most=given.most)
+    kineme.library.compiling.CONSTANTS = replace(CONSTANTS, most=given.most)
     with TemporaryDirectory() as folder:
         home = given.keep or Path(folder)
         if given.growth:

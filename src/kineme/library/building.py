@@ -8,10 +8,12 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from kineme._util.checks import check_type, is_number
 from kineme._util.files import OwnedFolder, is_draft
 from kineme._version import __version__
-from kineme.errors import ParameterError
+from kineme.errors import ParameterError, ReadError
 from kineme.library.edits import read_edits
 from kineme.library.executors import Executor, Progress, connected, processes
 from kineme.library.gathering import gather
@@ -24,6 +26,7 @@ from kineme.library.storage.layout import (
     ANALYSES,
     HEAD,
     LOCK_EDITS,
+    MOST_CLUSTERS,
     SCHEMA,
     TABLES,
     arrow,
@@ -32,14 +35,18 @@ from kineme.library.storage.layout import (
     writer_lock,
 )
 from kineme.library.storage.places import lies_in, place, reaching
-from kineme.library.storage.removed import read_removed, write_removed
 from kineme.library.storage.tables import is_table, is_tables, read_table, write_tables
-from kineme.transfer.clusters import CONSTANTS
+from kineme.transfer.clusters import CONSTANTS, Spans
 
 Head = Mapping[str, Any]
 """What ``library.json`` says; nothing where there is none yet."""
 Former = Mapping[Path, tuple[str, str]]
 """Name and analysis of recordings that the library has."""
+REMOVED = "left.json"
+"""Clusters of recordings that were taken out, by the key of the analysis, for when they return."""
+Kept = tuple[list[float], list[float], list[int]]
+"""Starts, stops and clusters of activities."""
+DAMAGED = "is damaged: remove it; clusters of recordings that come back get new numbers then"
 
 NEVER_FOUND = "there is no such file or folder"
 NOT_FOUND = "is not there: its recordings are kept; --remove takes them out"
@@ -228,7 +235,7 @@ def _written(
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)
         former = activities_in(plan.folder, head.get("tables"))
-        removed = read_removed(plan.folder)
+        removed = _read_removed(plan.folder)
         returned = {
             name: removed[key] for name, _, key in entries if key in removed and name not in former
         }
@@ -237,13 +244,43 @@ def _written(
         )
         keys = dict(before.values())
         by_key = {keys[name]: spans for name, spans in former.items() if name in keys}
-        write_removed(plan.folder, removed, by_key, (key for _, _, key in entries))
+        _write_removed(plan.folder, removed, by_key, (key for _, _, key in entries))
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**content, "following": following, "tables": tables}
     if now != head:
         write_json(plan.folder / HEAD, now)
     return str(tables)
+
+
+def _read_removed(folder: Path) -> dict[str, Spans]:
+    """Return the activities of recordings that were taken out, by key."""
+    try:
+        content = read_json(folder / REMOVED, Kept)
+    except ReadError as error:
+        raise ReadError(folder / REMOVED, DAMAGED) from error
+    for starts, stops, clusters in content.values():
+        is_even = len(starts) == len(stops) == len(clusters)
+        if not (is_even and all(-1 <= cluster < MOST_CLUSTERS for cluster in clusters)):
+            raise ReadError(folder / REMOVED, DAMAGED)
+    return {
+        key: (np.array(starts, float), np.array(stops, float), np.array(clusters, np.int64))
+        for key, (starts, stops, clusters) in content.items()
+    }
+
+
+def _write_removed(
+    folder: Path, removed: Mapping[str, Spans], before: Mapping[str, Spans], keys: Iterable[str]
+) -> None:
+    """Keep activities of recordings, removed earlier or there before, that have no key now."""
+    present = set(keys)
+    content = {
+        key: [column.tolist() for column in spans]
+        for key, spans in {**removed, **before}.items()
+        if key not in present
+    }
+    if content or (folder / REMOVED).exists():
+        write_json(folder / REMOVED, content)
 
 
 def _clean(folder: Path, keys: set[str], tables: str) -> None:

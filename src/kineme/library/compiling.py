@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache, partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -11,22 +12,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Ints
-from kineme.library.clusters import join_clusters
 from kineme.library.executors import Progress
 from kineme.library.planning import Entry
-from kineme.library.storage.analyses import Analysis, read_analysis
-from kineme.library.storage.layout import ANALYSES, EMBEDDED, arrow, as_array, as_column
+from kineme.library.storage.analyses import (
+    Analysis,
+    read_analysis,
+    read_channel_samples,
+    read_spans,
+)
+from kineme.library.storage.layout import ANALYSES, BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.tables import read_table, table_of
 from kineme.segments.table import COLUMNS
 from kineme.transfer.clusters import (
+    CONSTANTS,
     Assignment,
+    ClusterSet,
+    Features,
     LocalCluster,
     Spans,
+    assign_to_centres,
+    find_local_clusters,
     keep_numbers,
+    link_clusters,
     spans_with_clusters,
+    to_samples,
 )
 
 Columns = dict[str, Any]
+
+CACHED = 500
+"""Local clusters whose features are kept for the next comparison: those of a round."""
 
 
 def compiled(
@@ -43,7 +58,7 @@ def compiled(
     """
     analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
     keys = [key for _, _, key in entries]
-    local, found = join_clusters(analyses, keys, folder / ANALYSES, progress)
+    local, found = _join_clusters(analyses, keys, folder / ANALYSES, progress)
     shared = _cluster_of_segments(analyses, local, found.cluster)
     new = {
         name: spans_with_clusters(analysis.table.columns(), clusters)
@@ -76,6 +91,55 @@ def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
         rows = {name: column[start:stop] for name, column in columns.items()}
         found[str(rows["recording"][0])] = spans_with_clusters(rows, rows["cluster"])
     return found
+
+
+def _join_clusters(
+    analyses: Sequence[Analysis],
+    keys: Sequence[str],
+    folder: Path,
+    progress: Progress,
+) -> tuple[list[LocalCluster], Assignment]:
+    """Return the local clusters of all recordings, and the cluster in common of each.
+
+    ``keys`` name the analyses in ``folder``.
+    """
+    none = np.empty(0, np.int64)
+    every, parts, count = [], [Assignment(none, none, np.empty(0), np.empty(0))], 0
+    for kind in sorted({analysis.facts["vocabulary"] for analysis in analyses} - {""}):
+        # By key, which tells the content: sums must not depend on what files are called.
+        numbers = [i for i, each in enumerate(analyses) if each.facts["vocabulary"] == kind]
+        numbers.sort(key=keys.__getitem__)
+        groups = [find_local_clusters(analyses[number].table, number) for number in numbers]
+        local = [each for group in groups for each in group]
+        if not local:
+            continue
+        if kind == BODIES or len(numbers) == 1:
+            clusters = _cluster_set(local, analyses, keys, folder)
+            found = link_clusters(clusters, keys, CONSTANTS, progress=progress)
+        else:
+            found = assign_to_centres(
+                [partial(read_channel_samples, folder, keys[number]) for number in numbers],
+                [analyses[number].facts["moments"] for number in numbers],
+                [[each.spans for each in group] for group in groups],
+            )
+        parts.append(found.shift(count))
+        every += local
+        count += int(found.cluster.max()) + 1
+    return every, Assignment(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+def _cluster_set(
+    local: Sequence[LocalCluster], analyses: Sequence[Analysis], keys: Sequence[str], folder: Path
+) -> ClusterSet:
+    @lru_cache(CACHED)
+    def load(each: LocalCluster) -> Features:
+        facts = analyses[each.recording].facts
+        size = facts["features_fps"], facts["samples"]
+        spans = to_samples(each.example, *size), to_samples(each.context, *size)
+        return read_spans(folder, keys[each.recording], spans)
+
+    embeddings = np.array([analyses[each.recording].embeddings[each.row] for each in local])
+    return ClusterSet(local, embeddings, load)
 
 
 def _cluster_of_segments(

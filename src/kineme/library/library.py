@@ -15,16 +15,10 @@ from kineme.errors import ParameterError
 from kineme.library.executors import connected
 from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
 from kineme.library.finding import as_examples, hits_like, typical_examples
-from kineme.library.open_library import (
-    AssignedCluster,
-    Cluster,
-    OpenTables,
-    clusters_of,
-    numbers_of,
-)
+from kineme.library.open_library import Cluster, OpenTables, clusters_of, numbers_of
 from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
-from kineme.library.storage.layout import arrow
+from kineme.library.storage.layout import arrow, as_column
 from kineme.library.storage.places import place, reaching
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import THRESHOLD
@@ -109,14 +103,16 @@ class Library:
         """Return the clusters of the library, those of most seconds first."""
         return clusters_of(self._tables)
 
-    def unsure(self) -> list[AssignedCluster]:
-        """Return what was assigned to a cluster uncertainly, of least confidence first."""
+    def unsure(self) -> list[dict[str, Any]]:
+        """Return rows of ``local_clusters`` that may belong to another cluster, likeliest first."""
         local, most = self._tables.columns("local_clusters"), self.head["clustering"]["unsure"]
         confidence = local["confidence"]
         rows = np.flatnonzero((confidence < most) & (local["cluster"] != local["next_cluster"]))
         rows = rows[np.argsort(confidence[rows], kind="stable")]
-        columns = (local[name][rows].tolist() for name in AssignedCluster._fields)
-        return [AssignedCluster(*row) for row in zip(*columns, strict=True)]
+        found: list[dict[str, Any]] = (
+            self.table("local_clusters").take(as_column(rows, int)).to_pylist()
+        )
+        return found
 
     def numbers(self, cluster: int | str) -> list[int]:
         """Return the clusters of that number or name; ParameterError where there is none."""

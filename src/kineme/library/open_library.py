@@ -161,30 +161,6 @@ class Cluster(NamedTuple):
     stop_s: float
 
 
-class AssignedCluster(NamedTuple):
-    """A cluster of one recording, as part of one of the library.
-
-    Attributes
-    ----------
-    recording : str
-    start_s, stop_s : float
-        Its typical segment.
-    cluster : int
-        Of the library.
-    next_cluster : int
-        The nearest other cluster.
-    confidence : float
-        How much nearer it is to its own, 0 to 1.
-    """
-
-    recording: str
-    start_s: float
-    stop_s: float
-    cluster: int
-    next_cluster: int
-    confidence: float
-
-
 def clusters_of(tables: OpenTables) -> list[Cluster]:
     """Return the clusters of a library, those of most seconds first."""
     local, segments = tables.columns("local_clusters"), tables.columns("segments")

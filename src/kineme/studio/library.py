@@ -391,7 +391,7 @@ def _clusters(library: Library) -> list[LibraryCluster]:
     where: dict[int, set[int]] = {}
     for cluster, name in zip(local["cluster"], local["recording"], strict=True):
         where.setdefault(cluster, set()).add(rows[name])
-    unsure = Counter(each.cluster for each in library.unsure())
+    unsure = Counter(each["cluster"] for each in library.unsure())
     return [
         LibraryCluster(
             **{**each._asdict(), "recordings": sorted(where[each.cluster])},

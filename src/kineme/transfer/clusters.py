@@ -103,6 +103,11 @@ class Assignment(NamedTuple):
     confidence: Floats
     spread: Floats
 
+    def shift(self, count: int) -> Assignment:
+        """Return the same with clusters numbered from ``count`` on."""
+        cluster, following = (np.where(n < 0, -1, n + count) for n in self[:2])
+        return self._replace(cluster=cluster, next_cluster=following)
+
 
 @dataclass(frozen=True, eq=False)
 class LocalCluster:
@@ -192,23 +197,22 @@ def link_clusters(
     keys: Sequence[str],
     constants: ClusterConstants = CONSTANTS,
     *,
-    progress: Callable[[int], None] = lambda _: None,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> Assignment:
     """Return the cluster in common of each local cluster, by average linkage.
 
     ``keys`` tell recordings apart. Samples are drawn by digests of them, so that a few recordings
-    more change little. ``progress`` is called with how many have their cluster so far.
+    more change little. ``progress`` is told of several rounds how many have their cluster.
     """
     n, count = len(clusters.local), 0
     result = Assignment(np.full(n, -1), np.full(n, -1), np.full(n, np.nan), np.zeros(n))
 
     def store(numbers: Ints, found: Assignment) -> None:
         fits = found.cluster >= 0
-        following = np.where(found.next_cluster < 0, -1, found.next_cluster + count)
-        numbered = found._replace(cluster=found.cluster + count, next_cluster=following)
-        for column, values in zip(result, numbered, strict=True):
+        for column, values in zip(result, found.shift(count), strict=True):
             column[numbers[fits]] = values[fits]
-        progress(int((result.cluster >= 0).sum()))
+        if n > constants.most:
+            progress(f"clusters in common: {(result.cluster >= 0).sum()} of {n}")
 
     names = [f"{keys[each.recording]} {each.cluster}" for each in clusters.local]
     waiting = np.array(sorted(range(n), key=lambda i: sha256(names[i].encode()).digest()), np.int64)
@@ -218,9 +222,8 @@ def link_clusters(
         store(sample, linked)
         # Least spread first within each cluster, of which the first few are typical.
         order = np.lexsort((linked.spread, linked.cluster))
-        place = np.arange(len(order)) - np.searchsorted(
-            linked.cluster[order], linked.cluster[order]
-        )
+        ordered = linked.cluster[order]
+        place = np.arange(len(order)) - np.searchsorted(ordered, ordered)
         chosen = order[place < constants.typical]
         typical = Representatives(clusters.select(sample[chosen]), linked.cluster[chosen])
         for first in range(0, len(others), BLOCK):
@@ -365,12 +368,12 @@ def assign_to_centres(
     rows = np.concatenate([load(step) for load in loads])
     to_features = fit_units(rows)
     points = to_features(rows)
-    centres = find_centres(points, n_clusters or estimate_n_clusters(points))
+    centres, _ = fit_centres(points, n_clusters or estimate_n_clusters(points))
     means = []
     for load, groups in zip(loads, spans, strict=True):
         rows = load(1)
         features = to_features(rows).astype(np.float64)
-        means += [features[_is_inside(rows[:, 0], group)].mean(axis=0) for group in groups]
+        means += [features[_samples_in(rows[:, 0], group)].mean(axis=0) for group in groups]
     distances = np.sqrt(((np.array(means)[:, None] - centres) ** 2).sum(axis=2))
     # A centre may be nobody's nearest: there is no cluster of it.
     used, cluster = np.unique(distances.argmin(axis=1), return_inverse=True)
@@ -379,25 +382,21 @@ def assign_to_centres(
     return _number_by_seconds(found, lasts)
 
 
-def _is_inside(seconds: NDArray[Any], spans: Floats) -> NDArray[np.bool_]:
+def _samples_in(seconds: NDArray[Any], spans: Floats) -> Ints:
     """Return which samples lie in spans; of a span without any, the next one."""
-    inside = np.zeros(len(seconds), np.bool_)
     firsts = np.minimum(np.searchsorted(seconds, spans[:, 0]), len(seconds) - 1)
     stops = np.maximum(np.searchsorted(seconds, spans[:, 1]), firsts + 1)
-    for first, stop in zip(firsts, stops, strict=True):
-        inside[first:stop] = True
-    return inside
+    return np.concatenate([np.arange(*span) for span in zip(firsts, stops, strict=True)])
 
 
-def find_centres(points: Float32s, n_clusters: int) -> Float32s:
-    """Return the centres of k-means; fewer if fewer points differ."""
+def fit_centres(points: Float32s, n_clusters: int) -> tuple[Float32s, float]:
+    """Return the centres of k-means, fewer if fewer points differ, and the squares left."""
     from sklearn.cluster import KMeans  # takes a second
 
     count = min(n_clusters, len(np.unique(points, axis=0)))
     with threadpool_limits(1):  # sums do not depend on the number of cores
         found = KMeans(count, n_init=STARTS, random_state=0).fit(points)
-    centres: Float32s = found.cluster_centers_
-    return centres
+    return found.cluster_centers_, float(found.inertia_)
 
 
 def estimate_n_clusters(points: Float32s) -> int:
@@ -409,20 +408,14 @@ def estimate_n_clusters(points: Float32s) -> int:
     >>> estimate_n_clusters(points)
     3
     """
-    from scipy.spatial.distance import cdist
-
     points = points[:: -(-len(points) // COUNTING_SAMPLES)]
-    total = float(((points - points.mean(axis=0)) ** 2).sum(dtype=np.float64))
-    best, least = 1, 1.0 + MIN_EXPLAINED
-    for count in range(2, int(1 / MIN_EXPLAINED)):
-        # Even with nothing left unexplained, so many clusters would cost more than the best.
-        if count > best + PATIENCE or best * MIN_EXPLAINED + 1e-9 > least:
-            break
-        left = float(cdist(points, find_centres(points, count), "sqeuclidean").min(axis=1).sum())
-        cost = left / max(total, 1e-12) + count * MIN_EXPLAINED
-        if cost < least:
-            best, least = count, cost
-    return best
+    total = max(float(points.var(axis=0, dtype=np.float64).sum()) * len(points), 1e-12)
+    costs = [1.0 + MIN_EXPLAINED]
+    # Even with nothing left unexplained, one more must not cost more than the best.
+    while len(costs) <= np.argmin(costs) + 1 + PATIENCE and len(costs) * MIN_EXPLAINED < min(costs):
+        left = fit_centres(points, len(costs) + 1)[1]
+        costs.append(left / total + (len(costs) + 1) * MIN_EXPLAINED)
+    return int(np.argmin(costs)) + 1
 
 
 def spans_with_clusters(columns: Mapping[str, NDArray[Any]], clusters: Ints) -> Spans:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
-from kineme.features.canonical.matching import features_and_poses
+from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.recordings import Motion, Signals
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
@@ -30,7 +30,6 @@ from kineme.transfer.clusters import (
     to_samples,
 )
 from kineme.transfer.embeddings import embedding
-from kineme.transfer.features import FPS
 from kineme.transfer.subsequences import THRESHOLD
 
 
@@ -109,7 +108,7 @@ def _share_by_search(
     ]
 
     def part(values: NDArray[Any], span: tuple[float, float]) -> NDArray[Any]:
-        return values[slice(*to_samples(span, FPS, len(values)))]
+        return values[slice(*to_samples(span, MATCHING_FPS, len(values)))]
 
     def load(each: LocalCluster) -> Features:
         features, _ = described[each.recording]

@@ -167,7 +167,7 @@ def _facts(library: Library) -> dict[str, Any]:
         "recordings": len(library),
         "hours": library.hours,
         "clusters": [cluster._asdict() for cluster in library.clusters()],
-        "unsure": [each._asdict() for each in library.unsure()],
+        "unsure": library.unsure(),
         "failed": library.failed,
         "sources": library.head["sources"],
         "settings": library.head["settings"],
@@ -199,14 +199,12 @@ def _show_library(library: Library) -> None:
         )
     console.print(table)
     unsure = library.unsure()
+    line = (
+        "unsure: cluster {cluster} in {recording}, {start_s:.2f} to {stop_s:.2f} s, "
+        "may be {next_cluster}"
+    )
     for part in unsure[:UNSURE]:
-        console.print(
-            Text(
-                f"unsure: cluster {part.cluster} in {part.recording}, {part.start_s:.2f} to "
-                f"{part.stop_s:.2f} s, may be {part.next_cluster}",
-                style="dim",
-            )
-        )
+        console.print(Text(line.format(**part), style="dim"))
     if len(unsure) > UNSURE:
         console.print(Text(f"and {len(unsure) - UNSURE} more that are unsure", style="dim"))
     for path, reason in library.failed.items():
