@@ -145,23 +145,19 @@ def find_local_clusters(table: SegmentTable, recording: int) -> list[LocalCluste
         # Of one level, so that no second counts twice: activities, if there are any.
         counted = members[finer[members] == finer[members[0]]]
         spans = np.column_stack([table.start_s[counted], table.stop_s[counted]])
-        typical = float(table.start_s[row]), float(table.stop_s[row])
-        compared = _compared_spans(table, *typical)
-        found.append(LocalCluster(recording, cluster, row, *typical, spans, *compared))
+        start_s, stop_s = float(table.start_s[row]), float(table.stop_s[row])
+        # The example is the middle of a longer segment, the context the activity around that.
+        middle = (start_s + stop_s) / 2
+        half = min(stop_s - start_s, CONSTANTS.longest_example) / 2
+        reach = max(CONSTANTS.longest_context, 2 * half) / 2
+        around = (table.level == "activity") & (table.start_s <= middle) & (middle < table.stop_s)
+        first = min([middle - half, *table.start_s[around].tolist()])
+        last = max([middle + half, *table.stop_s[around].tolist()])
+        example = middle - half, middle + half
+        context = max(first, middle - reach), min(last, middle + reach)
+        typical = row, start_s, stop_s
+        found.append(LocalCluster(recording, cluster, *typical, spans, example, context))
     return found
-
-
-def _compared_spans(
-    table: SegmentTable, start_s: float, stop_s: float
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the example in the middle of a segment, and its context: the activity around it."""
-    middle = (start_s + stop_s) / 2
-    half = min(stop_s - start_s, CONSTANTS.longest_example) / 2
-    reach = max(CONSTANTS.longest_context, 2 * half) / 2
-    around = (table.level == "activity") & (table.start_s <= middle) & (middle < table.stop_s)
-    first = min([middle - half, *table.start_s[around].tolist()])
-    last = max([middle + half, *table.stop_s[around].tolist()])
-    return (middle - half, middle + half), (max(first, middle - reach), min(last, middle + reach))
 
 
 def to_samples(span: tuple[float, float], fps: float, n_samples: int) -> tuple[int, int]:
