@@ -1,6 +1,6 @@
 """Measured numbers, kept in ``docs/figures.json`` with what measured them and when.
 
-``python docs/fill_figures.py`` writes the tables of README and docs from them.
+``python docs/fill_pages.py`` writes the tables of README and docs from them.
 A benchmark takes the option ``--record`` and then keeps each number, under a name
 that begins with its own:
 ``record("constants.alike.off", 0.021)``. Without the option the numbers are

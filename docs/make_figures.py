@@ -1,4 +1,4 @@
-"""The pictures of the documentation, from the recording that comes with the package.
+"""Draw the pictures of the documentation from the bundled recording.
 
     python docs/make_figures.py
 
@@ -30,9 +30,9 @@ from kineme.plot.matrix import (
     INK,
     SHADES,
     plot_matrix,
-    similarity_image,
 )
 from kineme.segments.colors import PALETTE, cluster_color
+from kineme_reproduction.figures.matrix import draw_neighbors
 
 IMAGES = Path(__file__).parent / "images"
 EFFECTORS = ("left ankle", "right ankle", "head", "left wrist", "right wrist")
@@ -46,7 +46,7 @@ def main() -> None:
     segments, found = kineme.segment_and_found(motion, preset=KINEME)
 
     figure = _figure(7.6, 6.6)
-    plot_matrix(segments, found.graph, ax=figure.add_subplot())
+    plot_matrix(segments, motion, ax=figure.add_subplot())
     _save(figure, "exercises")
 
     figure = _figure(8, 3)
@@ -135,7 +135,7 @@ def draw_regions(pair: np.ndarray, analysis: kineme.Analysis) -> None:
     for axes, borders, title in zip(
         pair, (forward, backward), ("grown forward: ends", "grown backward: starts"), strict=True
     ):
-        _matrix(axes, similarity_image(graph), n)
+        _matrix(axes, draw_neighbors(graph), n)
         for start, stop in zip(borders[:-1] / FPS, borders[1:] / FPS, strict=True):
             size = stop - start
             axes.add_patch(Rectangle((start, start), size, size, fill=False, color=BORDER))

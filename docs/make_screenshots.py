@@ -1,4 +1,4 @@
-"""The pictures of the report and the studio, from the recording that comes with the package.
+"""Take the pictures of the report and the studio, with the bundled recording.
 
     python docs/make_screenshots.py
 

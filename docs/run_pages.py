@@ -1,11 +1,10 @@
-"""The code on the pages, run as it stands there; the pictures that pages draw themselves.
+"""Run the code on the pages, and keep the pictures that it draws.
 
     python docs/run_pages.py [PAGE.md ...]
 
-runs these pages, by default all that draw pictures, and keeps what they draw: a
-page that shows ``images/made/NAME.png`` leaves ``NAME.png`` in the folder it
-runs in. Needs the packages of the ``test`` extra. The tests run every
-page (``tests/test_docs.py``).
+By default all pages that draw pictures are run. A page that shows ``images/made/NAME.png`` writes
+``NAME.png`` into the folder in which it runs. Needs the packages of the ``test`` extra. The tests
+run every page (``tests/test_docs.py``).
 """
 
 from __future__ import annotations

@@ -82,7 +82,7 @@ ROOMS = {
         "`MotionGraph`, routes through it, new motion from them",
         "features formats methods recordings segments transfer",
     ),
-    "plot": Room("pictures, each on given axes", "cycles methods recordings segments synthesis"),
+    "plot": Room("pictures, each on given axes", "cycles features recordings segments synthesis"),
     "library": Room(
         "collections of recordings, segmented once, with clusters in common, searched by example",
         "clips features formats labels methods plot recordings segments transfer",

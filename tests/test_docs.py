@@ -35,8 +35,7 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").r
 NOTEBOOKS = sorted((ROOT / "docs").rglob("*.ipynb"))
 RUN = runpy.run_path(str(ROOT / "docs" / "run_pages.py"))
 FIGURES = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))
-FILL = runpy.run_path(str(ROOT / "docs" / "fill_figures.py"))
-COLUMNS = runpy.run_path(str(ROOT / "docs" / "fill_columns.py"))
+FILL = runpy.run_path(str(ROOT / "docs" / "fill_pages.py"))
 ALONE = f"""
 import runpy, sys
 from pathlib import Path
@@ -55,7 +54,7 @@ def programs() -> Iterator[Path]:
 @pytest.mark.slow
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_code_blocks_run(page: Path, tmp_path: Path, programs: Path) -> None:
-    if page.stem in ("extending", "evaluation"):  # what they register stays in the process
+    if page.stem == "extending":  # what it registers stays in the process
         subprocess.run([sys.executable, "-c", ALONE, page, tmp_path, programs], check=True)
     else:
         RUN["run_page"](page, tmp_path, programs)
@@ -90,7 +89,7 @@ def test_notebook_runs(notebook: Path, tmp_path: Path, monkeypatch: pytest.Monke
 
 def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
     text = (ROOT / "docs" / "segments.schema.json").read_text(encoding="utf-8")
-    assert text == COLUMNS["schema"](), "run python docs/fill_columns.py"
+    assert text == FILL["fill_schema"](), "run python docs/fill_pages.py"
     schema = json.loads(text)
     truth = read_segments(bundled_recording().with_suffix(".json"))
     write_segments(truth, tmp_path / "truth.json")
@@ -101,10 +100,12 @@ def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
         jsonschema.validate(written, schema)
 
 
-def test_columns_of_the_docs_are_those_of_the_table() -> None:
-    text = (ROOT / "docs" / "segments.md").read_text(encoding="utf-8")
-    assert COLUMNS["filled"](text) == text, "run python docs/fill_columns.py"
-    assert COLUMNS["rows"]() in text
+@pytest.mark.parametrize("page", FILL["FILLS"], ids=lambda page: page.stem)
+def test_generated_tables_are_up_to_date(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    word = FILL["FILLS"][page][0]
+    assert FILL["fill_page"](page) == text, "run python docs/fill_pages.py"
+    assert f"<!-- {word}" in text
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -117,10 +118,8 @@ def test_names_in_the_docs_exist(page: Path) -> None:
             assert resolve_name(name) is not None
 
 
-def test_tables_of_constants_are_those_of_the_presets() -> None:
+def test_both_methods_have_a_table_of_constants() -> None:
     text = (ROOT / "docs" / "parameters.md").read_text(encoding="utf-8")
-    constants = runpy.run_path(str(ROOT / "docs" / "fill_constants.py"))
-    assert constants["filled"](text) == text, "run python docs/fill_constants.py"
     assert re.findall(r"<!-- constants: (\w+) -->", text) == ["kineme", "region_growing"]
 
 
@@ -153,6 +152,13 @@ def test_set_up_commands_are_the_first_of_the_readme() -> None:
     assert commands[1].endswith("-m pytest -n 2")
 
 
+def test_every_figure_of_the_results_is_recorded() -> None:
+    tables = FILL["results_tables"](FIGURES)
+    rows = [line for line in tables.splitlines() if line.startswith("| ")]
+    assert len(rows) > 60
+    assert not [row for row in rows if row.count(" – ") > 1]
+
+
 def test_figures_say_what_measured_them() -> None:
     for name, figure in FIGURES.items():
         script = re.match(r"python -m benchmarks (\w+)", figure["command"])
@@ -176,20 +182,13 @@ def test_a_benchmark_records_only_when_asked(
     _figures.record("noise.borders", "3 of 4")
     figures = json.loads(file.read_text(encoding="utf-8"))
     assert figures["noise.counts"]["command"] == "python -m benchmarks noise --seeds 3"
-    assert FILL["shown"](figures["noise.counts"]) == "92.5 %"
-
-
-@pytest.mark.parametrize("page", FILL["PAGES"], ids=lambda page: page.stem)
-def test_tables_of_figures_are_the_recorded_ones(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    assert FILL["filled"](page) == text, "run python docs/fill_figures.py"
-    assert "<!-- figures -->" in text
+    assert FILL["show_figure"](figures["noise.counts"]) == "92.5 %"
 
 
 def test_results_are_the_recorded_figures() -> None:
     """The page of results is made whole, by another command."""
     text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
-    means = text.partition("## Means over the trials")[2].partition("\n## ")[0]
+    means = text.partition("## CMU subject 86")[2].partition("\n- ")[0]
     rows = [line.strip("| ").split(" | ") for line in means.splitlines() if " | " in line]
     table = {row[0]: dict(zip(rows[0], row[1:])) for row in rows[1:]}
     for title, score in {

@@ -100,7 +100,7 @@ def public_doors(folder: Path) -> list[tuple[Callable[..., object], list[Any], d
         (kineme.neighbor_graph, [x], {"others": None, "radius": 1.0, "k": None, "max_lag": None}),
         (kineme.warping_paths, [graph, (0, 30), (30, 60)], {"steps": [(1, 1)], "zero_cost": 0.1}),
         (kineme.warping_paths, [graph, (0, 30), (30, 60)], {"skip_penalty": 0, "max_slope": 2}),
-        (kineme.plot_segmentation, [found, graph, picture], {}),
+        (kineme.plot_segmentation, [found, motion, picture], {}),
         (kineme.write_report, [motion, found, page], {"name": None, "effectors": None}),
         (kineme.motion_graph, [[motion]], {"segmentations": None, "threshold": 0.1}),
         (kineme.synthesize, [kineme.motion_graph([motion]), [motion], [0]], {"start": None}),

@@ -6,7 +6,7 @@ Features of the five trials, end to end over and over with a little noise, so
 that no hour is like another. The published methods with ``max_lag`` 10 s unless
 ``--everywhere``; `kineme` as it is.
 Every size runs in a process of its own, first on a minute so that compiled
-code is loaded; peak memory is the whole process's. docs/speed.md quotes what
+code is loaded; peak memory is the whole process's. docs/results.md shows what
 ``--record`` keeps: seconds by the clock, so let nothing else run.
 
 Limits: an hour by `kineme` in 3 s and 0.5 GB, four in 4.2 times that.

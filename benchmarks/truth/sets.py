@@ -7,7 +7,7 @@ Channels of muscles are left out. Clusters stand for classes of their recording;
 ``--mapping folder --clusters N``, N the number of classes, and not told how many (``untold``).
 ``--rivals`` adds segmenters of other packages, those that are installed
 (``benchmarks/rivals/requirements.txt``); they take long: ``--every 20`` takes every twentieth
-recording. docs/sets.md quotes what ``--record`` keeps.
+recording. docs/results.md shows what ``--record`` keeps.
 """
 
 from __future__ import annotations

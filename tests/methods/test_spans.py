@@ -12,14 +12,11 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.region_growing.neighbors import neighbor_graph
 from kineme.methods.segmenter import (
     RecordedSpan,
     convert_to_frames,
     find_gaps,
-    segment_and_found,
 )
-from kineme.plot.matrix import insert_gaps
 
 
 @st.composite
@@ -68,26 +65,6 @@ def test_every_working_frame_keeps_its_segment(recording: tuple) -> None:
         assert table.activities[row].stop_frame == stop
 
 
-def test_a_graph_in_time_has_nothing_where_the_gaps_are() -> None:
-    graph = neighbor_graph(np.zeros((10, 1)), radius=1.0)
-    spaced = insert_gaps(graph, [(0, 8), (20, 28)], 56)  # four frames in one of the graph
-    assert len(spaced) == 14
-    filled = np.flatnonzero(spaced.counts)
-    assert filled.tolist() == [2, 3, 4, 7, 8, 9, 10, 11, 12, 13]
-    assert spaced[2][0].tolist() == filled.tolist()
-
-
-def test_many_gaps_do_not_stretch_the_time() -> None:
-    graph = neighbor_graph(np.zeros((300, 1)), radius=1.0, k=2)
-    gaps = [(start, start + 9) for start in range(10, 990, 20)]  # 2.9 rows of the graph each
-    n_frames = 1000 - (1000 - 9 * len(gaps)) % 3
-    per_frame = 300 / (n_frames - 9 * len(gaps))
-    spaced = insert_gaps(graph, gaps, n_frames)
-    assert abs(len(spaced) - n_frames * per_frame) <= 2
-    last = np.flatnonzero(spaced.counts)[-1]
-    assert abs(last - n_frames * per_frame) <= 2
-
-
 @settings(max_examples=5)
 @given(st.data())
 def test_a_gap_anywhere_is_a_transition(data: st.DataObject) -> None:
@@ -106,12 +83,13 @@ def test_a_gap_in_a_real_recording(data_dir: Path, tmp_path: Path) -> None:
     motion = kineme.read(data_dir / "cmu86" / "86_01.amc")
     whole = kineme.segment(motion)
     gap = (1500, 1900)  # inside a walk, 3.3 s of 38 s
-    broken, analysis = segment_and_found(replace(motion, gaps=(gap,)), preset=KINEME)
+    holed = replace(motion, gaps=(gap,))
+    broken = kineme.segment(holed, preset=KINEME)
     far = [cut for cut in whole.cuts() if not gap[0] - 120 <= cut <= gap[1] + 120]
     assert max(np.abs(broken.cuts() - cut).min() for cut in far) <= 0.5 * motion.fps
     before, after = (broken.per_frame("cluster", level="activity")[f] for f in (1499, 1900))
     assert before == after >= 0
-    kineme.plot_segmentation(broken, analysis.graph, tmp_path / "a.png")
+    kineme.plot_segmentation(broken, holed, tmp_path / "a.png")
 
 
 @given(recordings(), st.integers(1, 4))

@@ -11,13 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from kineme.errors import WriteError
-from kineme.methods.region_growing.neighbors import NeighborGraph, neighbor_graph
-from kineme.plot import matrix, plot_matrix, plot_segmentation, similarity_image
+from kineme.errors import ParameterError, WriteError
+from kineme.plot import matrix, plot_matrix, plot_segmentation
+from kineme.recordings import Signals
 from kineme.segments.colors import NO_CLUSTER, PALETTE, cluster_color
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
@@ -28,10 +27,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("pictures")
 
 
-def turning(frames: int) -> NeighborGraph:
-    """The neighbour graph of a point that goes round and round."""
+def turning(frames: int, fps: float = 30.0) -> Signals:
+    """A point that goes round and round."""
     angle = np.linspace(0, 40, frames)
-    return neighbor_graph(np.column_stack([np.cos(angle), np.sin(angle)]), radius=0.3)
+    return Signals(np.column_stack([np.cos(angle), np.sin(angle)]), fps)
 
 
 def whole(n_frames: int) -> Segmentation:
@@ -45,37 +44,8 @@ def whole(n_frames: int) -> Segmentation:
     return Segmentation.from_columns(columns, n_frames=n_frames, fps=30.0)
 
 
-def test_the_image_is_the_dense_matrix_where_it_fits() -> None:
-    graph = turning(200)
-    image = similarity_image(graph)
-    assert image.shape == (200, 200)
-    np.testing.assert_array_equal(np.diag(image), 1)
-    near = graph.to_scipy()
-    rows, columns = near.nonzero()
-    assert image[rows, columns].min() > 0.1
-    assert np.count_nonzero(image) == graph.n_entries
-
-
-@given(st.integers(1, 80), st.integers(1, 90), st.integers(1, 500))
-def test_a_smaller_image_keeps_the_most_similar_pair(frames: int, pixels: int, block: int) -> None:
-    graph = turning(frames)
-    full = similarity_image(graph, frames)
-    size = min(frames, pixels)
-    expected = np.zeros((size, size), np.float32)
-    for t, j in np.ndindex(full.shape):
-        cell = t * size // frames, j * size // frames
-        expected[cell] = max(expected[cell], full[t, j])
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(matrix, "ENTRIES_AT_ONCE", block)
-        np.testing.assert_array_equal(similarity_image(graph, pixels), expected)
-
-
 def test_an_hour_takes_little_memory(folder: Path) -> None:
-    frames, per_frame = 108_000, 100
-    indptr = np.arange(frames + 1, dtype=np.int64) * per_frame
-    columns = np.arange(frames)[:, None] + np.arange(per_frame) * 7
-    indices = np.clip(columns, 0, frames - 1).astype(np.int32).ravel()
-    graph = NeighborGraph(indptr, indices, np.full(len(indices), 0.3, np.float32), frames, 0.64)
+    frames = 108_000
     cuts = np.arange(0, frames, 40)
     columns_of = {
         "level": ["activity"] + ["primitive"] * len(cuts),
@@ -85,12 +55,12 @@ def test_an_hour_takes_little_memory(folder: Path) -> None:
         "cluster": [0, *(cuts // 40 % 300)],
     }
     result = Segmentation.from_columns(columns_of, n_frames=frames, fps=30.0)
+    recording = turning(frames)
     tracemalloc.start()
-    similarity_image(graph)
+    plot_segmentation(result, recording, folder / "hour.png")
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert peak < 100e6
-    plot_segmentation(result, graph, folder / "hour.png")
+    assert peak < 200e6
     assert imread(folder / "hour.png").shape[0] < 4000
 
 
@@ -110,11 +80,18 @@ def test_what_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_picture_needs_the_recording_of_the_segments(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="of another recording"):
+        plot_segmentation(whole(9), turning(8), tmp_path / "x.png")
+    with pytest.raises(ParameterError, match="Motion or Signals"):
+        plot_segmentation(whole(9), np.zeros((9, 2)), tmp_path / "x.png")  # type: ignore[arg-type]
+
+
 @settings(max_examples=30)
 @given(segmentations())
 def test_every_segmentation_can_be_drawn(result: Segmentation) -> None:
     axes = Figure().add_subplot()
-    plot_matrix(result, turning(max(1, result.n_frames // 4)), ax=axes)
+    plot_matrix(result, turning(result.n_frames, result.fps), ax=axes)
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     for cluster, count in result.repetitions().items():
         assert f"{cluster}  ({count}×)" in legend

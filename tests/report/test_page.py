@@ -17,13 +17,14 @@ import pytest
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.errors import ParameterError, WriteError
+from kineme.features.similarity import compare_frames_of_motion
 from kineme.recordings import Signals
 from kineme.report.page import fill_template, write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
 from kineme.web.display import display_motion
+from kineme.web.matrix import make_report_tiles
 from kineme.web.page_data import page_data, recording_message
-from kineme.web.similarity import matrix_of_motion
 
 RECORDING = kineme.read(bundled_recording())
 SEGMENTS = kineme.segment(RECORDING)
@@ -74,7 +75,7 @@ def test_everything_is_in_the_page(tmp_path: Path) -> None:
         place: base64.b64decode(text)
         for place, text in json.loads(page.texts["kineme-tiles"]).items()
     }
-    assert tiles == matrix_of_motion(RECORDING).report_tiles()[0]
+    assert tiles == make_report_tiles(compare_frames_of_motion(RECORDING))[0]
     assert message["segmentation"]["provenance"]["preset"] == "kineme"
     assert [[*row] for row in message["segmentation"]["segments"]] == [[*COLUMNS]] * len(SEGMENTS)
     assert (tmp_path / "out.html").stat().st_size < 1_500_000

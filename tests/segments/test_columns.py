@@ -49,7 +49,7 @@ for name in ("made.csv", "made.json", "made.parquet"):
     write_segments(made, folder / name)
     assert read_segments(folder / name) == made
     read[name] = read_segments(folder / name).table.effort.tolist()
-filling = runpy.run_path(str(docs / "fill_columns.py"))
+filling = runpy.run_path(str(docs / "fill_pages.py"))
 schema = filling["json_schema"]()["properties"]["segments"]["items"]
 print(json.dumps({
     "read": read,
@@ -61,7 +61,7 @@ print(json.dumps({
     "schema": [schema["properties"]["effort"], "effort" in schema["required"]],
     "message": json.loads(to_json(segments_message(made)))["segments"][1]["effort"],
     "types": runpy.run_path(str(pages / "make_messages.py"))["messages_typescript"](),
-    "docs": filling["rows"](),
+    "docs": filling["columns_table"](),
     "library": "effort" in DESCRIBED["segments"],
 }))
 '''

@@ -12,16 +12,17 @@ from PIL import Image
 import kineme
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import ParameterError
-from kineme.recordings import Motion, Skeleton
-from kineme.web.matrix import (
+from kineme.features.similarity import (
     MOST_CELLS,
-    TILE,
-    Matrix,
+    SimilarityMatrix,
+    compare_frames_of_motion,
+    compare_frames_of_signal,
 )
-from kineme.web.similarity import matrix_of_motion, matrix_of_signal
+from kineme.recordings import Motion, Skeleton
+from kineme.web.matrix import TILE, make_head, make_report_tiles, make_tile
 
 RECORDING = kineme.read(bundled_recording())
-MATRIX = matrix_of_motion(RECORDING)
+MATRIX = compare_frames_of_motion(RECORDING)
 LEG_JOINTS = [
     i for i, name in enumerate(RECORDING.skeleton.names) if name.endswith(("Leg", "Foot"))
 ]
@@ -32,10 +33,10 @@ LEGS = Motion(
 )
 
 
-def shown(matrix: Matrix, level: int = 0) -> np.ndarray:
+def shown(matrix: SimilarityMatrix, level: int = 0) -> np.ndarray:
     """A level put together from its tiles, 0 to 1."""
     count = -(-len(matrix.levels[level]) // TILE)
-    rows = [[grey(matrix.tile(level, i, j)) for j in range(count)] for i in range(count)]
+    rows = [[grey(make_tile(matrix, level, i, j)) for j in range(count)] for i in range(count)]
     return np.block(rows)
 
 
@@ -57,8 +58,8 @@ def test_cells_are_the_similarity_of_their_features() -> None:
 
 
 def test_coarser_levels_halve_until_one_tile_is_left() -> None:
-    long = matrix_of_signal(np.random.default_rng(0).normal(size=(3001, 2)), 10.0)
-    assert long.head().sizes == [3001, 1501, 751, 376, 188]
+    long = compare_frames_of_signal(np.random.default_rng(0).normal(size=(3001, 2)), 10.0)
+    assert make_head(long).sizes == [3001, 1501, 751, 376, 188]
     assert shown(long, 4).shape == (188, 188)
 
 
@@ -66,8 +67,8 @@ def test_coarser_levels_halve_until_one_tile_is_left() -> None:
 def test_from_afar_activities_are_plain_blocks(motion: Motion, times: float) -> None:
     """Frames of one activity are similar whatever their phase, those of different ones are not."""
     truth = kineme.read_segments(bundled_truth())
-    matrix = matrix_of_motion(motion)
-    assert matrix.head().sizes == [483, 242]
+    matrix = compare_frames_of_motion(motion)
+    assert make_head(matrix).sizes == [483, 242]
     cells = np.arange(242) / 5 + 0.1  # seconds
     rows = truth.activities
     owner = np.searchsorted(rows.start_s, cells, side="right") - 1
@@ -78,7 +79,7 @@ def test_from_afar_activities_are_plain_blocks(motion: Motion, times: float) -> 
 
 @pytest.mark.parametrize("motion", [RECORDING, LEGS])
 def test_a_gap_is_like_nothing(motion: Motion) -> None:
-    holed = matrix_of_motion(replace(motion, gaps=((600, 900),)))
+    holed = compare_frames_of_motion(replace(motion, gaps=((600, 900),)))
     for level, (start, stop) in enumerate(((100, 150), (51, 74))):
         picture = shown(holed, level)
         assert (picture[start:stop] == 0).all()
@@ -87,8 +88,8 @@ def test_a_gap_is_like_nothing(motion: Motion) -> None:
 
 def test_there_are_no_tiles_outside() -> None:
     for place in ((0, 2, 0), (0, 0, 2), (2, 0, 0), (-1, 0, 0), (0, -1, 0), (0, 0, -1)):
-        assert MATRIX.tile(*place) is None
-    assert MATRIX.tile(0, 1, 1) is not None
+        assert make_tile(MATRIX, *place) is None
+    assert make_tile(MATRIX, 0, 1, 1) is not None
 
 
 @pytest.mark.parametrize("channels", [1, 3, 40])
@@ -98,23 +99,23 @@ def test_signals_repeat_where_they_repeat(channels: int) -> None:
     signal = np.concatenate(
         [np.sin(2 * np.pi * times[:, None] + phases[0]), np.sin(3 * times[:, None] + phases[1])]
     )
-    matrix = matrix_of_signal(1000 * signal + 7, 60.0)
+    matrix = compare_frames_of_signal(1000 * signal + 7, 60.0)
     picture = shown(matrix)
     assert picture[50, 60] == 1  # a period of one second
     assert picture[50, 55] < 0.1
-    np.testing.assert_array_equal(picture, shown(matrix_of_signal(signal, 60.0)))
+    np.testing.assert_array_equal(picture, shown(compare_frames_of_signal(signal, 60.0)))
 
 
 def test_signals_that_are_still_or_missing_in_part() -> None:
-    still = shown(matrix_of_signal(np.full((50, 2), 3.0), 10.0))
+    still = shown(compare_frames_of_signal(np.full((50, 2), 3.0), 10.0))
     np.testing.assert_array_equal(still, 1)
     values = np.random.default_rng(2).normal(size=(60, 2))
     values[20:30, 1] = np.nan
-    holed = shown(matrix_of_signal(values, 10.0))
+    holed = shown(compare_frames_of_signal(values, 10.0))
     assert (holed[20:30] == 0).all()
     assert holed[5, 5] == holed[45, 45] == 1
-    np.testing.assert_array_equal(shown(matrix_of_signal(np.full(9, np.nan), 10.0)), 0)
-    assert shown(matrix_of_signal(np.ones(1), 0.01)).shape == (1, 1)
+    np.testing.assert_array_equal(shown(compare_frames_of_signal(np.full(9, np.nan), 10.0)), 0)
+    assert shown(compare_frames_of_signal(np.ones(1), 0.01)).shape == (1, 1)
 
 
 @pytest.mark.parametrize(
@@ -123,25 +124,25 @@ def test_signals_that_are_still_or_missing_in_part() -> None:
 )
 def test_what_is_no_signal_is_refused(values: object, fps: float) -> None:
     with pytest.raises(ParameterError):
-        matrix_of_signal(values, fps)
+        compare_frames_of_signal(values, fps)
 
 
 def test_what_a_report_keeps_covers_the_recording_and_stays_within_its_bytes() -> None:
-    tiles, band = MATRIX.report_tiles()
+    tiles, band = make_report_tiles(MATRIX)
     assert band is None
     assert sorted(tiles) == ["0/0/0", "0/1/0", "0/1/1", "1/0/0"]
-    long = matrix_of_signal(np.random.default_rng(3).normal(size=(9000, 1)), 10.0)
-    tiles, band = long.report_tiles()
+    long = compare_frames_of_signal(np.random.default_rng(3).normal(size=(9000, 1)), 10.0)
+    tiles, band = make_report_tiles(long)
     assert band == TILE
     assert {"0/35/35", "0/35/34", "1/17/0"} <= tiles.keys()
     assert "0/35/33" not in tiles
     most = sum(map(len, tiles.values())) - 100_000
-    fewer, band = long.report_tiles(most)
+    fewer, band = make_report_tiles(long, most)
     assert band == 0
     assert sum(map(len, fewer.values())) <= most
 
 
 def test_more_than_an_hour_has_no_more_cells() -> None:
-    matrix = matrix_of_signal(np.sin(np.arange(2 * 36_000)), 10.0)
+    matrix = compare_frames_of_signal(np.sin(np.arange(2 * 36_000)), 10.0)
     assert len(matrix.levels[0]) == MOST_CELLS
     assert matrix.fps == 5.0

@@ -28,11 +28,12 @@ from kineme.methods.region_growing.neighbors import NeighborGraph
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import primitive_cuts
 from kineme.methods.region_growing.warping import component_labels
-from kineme.plot.matrix import SHADES, similarity_image
+from kineme.plot.matrix import PIXELS, SHADES
 from kineme.segments.colors import PALETTE
 from kineme_reproduction.figures.style import BETWEEN, heading, new_figure, save
 from kineme_reproduction.trials import Trial
 
+ENTRIES_AT_ONCE = 1 << 20
 FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
 
 
@@ -129,7 +130,7 @@ def _growth_pairs(analysis: RegionsFound, preset: RegionGrowingPreset) -> Neighb
 
 def _draw_matrix(axes: Axes, graph: NeighborGraph, seconds: float) -> None:
     axes.imshow(
-        similarity_image(graph, 900), cmap=SHADES, vmin=0, vmax=1,
+        draw_neighbors(graph, 900), cmap=SHADES, vmin=0, vmax=1,
         extent=(0, seconds, seconds, 0), interpolation="antialiased",
     )  # fmt: skip
     axes.tick_params(labelsize=7, length=2)
@@ -180,3 +181,49 @@ def _component_colors(labels: NDArray[np.float64]) -> NDArray[np.float64]:
     for i, name in enumerate(shown):
         image[labels == name] = to_rgb(PALETTE[i % len(PALETTE)])
     return image
+
+
+def draw_neighbors(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.float32]:
+    """Square picture of the graph: 1 where frames are equal, 0 where none are neighbours.
+
+    Parameters
+    ----------
+    graph : NeighborGraph
+    pixels : int
+        Of each edge, at most. Where several pairs of frames fall on one pixel, the most
+        similar one counts.
+
+    Returns
+    -------
+    (size, size) array
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme_reproduction.figures.matrix import draw_neighbors
+    >>> graph = kineme.neighbor_graph([[0.0], [0.5], [5.0]], radius=1.0)
+    >>> (draw_neighbors(graph) > 0).tolist()
+    [[True, True, False], [True, True, False], [False, False, True]]
+    """
+    n = max(len(graph), graph.n_columns)
+    size = min(n, pixels)
+    image = np.zeros(size * size, np.float32)
+    # A radius of 0 only has neighbours at distance 0.
+    scale = graph.radius or 1.0
+    for first, last in _runs_of_rows(graph.indptr):
+        entries = slice(graph.indptr[first], graph.indptr[last])
+        rows = np.repeat(np.arange(first, last), np.diff(graph.indptr[first : last + 1]))
+        columns = graph.indices[entries].astype(np.int64)
+        # Row and column of each pair in pixels, as one index into the flat image.
+        cells = rows * size // n * size + columns * size // n
+        # A neighbour at the very rim of the radius is still seen.
+        np.maximum.at(image, cells, 1 - 0.85 * graph.distances[entries] / np.float32(scale))
+    return image.reshape(size, size)
+
+
+def _runs_of_rows(indptr: NDArray[np.int64]) -> list[tuple[int, int]]:
+    """Rows in runs of about ENTRIES_AT_ONCE entries."""
+    bounds = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
+    # The rows whose entries begin nearest to every multiple of ENTRIES_AT_ONCE.
+    starts = np.unique(np.searchsorted(indptr, bounds, side="right") - 1).tolist()
+    return list(zip(starts, [*starts[1:], len(indptr) - 1], strict=True))

@@ -23,8 +23,10 @@ def interpolate_frames(values: ArrayLike, at: ArrayLike) -> Floats:
     [5.0, 20.0]
     """
     rows, places = np.asarray(values, np.float64), np.asarray(at, np.float64)
+    # The last frame but one at most, so that a place beyond the end has a line to follow.
     before = np.minimum(places.astype(np.intp), max(0, len(rows) - 2))
     after = np.minimum(before + 1, len(rows) - 1)
+    # New axes, so that the share applies to all further axes of the values.
     share = (places - before).reshape(-1, *[1] * (rows.ndim - 1))
     mixed: Floats = (1 - share) * rows[before] + share * rows[after]
     return mixed

@@ -314,11 +314,13 @@ class Registry(Mapping[str, T]):
             self._loading = True
             try:
                 builtins = [new for path in self._builtins for new in _objects_at(path, self._home)]
+                # Each is put in front, so the reversed order comes out right.
                 for new in reversed(builtins) if self._newest_first else builtins:
                     self._add(new)
                 self._add_plugins()
                 self._loaded = True
             except BaseException:
+                # A failed load leaves nothing behind, so that the next one starts anew.
                 self._objects, self._loading = {}, False
                 raise
 

@@ -59,8 +59,10 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     try:
         descriptor = _hold(draft)
         yield draft
+        # On the disk before it takes the name: a crash leaves the old file or the new one.
         _synchronise(draft)
         draft.replace(final)
+        # The folder holds the name, and must be on the disk as well.
         _synchronise(final.parent)
     except FileError as error:
         raise _rename_error(error, draft, final) from error
@@ -98,6 +100,7 @@ def atomic_folder(target: Path) -> Iterator[Path]:
     try:
         descriptor = _hold(draft)
         yield draft
+        # A folder can only replace an empty one that is gone.
         if target.is_dir():
             target.rmdir()
         draft.rename(target)
@@ -141,6 +144,7 @@ def translate_read_errors(path: str | os.PathLike[str]) -> Iterator[None]:
             warnings.simplefilter("ignore", RuntimeWarning)
             yield
     except KinemeError as error:
+        # A ValueError of the package says what is wrong with the content of the file.
         if isinstance(error, FileError | ImportError) or not isinstance(error, ValueError):
             raise
         raise ReadError(path, str(error)) from error
@@ -343,6 +347,7 @@ def is_held(draft: Path) -> bool:
         return False
     file = _open_draft(draft)
     try:
+        # A writer holds a shared lock, so an exclusive one fails.
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
         return True

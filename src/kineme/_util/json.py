@@ -98,6 +98,7 @@ def sentence(problem: str, everything: str = "the whole of it") -> str:
 def fault_of(found: Any) -> str:
     """Return what of JSON no reader takes, in words; empty where it is sound."""
     level: list[Any] = [[found]]
+    # Level by level instead of by recursion, which deep content would exhaust.
     for _ in range(DEEPEST + 1):
         inner: list[Any] = []
         for container in level:
@@ -108,6 +109,7 @@ def fault_of(found: Any) -> str:
                 elif kind is list:
                     inner.append(value)
                 elif (kind is float or kind is int) and not -LARGEST <= value <= LARGEST:
+                    # `not ... <=` also catches nan, for which every comparison is False.
                     return "holds a number that is none, or too large"
         if not inner:
             return ""

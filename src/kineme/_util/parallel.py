@@ -68,6 +68,7 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
             check_cancelled()
             return function(item)
 
+    # A thread of the pool must not wait for other threads of the pool.
     if count_threads() == 1 or len(items) == 1 or getattr(_here, "of_pool", False):
         return [one(item) for item in items]
     pool = _pool()
@@ -82,6 +83,7 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
 
 def make_even_slices(n: int, short: int = SHORT) -> list[slice]:
     """``range(n)`` in slices of like size, a few for each core; fewer where these were short."""
+    # A few parts for each core even out rows that take longer; division rounded up.
     parts = min(2 * count_threads(), -(-n // short))
     edges = [n * part // parts for part in range(parts + 1)] if parts else []
     return [slice(a, b) for a, b in pairwise(edges)]
@@ -115,6 +117,7 @@ def make_process_pool(processes: int, imports: Sequence[str] = ()) -> ProcessPoo
     """So many processes, which share the cores, import these modules and end when this one does."""
     from concurrent.futures import ProcessPoolExecutor
 
+    # All processes together use as many threads as there are cores.
     share = max(1, count_threads() // processes)
     return ProcessPoolExecutor(
         processes, mp_context=make_process_context(imports), initializer=_prepare, initargs=(share,)
@@ -164,12 +167,14 @@ def _prepare(threads: int) -> None:
     from multiprocessing import parent_process
     from multiprocessing.connection import wait
 
+    # Read by `count_threads` in the worker.
     os.environ["KINEME_THREADS"] = str(threads)
     parent = parent_process()
     if parent is not None:
         sentinel = parent.sentinel
 
         def watch() -> None:
+            # Ready when the parent has ended, however it did.
             wait([sentinel])
             os._exit(1)
 
@@ -245,11 +250,13 @@ def _make_temporary_cache() -> str:
     import stat
     import tempfile
 
+    # One folder for each user; what others could write to is not run.
     user = os.getuid() if hasattr(os, "getuid") else 0
     folder = Path(tempfile.gettempdir(), f"kineme-{user}")
     folder.mkdir(mode=0o700, exist_ok=True)
     found = folder.lstat()
     private = stat.S_ISDIR(found.st_mode) and found.st_uid == user
+    # The folder may be somebody else's trap: only one of this user, closed to others, is taken.
     if private and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
         return str(folder)
     return tempfile.mkdtemp(prefix="kineme-")

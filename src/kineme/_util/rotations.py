@@ -37,6 +37,7 @@ def conjugate(q: Floats) -> Floats:
 
 def rotate(q: Floats, v: Floats) -> Floats:
     """Vectors ``v`` turned by ``q``: v + 2 u x (u x v + w v), with q = (w, u)."""
+    # Twice the cross product of the vector part with v, as in the docstring.
     w, x, y, z = components(q)
     vx, vy, vz = components(v)
     tx = 2 * (y * vz - z * vy)
@@ -66,10 +67,12 @@ def from_euler(angles: Floats, axes: str) -> Floats:
     product[0] = 1.0
     for number, (angle, axis) in enumerate(zip(half, axes, strict=True)):
         cos, sin = np.cos(angle), np.sin(angle)
+        # Place of the axis in the quaternion, after w.
         i = 1 + "xyz".index(axis)
         if number == 0:
             product[0], product[i] = cos, sin
             continue
+        # The two other axes, in cyclic order.
         j, k = 1 + i % 3, 1 + (i + 1) % 3
         w, x, y, z = product[[0, i, j, k]]  # the axis first, as x
         product[0], product[i] = w * cos - x * sin, w * sin + x * cos
@@ -86,6 +89,7 @@ def to_euler_zyx(q: Floats) -> Floats:
     w, x, y, z = components(q)
     cz_cy, sz_cy = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
     about_z = np.arctan2(sz_cy, cz_cy)
+    # What is left once the turn about z is taken off has only cos y and sin y in these places.
     sin, cos = np.sin(about_z), np.cos(about_z)
     rotate_about_y = np.arctan2(2 * (w * y - x * z), cos * cz_cy + sin * sz_cy)
     about_x = np.arctan2(
@@ -104,9 +108,12 @@ def rotate_about_y(angle: ArrayLike) -> Floats:
 
 def logarithm(q: Floats) -> Floats:
     """Rotations as vectors: axis times radians, along the shorter arc."""
+    # As q and -q are one rotation: w >= 0 is the shorter arc.
     q = np.where(q[..., :1] < 0, -q, q)
     norm = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
+    # The arctangent is exact for small angles, where an arccosine of w is not.
     angle = 2 * np.arctan2(norm, q[..., :1])
+    # Towards the identity the ratio of angle and sine tends to 2.
     vectors: Floats = q[..., 1:] * np.where(norm > 0, angle / np.maximum(norm, 1e-300), 2.0)
     return vectors
 
@@ -114,6 +121,7 @@ def logarithm(q: Floats) -> Floats:
 def exponential(vectors: Floats) -> Floats:
     """Return the inverse of `logarithm`."""
     half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2
+    # `sinc(half / pi)` is sin(half) / half, which is 1 at the identity: no division by 0.
     return np.concatenate([np.cos(half), vectors * np.sinc(half / np.pi) / 2], axis=-1)
 
 
@@ -135,4 +143,5 @@ def components(array: Floats) -> tuple[Floats, ...]:
 
 def join(*parts: Floats) -> Floats:
     """Return the inverse of `components`, contiguous per component."""
+    # Stacked with components first, so that each is contiguous; then seen with components last.
     return np.moveaxis(np.stack(np.broadcast_arrays(*parts)), 0, -1)

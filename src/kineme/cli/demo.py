@@ -40,8 +40,9 @@ def demo(
         check_writable(table, picture)
         request = Request.of()
         with progress(path.name, quiet=quiet) as stage:
-            result, found = request.segment(request.read(path), stage)
-        write_results(result, found, table, picture)
+            recording = request.read(path)
+            result = request.segment(recording, stage)
+        write_results(result, recording, request, table, picture)
         if not quiet:
             from kineme.cli.tables import show_segments
 

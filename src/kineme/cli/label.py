@@ -78,7 +78,7 @@ def _label_primitives(
     motion = request.read_motion(path)
     table = request.segments(motion, labels, stage)
     if not len(table.primitives):
-        table = name_primitives(request.segment(motion, stage)[0], table)
+        table = name_primitives(request.segment(motion, stage), table)
     return KnowledgeBase.from_recording(motion, table, effectors=request.effectors)
 
 

@@ -17,7 +17,6 @@ from kineme.cli.options.targets import check_writable
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
-    from kineme.methods.base import Found
     from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
@@ -89,8 +88,8 @@ def _segment_one(
 ) -> Segmentation:
     """Return the segments of a recording; write table, picture and page where these are wanted."""
     table, picture, page = targets
-    result, found = request.segment(recording, stage)
-    write_results(result, found, table, picture)
+    result = request.segment(recording, stage)
+    write_results(result, recording, request, table, picture)
     if page is not None:
         from kineme.report.page import write_report
 
@@ -99,7 +98,11 @@ def _segment_one(
 
 
 def write_results(
-    result: Segmentation, found: Found, table: Path | None, picture: Path | None
+    result: Segmentation,
+    recording: Motion | Signals,
+    request: Request,
+    table: Path | None,
+    picture: Path | None,
 ) -> None:
     """Write the table and the picture, where wanted."""
     if table is not None:
@@ -109,7 +112,7 @@ def write_results(
     if picture is not None:
         from kineme.plot import plot_segmentation
 
-        plot_segmentation(result, found, picture)
+        plot_segmentation(result, request.drawn(recording), picture, effectors=request.effectors)
 
 
 def print_segments(

@@ -159,6 +159,7 @@ def format_per_cent(probability: float) -> str:
 def _repetitions(clusters: list[int], main: int) -> str:
     """How many primitives are in the activity's cluster, else in the largest; how many are not."""
     if main not in clusters:
+        # Most frequent of the clusters of its primitives.
         main = max(clusters, key=clusters.count, default=-1)
     count = clusters.count(main) if main >= 0 else 0
     others = len(clusters) - count

@@ -101,7 +101,7 @@ def _name_segments(
     """Return the segments of a recording, labelled."""
     from kineme.transfer import transfer_features, transfer_labels
 
-    found = request.segment(motion, stage)[0]
+    found = request.segment(motion, stage)
     stage("labels")
     features = transfer_features(motion, effectors=request.effectors)
     return transfer_labels(found, features, base, **options)

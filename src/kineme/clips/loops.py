@@ -77,6 +77,7 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
     note = "ends blended into a loop"
     provenance = motion.provenance.noted(note)
     if motion.rotations is None:
+        # Without rotations no joint hangs on another: all of them are carried.
         free = np.ones(motion.positions.shape[1], bool)
         positions = _closed_places(motion.positions, fps, carry, free)
         return replace(motion, positions=positions, provenance=provenance), carry
@@ -85,6 +86,7 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
     free = np.array(skeleton.parents) < 0
     rotations = np.array(motion.rotations)
     translations = local_translations(skeleton, motion.positions, motion.rotations)
+    # The rotation of the hips in world axes, as the carry needs it.
     if above >= 0:  # root bones stay where they are: the carry is of the hips, in world axes
         free = np.arange(skeleton.n_joints) == hips
         around = world_rotations(skeleton, rotations)[:, above]
@@ -94,6 +96,7 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
     translations = _closed_places(translations, fps, carry, free)
     if above >= 0:
         positions = forward_kinematics(skeleton, rotations, translations=translations)
+        # Back to the axes of the bone above, as they are after blending.
         back = rot.conjugate(world_rotations(skeleton, rotations)[:, above])
         rotations[:, hips] = rot.multiply(back, rotations[:, hips])
         translations[:, hips] = rot.rotate(back, translations[:, hips] - positions[:, above])
@@ -106,6 +109,7 @@ def repeat_first_frame(motion: Motion, carry: Carry) -> Motion:
     again, rotations = carry.apply(motion.positions[:1]), motion.rotations
     if rotations is not None:
         first = np.array(rotations[:1])
+        # Roots only: all other joints are relative to their parents.
         roots = np.array(motion.skeleton.parents) < 0
         first[:, roots] = rot.multiply(carry.rotation, first[:, roots])
         rotations = np.concatenate([rotations, first])
@@ -123,11 +127,15 @@ def carry_of(motion: Motion) -> Carry:
     if motion.n_frames < 2:
         return Carry(0.0, 0.0, 0.0)
     before, after = seam_sides(motion.positions[:, motion.skeleton.body], motion.fps)
+    # The values at the seam; speed and acceleration are not needed here.
     first, last = after[0], before[0]
+    # Means of both poses on the floor.
     (x, _, z), (u, _, w) = (pose.mean(axis=0) for pose in (first, last))
     a, b = first - first.mean(axis=0), last - last.mean(axis=0)
+    # Best turn about y in closed form (Kovar et al. 2002, section 3.1, equal weights).
     across = float(a[:, 2] @ b[:, 0] - a[:, 0] @ b[:, 2])
     turn = atan2(across, float(a[:, 0] @ b[:, 0] + a[:, 2] @ b[:, 2]))
+    # The shift brings the turned mean of the first pose onto the mean of the last.
     to_x = float(u - x * cos(turn) - z * sin(turn))
     return Carry(turn, to_x, float(w + x * sin(turn) - z * cos(turn)))
 
@@ -138,6 +146,7 @@ def seam_sides(values: Floats, fps: float) -> tuple[Floats, Floats]:
     ``values`` (frames, ...) are two frames at least.
     """
     near = min(len(values), max(FEWEST, round(NEAR_S * fps)))
+    # The seam is at 0: half a frame after the last frame and half a frame before the first.
     return _extrapolate_seam(values[-near:], 0.5 - near), _extrapolate_seam(values[:near], 0.5)
 
 
@@ -145,9 +154,11 @@ def _extrapolate_seam(values: Floats, first: float) -> Floats:
     """Value, speed and acceleration at 0 of the parabola nearest to values from ``first`` on."""
     frames = first + np.arange(len(values))
     degree = 2 if len(frames) >= FEWEST else 1
+    # Least-squares fit: the columns of the Vandermonde matrix are 1, t, t².
     fit = np.linalg.pinv(np.vander(frames, degree + 1, increasing=True))
     found = np.zeros((3, *values.shape[1:]))
     found[: degree + 1] = np.tensordot(fit, values, axes=1)
+    # The second derivative of a parabola is twice its coefficient.
     found[2] *= 2
     return found
 
@@ -157,14 +168,19 @@ def _closed_rotations(
 ) -> Floats:
     """Each rotation turned by what is added to it, in its own frame."""
     first, last = rotations[0], rotations[-1]
+    # Logarithms relative to the nearest frame: small rotations, which add up like vectors.
     before, _ = seam_sides(rot.logarithm(rot.multiply(rot.conjugate(last), rotations)), fps)
     _, after = seam_sides(rot.logarithm(rot.multiply(rot.conjugate(first), rotations)), fps)
     ahead = np.array(first)
+    # The first frame as it is one round later.
     ahead[roots] = rot.multiply(carry.rotation, ahead[roots])
+    # Rotations on both sides of the seam.
     left = rot.multiply(last, rot.exponential(before[0]))
     right = rot.multiply(ahead, rot.exponential(after[0]))
     gaps = after - before
+    # The step of pose along the shorter arc; the steps of speed are differences of vectors.
     gaps[0] = rot.logarithm(rot.multiply(rot.conjugate(left), right))
+    # (frames, 3) times (3, joints, 3): what is added to each joint in each frame.
     added = np.tensordot(_shares(len(rotations), fps), gaps, axes=1)
     return rot.normalize(rot.multiply(rotations, rot.exponential(added)))
 
@@ -177,11 +193,13 @@ def _closed_places(places: Floats, fps: float, carry: Carry, free: NDArray[np.bo
     What is added to the free ones turns with the carry, so that it fits at both ends.
     """
     before, after = seam_sides(places, fps)
+    # Value, speed and acceleration are turned, and only the value is shifted as well.
     after[:, free] = rot.rotate(carry.rotation, after[:, free])
     after[0, free] += carry.shift
     shares = _shares(len(places), fps)
     added = np.tensordot(shares, after - before, axes=1)
     turns = np.zeros((len(places), 1, 3))
+    # Steps are in the axes of the last frame; earlier frames have turned less by their share.
     turns[:, 0, 1] = carry.turn * (shares[:, 0] - 0.5)
     added[:, free] = rot.rotate(rot.exponential(turns), added[:, free])
     closed: Floats = places + added
@@ -194,12 +212,16 @@ def _shares(n: int, fps: float) -> Floats:
     With t frames from the seam, negative before it, and k = (1 - |t| / width)^3: the share of the
     step of speed is -|t| k / 2, that of the step of acceleration -t |t| k / 4.
     """
+    # Frames lie half a frame off the seam on either side.
     frames = np.arange(n) + 0.5
+    # At most half of the clip, so that both blends do not overlap.
     width = min(n / 2, BLEND_S * fps)
     ahead, back = np.maximum(1 - frames / width, 0), np.maximum(1 - (n - frames) / width, 0)
+    # Smooth weights which reach 0, with no slope, at the end of the blend.
     rise, fall = frames * ahead**3, (n - frames) * back**3
     return np.stack(
         [
+            # From -1/2 at the first frame to 1/2 at the last: half of the step on either side.
             frames / n - 0.5,
             -(rise + fall) / 2,
             (fall * (n - frames) - rise * frames) / 4,

@@ -60,6 +60,7 @@ class Clip:
 def write_manifests(clips: Sequence[Clip], folder: Path, *, loops: bool, animations: bool) -> None:
     """Leave both lists in a folder."""
     _write_csv(clips, folder / MANIFEST, loops=loops, animations=animations)
+    # Stable: clips of equal order stay in the order of time.
     loops_first = sorted(clips, key=_order)
     head = f'{{\n"schema": "{SCHEMA}",\n"kineme": "{__version__}",\n"clips": ['
     body = ",".join(f"\n{_as_text(clip)}" for clip in loops_first)
@@ -132,6 +133,7 @@ def _round_numbers(value: Any) -> Any:
     if isinstance(value, tuple | list | np.ndarray):
         return [_round_numbers(each) for each in value]
     if isinstance(value, float):
+        # Infinite and missing numbers are not valid JSON.
         return round(float(value), DIGITS) if math.isfinite(value) else None
     return int(value) if isinstance(value, np.integer) else value
 
@@ -143,6 +145,7 @@ def _cells(carry: Carry) -> tuple[float, float, float]:
 def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bool) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
+        # Columns of ranks and carries only where there are loops.
         more = [*((*RANKED, *CARRY) if loops else ()), *((ANIMATION,) if animations else ())]
         table.writerow(["file", "source", *SPANS, *more])
         for clip in clips:

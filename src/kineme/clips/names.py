@@ -38,10 +38,12 @@ def safe_name(stem: str, number: int, text: str) -> str:
     'clip_86_01_0012_walk_n2024'
     """
     middle = f"_{number:04d}_"
+    # A label without letters that survive leaves nothing.
     label = _protect_numbers(_ascii(text))[:LONGEST_TEXT].strip("_") or "clip"
     first = _ascii(stem)
     if not first[:1].isalpha():
         first = f"clip_{first}".rstrip("_")
+    # The recording's name is cut, since number and label tell clips apart.
     first = first[: LONGEST - len(middle) - len(label)].rstrip("_")
     return f"{first}{middle}{label}"
 
@@ -68,11 +70,13 @@ def unlike(stem: str, first: int, others: Container[str]) -> str:
     'Take_1_0012'
     """
     names = chain([plain(stem)], (f"{plain(stem)}_{number:04d}" for number in count(first)))
+    # File systems may ignore case, so names are compared without it.
     return next(name for name in names if name.casefold() not in others)
 
 
 def plain(text: str) -> str:
     """Letters, digits and ``_`` and ``-``; short enough for any file system."""
+    # Cut to bytes; half a letter at the end is dropped when decoding.
     kept = _plain_letters(text).encode(errors="replace")[:LONGEST_IN_FILE]
     return kept.decode(errors="ignore")
 
@@ -88,6 +92,7 @@ def _protect_numbers(text: str) -> str:
 
 def _ascii(text: str) -> str:
     """ASCII letters and digits, accents taken off, and single ``_`` for all else."""
+    # Decomposed letters: accents become marks of their own, which are left out. ß has no such form.
     parted = unicodedata.normalize("NFKD", text.replace("ß", "ss"))
     bare = "".join(letter for letter in parted if not unicodedata.combining(letter))
     kept = "".join(each if each.isascii() and each.isalnum() else " " for each in bare)

@@ -94,9 +94,11 @@ def loop_quality(
     it.
     """
     end, start = seam_sides(before, fps)
+    # Speeds and accelerations turn with the carry and are not shifted.
     turned = Carry(carry.turn, 0.0, 0.0)
     carried = np.stack([carry.apply(start[0]), turned.apply(start[1]), turned.apply(start[2])])
     step, speed_step = _seam_steps(after, carry)
+    # A recording without movement has no usual step.
     large, changed = (max(each, 1e-12) for each in usual)
     return LoopQuality(
         pose_m=_size(carried[0] - end[0]),
@@ -105,6 +107,7 @@ def loop_quality(
         speed_step=speed_step / changed,
         slide_m_s=_slide(after, carry, fps, feet),
         turn_deg=math.degrees(carry.turn),
+        # Mean over the joints of the change of height.
         rise_m=float((end[0] - start[0])[:, 1].mean()),
         unlike_m=unlike,
     )
@@ -134,6 +137,7 @@ def distances(shapes: Sequence[Floats]) -> list[float]:
 
 def ranks(qualities: Sequence[LoopQuality]) -> list[int]:
     """Return the place of each candidate, 1 the best."""
+    # Stable: of equal costs the earlier candidate is first.
     order = sorted(range(len(qualities)), key=lambda index: qualities[index].cost)
     places = [0] * len(order)
     for place, index in enumerate(order, 1):
@@ -145,6 +149,7 @@ def _seam_steps(after: Floats, carry: Carry) -> tuple[float, float]:
     """Return the step over the seam of a loop, and the larger change of steps beside it."""
     turned = Carry(carry.turn, 0.0, 0.0)
     step = carry.apply(after[0]) - after[-1]
+    # The steps before and after the seam, both in the axes of the last frame.
     before, behind = after[-1] - after[-2], turned.apply(after[1] - after[0])
     return _size(step), max(_size(step - before), _size(behind - step))
 
@@ -156,8 +161,11 @@ def _slide(
     speeds: list[float] = []
     for joints, planted in feet:
         path = after[:, list(joints)]
+        # The first frame one round later closes the path, so the last step leads over the seam.
         steps = np.diff(np.concatenate([path, carry.apply(path[:1])]), axis=0)
+        # A foot that rolls turns about one point, which stays: the slowest point tells sliding.
         slowest = np.hypot(steps[..., 0], steps[..., 2]).min(axis=1) * fps
+        # Planted in both frames of a step; the roll pairs the last frame with the first.
         speeds += slowest[planted & np.roll(planted, -1)].tolist()
     return float(np.mean(speeds)) if speeds else math.nan
 
@@ -165,6 +173,7 @@ def _slide(
 def _sample_phases(shape: Floats) -> Floats:
     """Return a motion at `PHASES` of its round."""
     at = np.linspace(0, len(shape) - 1, PHASES)
+    # Neighbouring frames of each phase; `low` leaves room for `high`.
     low = np.minimum(at.astype(int), max(len(shape) - 2, 0))
     high = np.minimum(low + 1, len(shape) - 1)
     share = (at - low)[:, None, None]

@@ -51,6 +51,7 @@ class RootMotion:
 
 def root_motion(motion: Motion, carry: Carry) -> RootMotion:
     """Return the even motion of the body with this carry, in the axes of the recording."""
+    # Seen from where the hips begin, the carry holds only what the body itself does.
     shift, seconds = _generator(_move_origin(carry, _start(motion))), motion.n_frames / motion.fps
     return RootMotion(shift[0] / seconds, shift[2] / seconds, carry.turn / seconds)
 
@@ -61,10 +62,13 @@ def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion
     unmoved = _follow_path(motion, carry, np.zeros(3))
     x, _, z = unmoved.positions[:, motion.skeleton.carrier].mean(axis=0)
     facing, center = _facing(unmoved), np.array([x, 0.0, z])
+    # Turn the mean facing to +z about the mean place of the hips, which goes to the origin.
     settled = _turn_frames(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
     # The speed of the point that comes to lie at the origin, not that of the root in frame 0.
     arm = center - _start(motion)
+    # Velocity of a point off the axis: rotation adds turn times arm, at right angles.
     across, ahead = start.x + start.turn * arm[2], start.z - start.turn * arm[0]
+    # The same velocity in the axes of the clip in place.
     removed = RootMotion(
         across * cos(facing) - ahead * sin(facing),
         across * sin(facing) + ahead * cos(facing),
@@ -85,8 +89,10 @@ def _follow_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
     start = _start(motion)
     about = _move_origin(carry, start)
     speed = _generator(about)
+    # The frame after the last one would be share 1, so the end is left out.
     shares = np.linspace(0.0, 1.0, motion.n_frames, endpoint=False)
     path: Floats = np.array(
+        # Position along the arc: the time times the mean direction so far, times the speed.
         [share * (_arc(share * about.turn) @ speed) for share in shares.tolist()]
     )
     target = start + shares[:, None] * shift
@@ -99,6 +105,7 @@ def _turn_frames(motion: Motion, turns: Floats, centers: Floats, targets: Floats
     centers, targets = (np.broadcast_to(each, (motion.n_frames, 3)) for each in (centers, targets))
     positions = rot.rotate(quaternions, motion.positions - centers[:, None]) + targets[:, None]
     rotations = motion.rotations
+    # Roots only: all other joints are relative to their parents.
     if rotations is not None:
         roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
         rotations = np.array(rotations)
@@ -114,6 +121,7 @@ def _move_origin(carry: Carry, place: Floats) -> Carry:
 
 def _generator(carry: Carry) -> Floats:
     """Return the shift, in the axes of the body, that even motion for one round consists of."""
+    # Shift of one round = mean rotation over the round times the even motion.
     shift: Floats = np.asarray(np.linalg.solve(_arc(carry.turn), carry.shift), np.float64)
     return shift
 
@@ -122,6 +130,7 @@ def _arc(turn: float) -> Floats:
     """Return the mean of the rotations from 0 to ``turn`` about the vertical."""
     if abs(turn) < STILL:
         return np.eye(3)
+    # Integrals of cosine and sine from 0 to the turn, divided by it.
     even, odd = sin(turn) / turn, (1 - cos(turn)) / turn
     return np.array([[even, 0.0, odd], [0.0, 1.0, 0.0], [-odd, 0.0, even]])
 
@@ -132,6 +141,7 @@ def _facing(motion: Motion) -> float:
         _, angles = heading(motion)
     except (EndEffectorError, MotionError):
         return 0.0
+    # Circular mean: angles near pi and -pi are neighbours.
     return atan2(float(np.sin(angles).mean()), float(np.cos(angles).mean()))
 
 

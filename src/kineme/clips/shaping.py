@@ -105,6 +105,7 @@ def shape_clips(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterat
     """
     feet = planted_feet(motion)
     qualities = loop_qualities(motion, rows, feet) if shape.loops else {}
+    # Ranks are among all candidates of the cluster, also where only the best are written.
     places = _places(rows, qualities)
     for index, row in enumerate(rows):
         rank = places.get(index)
@@ -151,17 +152,20 @@ def played_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
 def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
     """By index of the segment the quality of each loop; transitions have none."""
     body = list(motion.skeleton.body)  # a root bone that stays still would count as closed
+    # The usual steps are those of the whole recording, not of the clip.
     usual, found = usual_steps(motion.positions[:, body]), dict[int, LoopQuality]()
     for members in _candidates(rows).values():
         shapes = []
         for index in members:
             clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
+            # In place, so that candidates with different paths can be compared.
             shapes.append(remove_root_motion(clip, carry_of(clip))[0].positions[:, body])
         for index, unlike in zip(members, distances(shapes), strict=True):
             row = rows[index]
             clip = cut(motion, row.start_frame, row.stop_frame)
             closed, carry = loop(clip)
             of_clip = [
+                # Joints are counted within the body, and frames within the clip.
                 ([body.index(point) for point in points], mask[row.start_frame : row.stop_frame])
                 for points, mask in feet.values()
             ]
@@ -184,6 +188,7 @@ def planted_feet(motion: Motion) -> Feet:
         heel = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
         if heel is None:
             continue
+        # The keys of a dict are unique: a foot without a toe has its heel only once.
         points = tuple(dict.fromkeys([heel, joints.get(f"{side}_toe", heel)]))
         stands = stands_from_positions([motion.positions[:, j] for j in points], motion.fps)
         mask = np.zeros(motion.n_frames, bool)
@@ -197,6 +202,7 @@ def _candidates(rows: Sequence[Segment]) -> dict[Hashable, list[int]]:
     """Indices of what can become a loop, those of a cluster or a label together."""
     groups: defaultdict[Hashable, list[int]] = defaultdict(list)
     for index, row in enumerate(rows):
+        # A loop needs two frames for a speed at the seam.
         if row.kind != "transition" and row.stop_frame - row.start_frame >= 2:
             groups[row.label if row.cluster < 0 else row.cluster].append(index)
     return groups
@@ -222,14 +228,17 @@ def _shape_clip(
     clip = cut(motion, row.start_frame, row.stop_frame)
     carry = carry_of(clip)
     if quality is not None:
+        # Loops have a carry of exactly one round after blending.
         clip, carry = loop(clip)
     root = root_motion(clip, carry)
     if shape.straight:
         clip, carry = straighten(clip, carry)
+        # The path changed, and with it the root motion.
         root = root_motion(clip, carry)
     if shape.in_place:
         clip, root = remove_root_motion(clip, carry)
         carry = Carry(0.0, 0.0, 0.0)
+    # Before the first frame is repeated, so that `last` is the last frame of the round.
     poses = _poses(clip)
     if shape.close and quality is not None:
         clip = repeat_first_frame(clip, carry)
@@ -258,6 +267,7 @@ def _poses(clip: Motion) -> dict[str, dict[str, Any]] | None:
     """How the clip begins and ends: head, hands and feet from the pelvis, and its height."""
     try:
         ends = end_effectors(clip)
+        # First and last frame only.
         relative = body_frame(clip, ends.indices)[[0, -1]]
     except (EndEffectorError, MotionError):
         return None

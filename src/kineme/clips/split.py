@@ -163,6 +163,7 @@ def write_clips(
     several = chosen is not None and chosen.write_animations is not None
     with atomic_folder(target) as draft:
         first, files = 0, set[str]()
+        # Numbers go on over the recordings, so that names stay unique in the folder.
         for recording, rows in clips:
             run = _Run(recording, first, draft, shape.changes)
             first += len(rows)

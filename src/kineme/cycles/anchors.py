@@ -56,6 +56,7 @@ def anchor_repetitions(
     extreme = _EXTREME.fullmatch(text.strip())
     members: dict[Hashable, list[int]] = {}
     for i, each in enumerate(found):
+        # Repetitions without a group are summarised by their cluster or label itself.
         what = movement(each.segment)
         members.setdefault(groups[each.recording].get(what, what), []).append(i)
     starts = np.full(len(found), np.nan)
@@ -83,14 +84,17 @@ def _curve(recording: Motion | Signals, name: str, beside: Sequence[Signals]) ->
 
 def _extremes(found: Sequence[Repetition], curves: Sequence[Curve], sign: float) -> Floats:
     """When a channel is largest in each repetition, about the phase at which it usually is."""
+    # Without 100 %, which is 0 % of the next cycle.
     share = np.linspace(0, 1, 101)[:-1]
     sampled = []
     for each in found:
         values, fps = curves[each.recording]
         at = (each.start + share * (each.stop - each.start)) * fps
+        # Negative for a minimum, so that the largest value is searched in both cases.
         sampled.append(np.interp(at, np.arange(len(values)), sign * values))
     usual = np.array(sampled)
     complete = np.isfinite(usual).all(axis=1)
+    # A repetition with a gap must not hide the usual phase of the others.
     if not complete.any():
         return np.full(len(found), np.nan)
     phase = share[int(usual[complete].mean(axis=0).argmax())]
@@ -98,6 +102,7 @@ def _extremes(found: Sequence[Repetition], curves: Sequence[Curve], sign: float)
     for i, each in enumerate(found):
         values, fps = curves[each.recording]
         first, last = _window(each, phase)
+        # Whole frames within the window, limited to the recording.
         frames = np.arange(max(0, int(np.ceil(first * fps))), min(len(values), int(last * fps) + 1))
         if len(frames) and np.isfinite(values[frames]).all():
             times[i] = _peak(sign * values, int(frames[(sign * values[frames]).argmax()])) / fps
@@ -107,8 +112,10 @@ def _extremes(found: Sequence[Repetition], curves: Sequence[Curve], sign: float)
 def _peak(values: Floats, frame: int) -> float:
     """Where values are largest about a frame, between two of them."""
     if not 0 < frame < len(values) - 1:
+        # An end of the recording has no neighbour for the parabola.
         return float(frame)
     left, middle, right = values[frame - 1 : frame + 2]
+    # Vertex of the parabola through the three values; only a downward one has a maximum.
     curvature = left - 2 * middle + right
     return frame + (float((left - right) / (2 * curvature)) if curvature < 0 else 0.0)
 
@@ -134,6 +141,7 @@ def _times(
         [at for at, text in recording.provenance.events if plain_name(text) == name], np.float64
     )
     if name.endswith((STRIKE, OFF)):
+        # Contacts found from the movement fill in what the file did not mark.
         return _correct(_contacts(recording, name, needed=len(marked) == 0), marked)
     if len(marked):
         return np.sort(marked)
@@ -159,6 +167,7 @@ def _correct(found: Floats, marked: Floats) -> Floats:
 
     A laboratory often marks the contacts on its force plates only.
     """
+    # (found,): distance to the nearest marked event; infinite where none is marked.
     apart = np.abs(found[:, None] - marked).min(axis=1, initial=np.inf)
     return np.sort(np.concatenate([found[apart >= SAME_S], marked]))
 
@@ -167,7 +176,9 @@ def _crossings(values: Floats, level: float, *, rises: bool) -> Floats:
     """Frames, between two of them, at which values come to a level from below, or from above."""
     sign = 1.0 if rises else -1.0
     over = sign * (values - level)
+    # Comparisons with nan are False: no crossing is found next to a gap.
     frames = np.flatnonzero((over[:-1] <= 0) & (over[1:] > 0))
+    # Where the straight line between both frames crosses the level.
     return frames + over[frames] / (over[frames] - over[frames + 1])
 
 
@@ -177,9 +188,11 @@ def _nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
     for each in found:
         events = times[each.recording]
         inside = events[(events >= each.start) & (events < each.stop)]
+        # Events as unit vectors at their phase, so that 1 % and 99 % are near each other.
         turns += (np.exp(2j * np.pi * (inside - each.start) / (each.stop - each.start))).tolist()
     if not turns:
         return np.full(len(found), np.nan)
+    # Circular mean of the phases, as a share of the cycle.
     phase = float(np.angle(np.sum(turns)) / (2 * np.pi) % 1)
     chosen = np.full(len(found), np.nan)
     for i, each in enumerate(found):
@@ -187,6 +200,7 @@ def _nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
         events = times[each.recording]
         inside = events[(events >= first) & (events < last)]
         if len(inside):
+            # The middle of the window is the usual phase.
             chosen[i] = inside[np.abs(inside - (first + last) / 2).argmin()]
     return chosen
 
@@ -196,9 +210,11 @@ def _from_start_to_start(found: Sequence[Repetition], starts: Floats) -> list[Re
     anchored_ones = []
     for i, each in enumerate(found):
         goes_on = each.place in ("first", "inner")
+        # Repetitions are in the order of time, so the next one of the run is the next in the list.
         stop = starts[i + 1] if goes_on else np.nan
         start = starts[i]
         missing = "no event" if np.isnan(start) else "no event ends it" if np.isnan(stop) else ""
+        # Events in the wrong order; False where one of them is nan.
         if stop <= start:
             start, stop, missing = np.nan, np.nan, "no event"
         anchored_ones.append(

@@ -54,9 +54,11 @@ def measure_angle(first: Floats, second: Floats) -> Floats:
     >>> measure_angle(np.array([[0, 1.0, 0]]), np.array([[0, 0, 2.0]])).round(6)
     array([90.])
     """
+    # The arctangent is exact near 0 and 180 degrees, where an arccosine loses precision.
     cross = np.linalg.norm(np.cross(first, second), axis=-1)
     dot = (first * second).sum(axis=-1)
     angle = np.degrees(np.arctan2(cross, dot))
+    # `arctan2(0, 0)` is 0, but a vector without length has no direction.
     return np.where((cross == 0) & (dot == 0), np.nan, angle)
 
 
@@ -80,6 +82,7 @@ def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
     (array([90.]), array([-90.]))
     """
     flat = [remove_along(vectors, axis) for vectors in (first, second)]
+    # The triple product with the unit axis: the sine with its sign.
     sine = (np.cross(flat[0], flat[1]) * normalize(axis)).sum(axis=-1)
     cosine = (flat[0] * flat[1]).sum(axis=-1)
     return np.asarray(np.degrees(np.arctan2(sine, cosine)))
@@ -111,13 +114,17 @@ def hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats) -> F
     >>> np.abs(hinge_axis(y, 0 * y, lower, x + y)[0]).round(6).tolist()
     [1.0, 0.0, 0.0]
     """
+    # Directions of thigh and shank.
     along, limb = normalize(joint - upper), normalize(lower - joint)
     aside = normalize(remove_along(beside - joint, along))
+    # (frames, 3, 3): rows are the axes of the upper limb; the shank is then given in them.
     frame = np.stack([aside, np.cross(along, aside), along], axis=1)
     seen = np.einsum("fij,fj->fi", frame, limb)
+    # Eigenvalues ascend: the axis has least of the shank in it, the second tells how it swings.
     spreads, axes = np.linalg.eigh(seen.T @ seen / len(seen))
     if spreads[1] < MOVES**2:
         return None
+    # Back to the coordinates of the recording.
     return np.asarray(np.einsum("fij,i->fj", frame, axes[:, 0]))
 
 
@@ -141,6 +148,7 @@ def normalize(vectors: Floats) -> Floats:
     >>> normalize(np.array([[0.0, 2.0, 0.0]])).tolist()
     [[0.0, 1.0, 0.0]]
     """
+    # The floor avoids a division by 0; a vector of length 0 stays 0.
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12))
 
 

@@ -87,6 +87,7 @@ class Run:
         Beyond its ends at its own period.
         """
         n = len(self.borders) - 1
+        # `interp` holds the end values constant outside, so whole periods are added there.
         inside = np.interp(cycles, np.arange(n + 1), self.borders)
         beyond = np.maximum(cycles - n, 0) + np.minimum(cycles, 0)
         return inside + beyond * self.period
@@ -97,6 +98,7 @@ class Run:
         Their lengths count by half, the period of the run by the other half: a window follows the
         pace, and does not run away where borders are not right yet.
         """
+        # The first and the last border have a repetition on one side only.
         before = self.lengths[max(border - 1, 0)]
         after = self.lengths[min(border, len(self.lengths) - 1)]
         return np.asarray(offsets * np.where(offsets < 0, before, after))
@@ -139,8 +141,10 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
     if inner < 2:
         return runs
     for step, window in enumerate(WINDOWS):
+        # Shares of a cycle before and after a border, symmetric about 0.
         offsets = np.arange(-round(window * POINTS), round(window * POINTS) + 1) / POINTS
         template, weights = _template(runs, features, rates, offsets)
+        # Halved with each step: the windows become narrower.
         reach = FARTHEST / 2**step
         moved = [
             _move_borders(
@@ -167,7 +171,9 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
 
 def _extend_ends(runs: list[Run]) -> list[Run]:
     """Return runs with their ends drawn to where a repetition of usual length would have them."""
+    # The first and the last repetition of a run are left out: they end at the borders in question.
     inner = [np.diff(run.borders)[1:-1] for run in runs]
+    # Lengths relative to the median of their run, since runs differ in pace.
     ratios = np.concatenate(
         [each / np.median(each) for each in inner if len(each) > 1] or [np.empty(0)]
     )
@@ -176,10 +182,13 @@ def _extend_ends(runs: list[Run]) -> list[Run]:
     deviation, drawn = float(ratios.std()), []
     for run, lengths in zip(runs, inner, strict=True):
         borders, uncertainty = run.borders.copy(), run.uncertainty.copy()
+        # A run of two repetitions has no inner one, and keeps its ends.
         usual = float(np.median(lengths)) if len(lengths) else 0.0
         for end, place in ((0, borders[1] - usual), (-1, borders[-2] + usual)):
+            # Variances of the measured place and of the one that the usual length gives.
             first, second = uncertainty[end] ** 2, (deviation * usual) ** 2
             if first + second > 0:  # and both are known
+                # Mean weighted by the inverse variances, and its deviation.
                 borders[end] = (second * borders[end] + first * place) / (first + second)
                 uncertainty[end] = np.sqrt(first * second / (first + second))
         drawn.append(replace(run, borders=borders, uncertainty=uncertainty) if usual else run)
@@ -192,19 +201,26 @@ def _to_landmark(runs: list[Run], features: list[Floats], rates: list[float]) ->
     Where the mean cycle stands still, that is the middle of its rest. Else it is the nearest place
     at which its main movement, the first principal component, turns back.
     """
+    # A single repetition has no neighbour that shows where the movement turns.
     repeated = [run for run in runs if len(run.borders) > 2]
+    # Weighted by repetitions. The sum need not be divided: only its shape counts.
     mean = sum(_mean_cycle(run, features, rates) * (len(run.borders) - 1) for run in repeated)
     centred = np.asarray(mean) - np.mean(mean, axis=0)
+    # Central differences round the cycle: its end is followed by its start.
     change = np.roll(centred, -1, axis=0) - np.roll(centred, 1, axis=0)
     speed = np.linalg.norm(change, axis=1)
     moves = np.flatnonzero(speed > RESTING * np.sqrt(np.mean(speed**2)))
     if len(moves) == 0:
         return 0.0
+    # A rest about the border: it begins after the last movement and ends before the first one.
     if moves[0] > 0 and moves[-1] < POINTS - 1:  # the border lies in a rest
+        # In points; the rest's start is one cycle back, hence -POINTS.
         return float(_wrap_phase((moves[0] + moves[-1] - POINTS) / 2 / POINTS))
+    # The first right singular vector is the direction of the main movement.
     main = centred @ np.linalg.svd(centred, full_matrices=False)[2][0]
     slope = np.roll(main, -1) - np.roll(main, 1)
     after = np.roll(slope, -1)
+    # Points after which the slope changes its sign, and where it is 0 between two points.
     turns = np.flatnonzero(np.signbit(slope) != np.signbit(after))
     shares = slope[turns] / (slope[turns] - after[turns])
     places = [_wrap_phase(place) for place in ((turns + shares) / POINTS).tolist()]
@@ -218,6 +234,7 @@ def _turn_borders(runs: list[Run], features: list[Floats], rates: list[float]) -
         return runs
     means = {id(run): _mean_cycle(run, features, rates) for run in repeated}
     longest = max(repeated, key=lambda run: len(run.borders))
+    # In cycles, relative to the run with the most repetitions.
     late = {id(run): _lateness(means[id(run)], means[id(longest)]) for run in repeated}
     weights = {id(run): len(run.borders) - 1 for run in repeated}
 
@@ -227,6 +244,7 @@ def _turn_borders(runs: list[Run], features: list[Floats], rates: list[float]) -
     origin = min(late.values(), key=moves)
     turned = []
     for run in runs:
+        # Runs without a phase of their own are not moved.
         by = _wrap_phase(late.get(id(run), origin) - origin)
         cycles = np.arange(len(run.borders), dtype=np.float64) + by
         turned.append(replace(run, borders=run.at(cycles), turned=by) if by else run)
@@ -241,6 +259,7 @@ def _wrap_phase(share: float) -> float:
 def _mean_cycle(run: Run, features: list[Floats], rates: list[float]) -> Floats:
     """(points, dims): the mean of the repetitions of a run."""
     n = len(run.borders) - 1
+    # (repetitions, points): phases of all cycles, evenly spaced.
     cycles = np.arange(n)[:, None] + np.arange(POINTS) / POINTS
     values = sample_at(features[run.recording], rates[run.recording], run.at(cycles))
     return np.asarray(values.mean(axis=0))
@@ -251,16 +270,20 @@ def _lateness(mean: Floats, reference: Floats) -> float:
 
     0 where no phase makes them similar, or none much more than the present one.
     """
+    # Without the means the correlation compares shapes only.
     first, second = (each - each.mean(axis=0) for each in (mean, reference))
     norm = np.sqrt((first**2).sum() * (second**2).sum())
     if norm == 0:
         return 0.0
+    # Circular cross-correlation at all lags by FFT, summed over dimensions.
     spectra = np.fft.rfft(first, axis=0) * np.conj(np.fft.rfft(second, axis=0))
     correlation = np.fft.irfft(spectra, n=POINTS, axis=0).sum(axis=1) / norm
     best = int(correlation.argmax())
+    # A small gain may be noise, and turning the phase moves all borders.
     if correlation[best] < SIMILAR or correlation[best] - correlation[0] < BETTER:
         return 0.0
     left, right = correlation[best - 1], correlation[(best + 1) % POINTS]
+    # `_vertex` finds a minimum, so the correlations are negated. Lags beyond half a cycle wrap.
     return _wrap_phase((best + _vertex(-left, -correlation[best], -right)) / POINTS)
 
 
@@ -279,8 +302,10 @@ def _template(
         for run in runs
         if len(run.borders) > 2
     ]
+    # (borders, window, dims).
     every = np.concatenate(windows)
     template = np.asarray(every.mean(axis=0))
+    # Variance of the template in the window, as a share of all: high where repetitions agree.
     explained, total = template.var(axis=0), every.var(axis=(0, 1))
     shares = np.where(total > 0, explained / np.where(total > 0, total, 1.0), 0.0)
     return template, shares
@@ -296,24 +321,31 @@ def _move_borders(
     reach: float,
 ) -> Run:
     """Return the run with each border where the recording is most similar to the template."""
+    # The gradient per cycle; square roots of the weights go with differences that are squared
+    # later.
     slope, roots = np.gradient(template, axis=0) * POINTS, np.sqrt(weights)
     shifts = np.linspace(-reach, reach, 13)
     borders, uncertainty = run.borders.copy(), np.full(len(run.borders), np.nan)
     for i, border in enumerate(run.borders):
+        # At an end of a run nothing comparable lies outside.
         used = np.ones(len(offsets), bool)
         if i == 0:
             used &= offsets >= 0
         if i == len(borders) - 1:
             used &= offsets <= 0
         pace = run.pace(i, offsets[used])
+        # (shifts, window): times of the window for each tried shift.
         times = border + shifts[:, None] * run.period + pace
+        # (shifts,): weighted squared difference to the template.
         left = ((sample_at(features, rate, times) - template[used]) ** 2).sum(axis=1) @ weights
         best = int(left.argmin())
         shift = shifts[best]
         if 0 < best < len(shifts) - 1:
+            # Vertex of the parabola through the three best shifts, in units of their spacing.
             shift += _vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
         borders[i] = border + shift * run.period
         window = sample_at(features, rate, borders[i] + pace)
+        # Differences that remain at the new border give its uncertainty.
         left = roots * (window - template[used])
         uncertainty[i] = _deviation(left, roots * slope[used]) * run.period
     return replace(run, borders=borders, uncertainty=uncertainty)
@@ -324,12 +356,15 @@ def _deviation(left: Floats, slope: Floats) -> float:
     steepness = float((slope**2).sum())
     if steepness == 0:
         return np.nan
+    # Differences of neighbouring samples are correlated: block sums are taken as independent.
     pulls = [block.sum() for block in np.array_split((left * slope).sum(axis=1), BLOCKS)]
+    # Error of a least-squares shift: deviation of the pulls, divided by the summed squared slope.
     return DOUBT * float(np.sqrt(BLOCKS / (BLOCKS - 1) * np.square(pulls).sum()) / steepness)
 
 
 def _vertex(left: float, middle: float, right: float) -> float:
     """Where the parabola through three values at -1, 0 and 1 is least, from -1/2 to 1/2."""
+    # Positive curvature only: other parabolas have no minimum.
     curvature = left - 2 * middle + right
     return float(np.clip((left - right) / (2 * curvature), -0.5, 0.5)) if curvature > 0 else 0.0
 
@@ -349,7 +384,9 @@ def sample_at(values: Floats, rate: float, times: Floats) -> Floats:
     array of the shape of the times, and dims
     """
     at = np.clip(times * rate, 0, len(values) - 1)
+    # `before` is at most the last but one sample, so that `after` exists; 0 for a single sample.
     before = np.minimum(at.astype(np.intp), max(len(values) - 2, 0))
+    # A new last axis, so that the share applies to all dimensions.
     share = (at - before)[..., None]
     after = np.minimum(before + 1, len(values) - 1)
     return np.asarray(values[before] * (1 - share) + values[after] * share)

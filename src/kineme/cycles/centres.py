@@ -59,9 +59,11 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     names = [part_and_side(name) for name in motion.skeleton.names]
     places = motion.positions
     made: dict[str, Floats] = {}
+    # A skeleton with rotations has its joints at their centres; only markers need this.
     if motion.rotations is not None:
         return motion, dict(joints)
     centres = _hips(places, names)
+    # Without pelvis markers, joints that are named hips serve.
     hips = centres or {
         side: places[:, joints[f"{side}_hip"]] for side in SIDES if f"{side}_hip" in joints
     }
@@ -69,11 +71,13 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
         return motion, dict(joints)
     to_left = hips["left"] - hips["right"]
     chosen = dict(joints)
+    # From here per side: which ankle marker and which knee belong together.
     for side in SIDES:
         ankle = joints.get(f"{side}_ankle")
         bodies = [[j for j, (part, of) in enumerate(names) if of == side and part.startswith(word)]
                   for word in ("thigh", "shank")]  # fmt: skip
         if f"{side}_knee" in joints:
+            # Only with markers on the skin: knee and ankle are then both at the outer side.
             marker = _first(names, ANKLE, side) if centres else -1
             chosen |= {f"{side}_ankle": marker} if marker >= 0 else {}
         elif ankle is not None and min(map(len, bodies)) >= LEAST:
@@ -82,10 +86,12 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
             made |= {} if found is None else {f"{side}_knee": found}
     if not made and not centres:
         return motion, chosen
+    # Computed hips are added after the knees; `n + place` below relies on this order.
     made |= {f"{side}_hip": hip for side, hip in hips.items()}
     skeleton, n = motion.skeleton, motion.skeleton.n_joints
     extended = Skeleton(
         (*skeleton.names, *(f"centre of {part.replace('_', ' ')}" for part in made)),
+        # New joints hang on joint 0 with no offset: only their positions are used.
         (*skeleton.parents, *[0] * len(made)),
         np.concatenate([skeleton.offsets, np.zeros((len(made), 3))]),
         skeleton.end_sites,
@@ -97,8 +103,10 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
             hip, knee = (positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
             markers = [j for j, (part, of) in enumerate(names)
                        if of == side and "thi" in part and j not in chosen.values()]  # fmt: skip
+            # Vectors from the line through hip and knee to each marker.
             aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
             far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
+            # A bool as index: 1, the other side, for the first side, else 0.
             other = chosen[f"{SIDES[side == SIDES[0]]}_hip"]
             chosen[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
     return replace(motion, skeleton=extended, positions=positions), chosen
@@ -112,6 +120,7 @@ def _hips(places: Floats, names: Sequence[tuple[str, str]]) -> dict[str, Floats]
     fronts = [_first(names, FRONT, side) for side in SIDES]
     backs = [_first(names, BACK, side) for side in SIDES]
     sacrum = _first(names, SACRUM, "")
+    # A marker on the sacrum replaces the two at the back.
     if min(backs) < 0:
         backs = [sacrum]
     if min(fronts + backs) < 0:
@@ -119,9 +128,11 @@ def _hips(places: Floats, names: Sequence[tuple[str, str]]) -> dict[str, Floats]
     front, back = places[:, fronts].mean(axis=1), places[:, backs].mean(axis=1)
     across, ahead = places[:, fronts[0]] - places[:, fronts[1]], front - back
     width, depth = (float(np.median(np.linalg.norm(each, axis=1))) for each in (across, ahead))
+    # Axes of the pelvis: left, ahead without its share of left, and up.
     left = normalize(across)
     forward = normalize(remove_along(ahead, left))
     up = np.cross(forward, left)
+    # Regression of Harrington et al.: factor times depth or width, plus a constant, in metres.
     middle = front + (DEPTH[0] * depth + DEPTH[1]) * forward
     middle = middle + (WIDTH_DOWN[0] * width + WIDTH_DOWN[1]) * up
     aside = (WIDTH_OUT[0] * width + WIDTH_OUT[1]) * left
@@ -138,20 +149,28 @@ def _knee(
     """(frames, 3): the point about which two bodies turn, in line with hip and ankle."""
     upper, lower = _poses(thigh), _poses(shank)
     chosen = np.unique(np.linspace(0, len(thigh) - 1, min(len(thigh), MOST)).astype(np.intp))
+    # Evenly spread frames; both rotations and both centres of these only.
     (turned, centre), (other, below) = ((r[chosen], c[chosen]) for r, c in (upper, lower))
+    # (3 frames, 6): R1 c1 - R2 c2 = t2 - t1, linear in the local places c1 and c2 (Ehrig, SCoRE).
     both = np.concatenate([turned, -other], axis=2).reshape(-1, 6)
+    # A hinge leaves one singular value near 0, the axis. A second small one: the knee does not
+    # bend.
     if np.linalg.svd(both, compute_uv=False)[4] < BENT * np.sqrt(len(chosen)):
         return None
+    # Weak extra equations: c1 near the middle of both bodies, which fixes the place on the axis.
     pulled = np.concatenate([turned, 0 * other], axis=2).reshape(-1, 6)
     apart = (below - centre).reshape(-1)
     found = np.linalg.lstsq(
         np.concatenate([both, PULL * pulled]), np.concatenate([apart, PULL * apart / 2])
     )[0]
+    # The same point as each body sees it, averaged.
     at = (_move_markers(upper, found[:3]) + _move_markers(lower, found[3:])) / 2
+    # Leftward axis in the frame of the thigh, averaged over time, then turned back with the thigh.
     axis = normalize(
         np.einsum("fji,fj->fi", upper[0], normalize(to_left)).mean(axis=0, keepdims=True)
     )[0]
     axis = np.einsum("fij,j->fi", upper[0], axis)
+    # How far the middle of hip and ankle lies beside the point, along the axis.
     aside = (((ends[0] + ends[1]) / 2 - at) * axis).sum(axis=1)
     return np.asarray(at + float(np.median(aside)) * axis)
 
@@ -166,10 +185,14 @@ def _move_markers(poses: Poses, point: Floats) -> Floats:
 
 def _poses(markers: Floats) -> Poses:
     """How a body is turned against its shape in the middle frame, by least squares (Kabsch)."""
+    # Centred markers (frames, markers, 3); the middle frame is the reference shape.
     centre = markers.mean(axis=1)
     shape = markers - centre[:, None]
+    # (frames, 3, 3): cross-covariances with the reference, H = U S Vt.
     products = np.einsum("mi,fmj->fij", shape[len(shape) // 2], shape)
     u, _, vt = np.linalg.svd(products)
+    # A negative determinant is a reflection: flip the last axis to get a rotation.
     flips = np.ones((len(u), 1, 3))
     flips[:, 0, 2] = np.sign(np.linalg.det(u @ vt))
+    # The index order transposes the product: V D Ut.
     return np.einsum("fij,fjk->fki", u * flips, vt), centre

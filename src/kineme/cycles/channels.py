@@ -143,6 +143,7 @@ def channels_of(
         if isinstance(recording, Motion)
         else _make_signal_channels(recording)
     )
+    # Contacts follow, unless a channel of this name is there already.
     every += [each for each in contacts_of(recording) if each.name not in {c.name for c in every}]
     for signals in beside:
         every += _make_signal_channels(signals)
@@ -254,10 +255,12 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     bent = (
         ("knee", ("hip", "knee", "ankle"), 0.0),
         ("elbow", ("shoulder", "elbow", "wrist"), 0.0),
+        # 90 degrees less, so that an ankle is 0 with the foot at right angles to the shank.
         ("ankle", ("knee", "ankle", "toe"), -90.0),
     )
     for name, parts, less in bent:
         for side in SIDES:
+            # Joints that were not found are -1.
             chain = [joints.get(f"{side}_{part}", -1) for part in parts]
             thigh = joints.get(f"{side}_thigh")
             compute = partial(_bend, places, chain, less)
@@ -280,7 +283,7 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     for side, shoulder in zip(SIDES, shoulders, strict=True):
         elbow = joints.get(f"{side}_elbow")
         if elbow is not None:
-            compute = partial(_raise_error, places, shoulder, elbow, hips, shoulders)
+            compute = partial(_measure_arm_raise, places, shoulder, elbow, hips, shoulders)
             add(f"shoulder_{side[0]}", DEGREES, ANGLE, ["against the trunk", shoulder, elbow],
                 compute)  # fmt: skip
     for name, sideways in (("trunk_lean", False), ("trunk_side", True)):
@@ -316,8 +319,10 @@ def _bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
 def _flexion(places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[int]) -> Floats:
     """By how much a knee is bent about its axis, or that of the hips if it hardly moves."""
     hip, knee, ankle = (places[:, joint] for joint in chain)
+    # Without what lies along the leg: an axis at right angles to it.
     to_left = normalize(remove_along(places[:, hips[0]] - places[:, hips[1]], ankle - hip))
     axis = hinge_axis(hip, knee, ankle, places[:, thigh])
+    # Cosine of the fitted axis with the line of the hips, in each frame.
     alike = np.zeros(1) if axis is None else (axis * to_left).sum(axis=1)
     if axis is None or np.median(np.abs(alike)) < ALIKE:
         return measure_turn(to_left, knee - hip, ankle - knee)
@@ -329,9 +334,11 @@ def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) ->
     """Return how far the thigh is turned forward from the pose of rest, in the pelvis's frame."""
     skeleton = motion.skeleton
     turned = world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
+    # The thigh as the pelvis sees it: rotated by the inverse of its rotation.
     thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])
     rest = _measure_rest(skeleton, knee) - _measure_rest(skeleton, hip)
     to_left = _measure_rest(skeleton, hips[0]) - _measure_rest(skeleton, hips[1])
+    # A right-handed turn about the axis to the left swings a hanging thigh back, hence the minus.
     return -measure_turn(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
 
 
@@ -357,7 +364,7 @@ def _against_trunk(
     )
 
 
-def _raise_error(
+def _measure_arm_raise(
     places: Floats, shoulder: int, elbow: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
     return measure_angle(places[:, elbow] - places[:, shoulder], -_trunk(places, hips, shoulders))
@@ -367,6 +374,8 @@ def _lean(
     places: Floats, hips: Sequence[int], shoulders: Sequence[int], *, sideways: bool
 ) -> Floats:
     trunk = _trunk(places, hips, shoulders)
+    # The line of the hips, level.
     to_left = (places[:, hips[0]] - places[:, hips[1]]) * [1, 0, 1]
     up = np.broadcast_to([0.0, 1.0, 0.0], trunk.shape)
+    # Left x up is ahead: turning up about it leads to the right; about left, it leads forward.
     return measure_turn(np.cross(to_left, up) if sideways else to_left, up, trunk)

@@ -80,17 +80,21 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     from scipy.ndimage import gaussian_filter1d
 
     turning = _columns(rates, "rates", 3)
+    # Remove the constant bias of the sensor.
     turning = turning - np.median(turning, axis=0)
     turning = gaussian_filter1d(turning, SMOOTH_S * fps, axis=0, mode="nearest")
     size = np.linalg.norm(turning, axis=1)
     if not size.any():
         return np.empty((0, 2))
+    # Most of the time the foot may stand; only frames in which it moves tell how fast it turns.
     usual = float(np.percentile(size[size > 0.1 * size.max()], 75))
     steady = spans_of(size < STEADY * usual).tolist()
     stands = [(a, b) for a, b in steady if b - a >= FLAT_S * fps]
     moves = [(before[1], after[0]) for before, after in pairwise(stands)]
+    # Main axis of turning: the eigenvector of the largest eigenvalue, which is the last.
     axis = np.linalg.eigh(np.cov(turning.T))[1][:, -1]
     pitch = turning @ axis
+    # The eigenvector has either sign; the first part of movements, the heel's rise, fixes it.
     rises = sum(float(pitch[a : a + max(1, int(FIRST * (b - a)))].sum()) for a, b in moves)
     if rises > 0:
         pitch = -pitch  # the heel rises with a negative turn, the foot swings with a positive one
@@ -100,6 +104,7 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     found = [(a, _swing(pitch[a:b])) for a, b in parts]
     swings = [(a + each[0], a + each[1]) for a, each in found if each is not None]
     seconds = np.array(swings, np.float64).reshape(-1, 2) / fps
+    # The shortest spans are no swings, but jerks of a standing foot.
     return seconds[np.diff(seconds, axis=1)[:, 0] >= SWING_S]
 
 
@@ -114,6 +119,7 @@ def _join_movements(
     joined: list[tuple[int, int]] = []
     for start, stop in moves:
         begins = float(pitch[start : start + max(1, int(FIRST * (stop - start)))].sum())
+        # A positive start is no heel rise: the movement before goes on.
         if joined and begins > 0 and start - joined[-1][1] < APART_S * fps:
             joined[-1] = joined[-1][0], stop
         else:
@@ -132,7 +138,9 @@ def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, 
         if after - before >= APART_S * fps:
             turning = np.abs(pitch[start + before : start + after])
             width = max(1, round(FLAT_S * fps))
+            # Moving average of the turning; its least value is the steadiest moment.
             steady = np.convolve(turning, np.ones(width) / width, "valid")
+            # `valid` starts at the first full window, so half a width leads to its middle.
             cuts.append(start + before + int(steady.argmin()) + width // 2)
     return [*pairwise([*cuts, stop])]
 
@@ -140,27 +148,33 @@ def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, 
 def _swing(pitch: Floats) -> tuple[float, float] | None:
     """Frames at which the foot is off and on again, in a movement between two stands."""
     middle = int(pitch.argmax())
+    # A maximum at the very start leaves no heel rise before it.
     if middle < 2 or pitch[middle] <= 0:
         return None
     rise = int(pitch[:middle].argmin())
     if pitch[rise] >= 0:
         return None
+    # The heel rises with a negative turn; the toes leave while that fades.
     off = _crossing(pitch, rise, middle, OFF * pitch[rise])
+    # The sole comes down with a negative turn after the swing.
     slap = middle + int(pitch[middle:].argmin())
     positive = np.flatnonzero(pitch[middle:slap] > 0)
     last = middle + (int(positive[-1]) if len(positive) else 0)
+    # Without a negative turn the level is 0.
     on = _crossing(pitch, last, slap, ON * min(float(pitch[slap]), 0.0))
     return off, on
 
 
 def _crossing(values: Floats, start: int, stop: int, level: float) -> float:
     """Where values from one frame to another first reach a level, between two frames."""
+    # Values relative to the level: the crossing is a change of sign.
     span = values[start : stop + 1] - level
     changed = np.flatnonzero(np.signbit(span) != np.signbit(span[0]))
     if len(changed) == 0:
         return float(stop)
     at = int(changed[0])
     before, after = span[at - 1], span[at]
+    # Straight line between the frames before and after the crossing.
     return start + at - 1 + float(before / (before - after))
 
 
@@ -192,6 +206,7 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     paths = [_columns(each, "points", 3) for each in points]
     if len({len(path) for path in paths}) > 1:
         raise ParameterError("the points of a foot must be of the same frames")
+    # (frames, 3): how far the ground has moved since the start.
     carried = np.arange(len(paths[0]))[:, None] / fps * ground_velocity(paths, fps)
     stands = np.zeros(len(paths[0]), bool)
     for path in paths:
@@ -227,12 +242,16 @@ def ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
     """
     if len(points[0]) < 2:
         return np.zeros(3)
+    # Without a limit of speed: a foot that stands on a belt is fast.
     low = [low_and_slow(path, fps, height=LOW, speed=np.inf) for path in points]
     velocities = [np.gradient(path, axis=0)[each] * fps
                   for path, each in zip(points, low, strict=True)]  # fmt: skip
+    # The belt is level: no vertical velocity.
     belt = np.median(np.concatenate(velocities), axis=0) * [1, 0, 1]
     travel = np.mean([path[-1] - path[0] for path in points], axis=0) * [1, 0, 1]
+    # From metres in all to metres per second; n frames are n - 1 steps.
     travel *= fps / (len(points[0]) - 1)
+    # Overground the low points hardly move, so the feet travel much faster than these.
     is_belt = np.linalg.norm(travel) < np.linalg.norm(belt) / 2
     return np.asarray(belt if is_belt else np.zeros(3))
 
@@ -261,6 +280,7 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
     [[0.1, 0.7]]
     """
     values = as_floats(force, "force").ravel()
+    # Frames in which the plate is empty; their median is the offset of its amplifier.
     empty = values[np.abs(values) < EMPTY * np.abs(values).max(initial=0.0)]
     offset = float(np.median(empty)) if len(empty) else 0.0
     return _lasting(np.abs(values - offset) > least, fps)

@@ -116,12 +116,15 @@ class Events:
         ParameterError
             There are no such events.
         """
+        # Names compare elementwise: a mask of the events.
         chosen = np.ones(len(self), bool) if name is None else self.names == plain_name(name)
         frames = np.rint(self.times[chosen] * self.fps).astype(np.int64)
         pairs = zip(frames.tolist(), self.names[chosen].tolist(), strict=True)
+        # Of several events in one frame the last one names the segment; cuts must be distinct.
         starts = {frame: text for frame, text in pairs if 0 <= frame < self.n_frames}
         if not starts:
             raise ParameterError(f"there is no event {name or ''}".rstrip())
+        # Before the first event there is a transition without a label.
         first = [] if 0 in starts else [0]
         cuts = [*first, *sorted(starts), self.n_frames]
         labels = [*([""] * len(first)), *(starts[frame] for frame in sorted(starts))]
@@ -141,6 +144,7 @@ class Events:
 
 def plain_name(name: str) -> str:
     """Return a name of an event as `Events` has it: lower case, a strike for a contact."""
+    # Spellings of files differ in spaces, underscores and capitals.
     words = re.sub(r"[\s_]+", " ", name).strip().lower()
     return re.sub(r"\b(foot|heel) (contact|strike)\b|\binitial contact\b", STRIKE, words)
 
@@ -198,6 +202,7 @@ def foot_events(
             "channels of its gyroscope, as in left='lf_gyr_*' (--left 'lf_gyr_*'), or the force "
             "under it (of a C3D --columns '*' --left Fz1 --right Fz2)"
         )
+    # Stable: of simultaneous events the left foot stays first.
     order = np.argsort(times, kind="stable")
     return Events(
         np.array(times, np.float64)[order],
@@ -228,6 +233,7 @@ def _points(motion: Motion, side: str) -> list[str]:
     heel = joints.get(f"{side}_heel", joints.get(f"{side}_ankle"))
     if heel is None:
         return []
+    # The keys of a dict are unique: a foot without a toe has its heel only once.
     chosen = dict.fromkeys([heel, joints.get(f"{side}_toe", heel)])
     return [motion.skeleton.names[joint] for joint in chosen]
 
@@ -245,6 +251,7 @@ def _of_sensors(signals: Signals, side: str, pattern: str | None) -> Found | Non
     if chosen is None:
         return None
     source = ", ".join(chosen)
+    # One channel is a force, three are the axes of a gyroscope.
     if len(chosen) == 1:
         force = signals.values[:, signals.names.index(chosen[0])]
         strikes, offs = _ends(stands_from_force(force, signals.fps), signals)
@@ -257,9 +264,11 @@ def _swings(signals: Signals, chosen: Sequence[str]) -> Floats:
     """Seconds from when and to when a foot swings whose gyroscope has these three axes."""
     values = signals.values[:, [signals.names.index(name) for name in chosen]]
     found = [
+        # Each span between gaps on its own; its times are counted from its start.
         swings_from_gyroscope(values[start:stop], signals.fps) + start / signals.fps
         for start, stop in signals.spans()
     ]
+    # The empty array keeps the shape (0, 2) where there is no span.
     return np.concatenate([np.empty((0, 2)), *found])
 
 
@@ -274,6 +283,7 @@ def stance_of(recording: Motion | Signals, side: str) -> Floats:
     """100 in each frame in which the foot of a side stands, 0 in which it swings."""
     chosen = foot_of(recording, side)
     if isinstance(recording, Motion):
+        # Points give stands and gyroscopes give swings: the other state fills the rest.
         stands, spans = 100.0, _stands(recording, chosen)
     else:
         stands, spans = 0.0, _swings(recording, chosen)
@@ -287,6 +297,7 @@ def _ends(stands: Floats, recording: Motion | Signals) -> tuple[list[float], lis
     """Starts and stops of stands, but those at an end of the recording or in a gap."""
 
     def inside(second: float) -> bool:
+        # At an end of the recording or in a gap nobody saw the foot move.
         frame = second * recording.fps
         return 0 < frame < recording.n_frames and not any(
             a <= frame <= b for a, b in recording.gaps
@@ -318,7 +329,9 @@ def _channels(names: Sequence[str], side: str, pattern: str | None) -> list[str]
 
 def _is_gyroscope(name: str, places: Sequence[str]) -> bool:
     """Return whether a name is an axis of a gyroscope at one of these places, as ``lf_gyr_x``."""
+    # Words of a name in camel case or with separators; capitals in a row are one word.
     words = [word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)]
+    # Neighbouring words are also tried together: `left_foot` is `leftfoot`.
     joined = {a + b for a, b in pairwise(words)} | set(words)
     return (
         words[-1:] in (["x"], ["y"], ["z"])
@@ -353,6 +366,7 @@ def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
     ['stride_s', 'stance_s', 'swing_s', 'stance_percent', 'step_s', 'cadence_per_min']
     """
     table = strides(events, recording)
+    # The first three columns are the foot and the times.
     measures = [*table][3:] if len(table["foot"]) else []
     columns: dict[str, list[Any]] = {"measure": measures}
     for side in SIDES:
@@ -360,9 +374,11 @@ def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
         values = [each[np.isfinite(each)] for each in of_side]
         columns[f"{side}_n"] = [len(each) for each in values]
         columns[f"{side}_mean"] = [each.mean() if len(each) else np.nan for each in values]
+        # The sample deviation (n - 1) needs two values.
         columns[f"{side}_sd"] = [each.std(ddof=1) if len(each) > 1 else np.nan for each in values]
     left, right = (np.array(columns[f"{side}_mean"], np.float64) for side in SIDES)
     means = {name: np.array(column) for name, column in columns.items()}
+    # Per cent of the mean of both feet.
     means["asymmetry_percent"] = 100 * (left - right) / ((left + right) / 2)
     _warn_implausible(means)
     return means
@@ -421,17 +437,22 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
 def _strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:
     """Return of each stride of a foot, from strike to strike, what can be measured."""
     strikes, offs = events.at(f"{side} {STRIKE}"), events.at(f"{side} {OFF}")
+    # A bool as index: the other side.
     others = events.at(f"{SIDES[side == SIDES[0]]} {STRIKE}")
     pairs = np.column_stack([strikes[:-1], strikes[1:]])
     lengths = np.diff(pairs, axis=1)[:, 0]
+    # A median of nothing would warn.
     if len(pairs):
         pairs = pairs[lengths <= LONGEST * np.median(lengths)]
     rows = []
     for start, stop in pairs.tolist():
+        # Exactly one foot off between two strikes; otherwise an event was missed and nothing is
+        # told.
         between = offs[(offs > start) & (offs < stop)]
         step = others[(others > start) & (others < stop)]
         off = between[0] if len(between) == 1 else np.nan
         rows.append((start, off, stop, stop - step[0] if len(step) == 1 else np.nan))
+    # The reshape keeps four columns where there are no strides.
     start, off, stop, step = np.array(rows, np.float64).reshape(-1, 4).T
     stride = stop - start
     found = {
@@ -443,6 +464,7 @@ def _strides(events: Events, side: str, recording: Motion | Signals | None) -> C
         "swing_s": stop - off,
         "stance_percent": 100 * (off - start) / stride,
         "step_s": step,
+        # Two steps per stride, 60 seconds per minute.
         "cadence_per_min": 120 / stride,
     }
     if isinstance(recording, Motion):
@@ -451,9 +473,12 @@ def _strides(events: Events, side: str, recording: Motion | Signals | None) -> C
         if foot is not None:
             frames = np.clip(np.rint(np.stack([start, stop]) * recording.fps), 0,
                              recording.n_frames - 1).astype(np.intp)  # fmt: skip
+            # (2, strides, 3): the foot at both strikes.
             ends = recording.positions[frames, foot]
             ground = ground_velocity(_paths(recording, _points(recording, side)), recording.fps)
+            # On a treadmill the belt carried the foot back meanwhile.
             walked = (ends[1] - ends[0]) - stride[:, None] * ground
+            # Axes 0 and 2 are level.
             found["stride_m"] = np.linalg.norm(walked[:, [0, 2]], axis=1)
             found["speed_m_per_s"] = found["stride_m"] / stride
     return found

@@ -108,6 +108,7 @@ def _cells(column: np.ndarray[Any, Any]) -> list[Any]:
     """Return the cells of a column; an empty one where a number is not known."""
     cells = column.tolist()
     if column.dtype.kind == "f":
+        # Cells without a number are empty, as spreadsheets expect.
         return ["" if isnan(cell) else cell for cell in cells]
     return list(cells)
 
@@ -147,6 +148,7 @@ def _write_excel(cycles: Cycles, path: Path, ends: bool) -> None:
             raise WriteError(path, f"a sheet cannot hold {n} rows of {name}: write .parquet")
         sheet = book.create_sheet(name)
         sheet.append([*columns])
+        # Excel stores None as an empty cell, and "" as a text.
         cells = [
             [None if cell == "" else cell for cell in _cells(each)] for each in columns.values()
         ]
@@ -154,6 +156,7 @@ def _write_excel(cycles: Cycles, path: Path, ends: bool) -> None:
             sheet.append(row)
     sheet = book.create_sheet("provenance")
     for key, value in cycles.provenance.items():
+        # A cell holds one value: structures become JSON.
         sheet.append([key, value if isinstance(value, str) else json.dumps(value)])
     with atomic_write(path) as draft:
         book.save(draft)
@@ -180,11 +183,14 @@ def _struct(columns: Columns) -> dict[str, Any]:
     """Columns by names that MATLAB takes; texts as cells."""
     struct: dict[str, Any] = {}
     for name, column in columns.items():
+        # MATLAB's names hold letters, digits and _ only, and begin with a letter.
         plain = re.sub(r"\W", "_", name, flags=re.ASCII)
         plain = (plain if plain[:1].isalpha() else f"x{plain}")[:NAME_OF_MATLAB]
         if plain in struct:
+            # Names that became equal get a number, within the length that MATLAB allows.
             number = f"_{len(struct)}"
             plain = plain[: NAME_OF_MATLAB - len(number)] + number
+        # Arrays of objects become cells; fixed-width texts would become padded matrices.
         struct[plain] = column.astype(object) if column.dtype.kind == "U" else column
     return struct
 

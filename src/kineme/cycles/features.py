@@ -45,6 +45,7 @@ class FineFeatures:
 
         if len(self.values) < 2:
             return np.zeros(len(self.values))
+        # Smoothed once more, since a derivative amplifies noise.
         steady = gaussian_filter1d(self.values, STEADY_S * self.rate, axis=0, mode="nearest")
         return np.asarray(np.linalg.norm(np.gradient(steady, axis=0), axis=1) * self.rate)
 
@@ -62,10 +63,12 @@ def fine_features(recording: Motion | Signals) -> FineFeatures:
     """
     from scipy.ndimage import gaussian_filter1d
 
+    # An odd number of frames, so that each mean is centred on a frame.
     many = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
     rate = recording.fps / many
     found, comparable = _features(recording)
     values = _average_frames(found, many)
+    # Channels have different units: each counts by its own deviation, a constant one is only 0.
     if isinstance(recording, Signals):
         deviation = values.std(axis=0)
         values = (values - values.mean(axis=0)) / np.where(deviation > 0, deviation, 1)
@@ -82,6 +85,7 @@ def _features(recording: Motion | Signals) -> tuple[Floats, bool]:
     except (EndEffectorError, MotionError):
         single = recording.skeleton.n_joints < 2
         positions = recording.positions
+        # A single point has no distances: its path is compared.
         return positions[:, 0] if single else distance_features(positions)[0], False
 
 
@@ -91,4 +95,5 @@ def _average_frames(values: Floats, many: int) -> Floats:
         return values
     from scipy.ndimage import uniform_filter1d
 
+    # The mean about each frame, of which every n-th is kept.
     return np.asarray(uniform_filter1d(values, many, axis=0, mode="nearest")[::many])

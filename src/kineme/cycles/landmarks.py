@@ -79,7 +79,9 @@ def landmarks(motion: Motion) -> dict[str, int]:
     joints: dict[str, int] = {}
     for side in SIDES:
         for end, middle, top in (("ankle", "knee", "hip"), ("wrist", "elbow", "shoulder")):
+            # What `end_effectors` found comes first; else the usual names of points.
             tip = ends.get(f"{side}_{end}", _named(skeleton.names, end, side))
+            # A bool as index: the other side.
             other = ends.get(f"{SIDES[side == SIDES[0]]}_{end}")
             chain = (None, None) if tip is None else _limb(skeleton, tip, other)
             places = {end: tip, middle: chain[0], top: chain[1]}
@@ -89,6 +91,7 @@ def landmarks(motion: Motion) -> dict[str, int]:
                     joints[f"{side}_{part}"] = joint
         ankle = joints.get(f"{side}_ankle")
         for part in ("heel", "toe"):
+            # A heel or a toe must not be the ankle itself, which may be called foot.
             joint = _named(skeleton.names, part, side, but=ankle)
             if joint is None and part == "toe" and ankle is not None:
                 joint = _beyond(skeleton, ankle)
@@ -113,24 +116,29 @@ def _limb(skeleton: Skeleton, tip: int, other: int | None) -> tuple[int | None, 
 
     Neither is a joint that the limb of the other side hangs on as well.
     """
+    # Joints above the other limb's end, such as the pelvis, belong to both limbs.
     both = set()
     while other is not None and other >= 0:
         both.add(other)
         other = skeleton.parents[other]
+    # `far[k]` is the length of the chain from the tip up to its k-th joint.
     chain, far = [], [0.0]
     joint = tip
     while (parent := skeleton.parents[joint]) >= 0 and parent not in both:
         far.append(far[-1] + float(np.linalg.norm(skeleton.offsets[joint])))
         chain.append(parent)
         joint = parent
+    # Of all pairs of joints above the tip, that with the most equal bones below them.
     best, pair = UNEQUAL, (None, None)
     for lower, middle in enumerate(chain):
         for upper in range(lower + 1, len(chain)):
             shank, thigh = far[lower + 1], far[upper + 1] - far[lower + 1]
+            # Twist joints only turn a bone, so a limb does not end there.
             if min(shank, thigh) <= 0 or any(
                 _TURNS.intersection(words_of(skeleton.names[j])) for j in (middle, chain[upper])
             ):
                 continue
+            # The logarithm treats a ratio and its inverse alike.
             unequal = abs(log(thigh / shank))
             if unequal < best:
                 best, pair = unequal, (middle, chain[upper])  # type: ignore[assignment]

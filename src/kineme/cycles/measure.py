@@ -116,6 +116,7 @@ def cycles(
     check_flag(common, "common")
     check_one_of(align, ALIGNMENTS, "align")
     names = _names(given)
+    # Equal cluster numbers mean nothing across recordings, unless they are common.
     groups = [_groups(table, "" if common or len(given) == 1 else f"{name}: ")
               for table, name in zip(tables, names, strict=True)]  # fmt: skip
     measured = [channels_of(recording, channels, beside=beside) for recording in given]
@@ -126,6 +127,7 @@ def cycles(
             raise ParameterError("seconds of events belong to one recording: name them instead")
         found = anchor_repetitions(found, given, groups, anchor, beside)
     columns = _columns(found, tables, names, groups)
+    # Repetitions, channels, points.
     curves = np.empty((len(found), len(measured[0]), points))
     _measure([(each.recording, each.start, each.stop) for each in found], measured, columns, curves)
     cycles = Cycles(
@@ -140,6 +142,7 @@ def cycles(
 
 def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
     """Return same without those that people left out, as the annotations of their tables say."""
+    # In the order of the rows of `cycles`: by recording, then by time.
     left_out = [
         table.annotation.excludes(row.start_frame, row.stop_frame)
         for table in tables
@@ -165,6 +168,7 @@ def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
         As if `kineme.cycles` had measured these channels, without all that finds the borders. Of
         curves in step (``align``) the first of these channels says where they are.
     """
+    # Columns of the former channels make way for those of the new ones.
     former = {f"{channel}.{name}" for channel in cycles.channels for name in STATISTICS}
     columns = {name: column for name, column in cycles.columns.items() if name not in former}
     spans = zip(columns["start_s"].tolist(), columns["stop_s"].tolist(), strict=True)
@@ -236,6 +240,7 @@ def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
     people = [
         each.provenance.person if len(each.provenance.people) > 1 else "" for each in recordings
     ]
+    # The person is added only where several recordings have the same file name.
     names = [
         as_display_name(path.stem) + make_person_suffix(person or "") * (counts[path.stem] > 1)
         for path, person in zip(files, people, strict=True)
@@ -261,6 +266,7 @@ def _groups(table: Segmentation, prefix: str) -> dict[int | str, str]:
             label = row.label or str(activities.label[row.activity])
             labels.setdefault(movement(row), Counter())[label] += 1
     for what, counts in labels.items():
+        # The most frequent label of a movement names all of its repetitions.
         label = counts.most_common(1)[0][0]
         unnamed = "no cluster" if what == "" else f"cluster {what}"
         found[what] = label or f"{prefix}{unnamed}"
@@ -317,6 +323,7 @@ def _measure(
 
     ``spans`` has of each cycle its recording, start and stop in seconds.
     """
+    # Values of a channel are computed for one channel at a time, so memory stays small.
     for place, channel in enumerate(measured[0]):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
         for number, of_one in enumerate(measured):
@@ -346,10 +353,14 @@ def _measure_cycle(
 ) -> tuple[Floats, list[float]]:
     """A curve of so many points, and the statistics; nan where something was not recorded."""
     last = len(values) - 1
+    # The last border may lie after the last frame, where nothing is recorded.
     first, end = min(start * fps, last), min(stop * fps, last)
+    # False for nan, which marks a missing border.
     if not np.isfinite([first, end]).all() or end <= first:
         return np.full(points, np.nan), [np.nan] * len(STATISTICS)
+    # Both borders and the whole frames between them: extremes are searched at these.
     at = np.concatenate([[first], np.arange(int(first) + 1, np.ceil(end)), [end]])
+    # Frames that the interpolation needs: one before the start and one after the end.
     frames = np.arange(int(first), min(int(np.ceil(end)), last) + 1)
     span = values[frames]
     cycle = np.interp(at, frames, span)
@@ -357,7 +368,9 @@ def _measure_cycle(
     if not np.isfinite(span).all():
         return np.where(np.isfinite(curve), curve, np.nan), [np.nan] * len(STATISTICS)
     least, most = int(cycle.argmin()), int(cycle.argmax())
+    # Per cent of the cycle at each of these places.
     percent = 100 * (at - first) / (end - first)
+    # Trapezoids, since the first and the last interval are shorter than a frame.
     mean = float(((cycle[1:] + cycle[:-1]) / 2 * np.diff(at)).sum() / (end - first))
     return curve, [
         float(cycle[most] - cycle[least]), float(cycle[least]), float(cycle[most]),
@@ -373,6 +386,7 @@ def _provenance(
     columns: Columns,
     align: str,
 ) -> dict[str, Any]:
+    # One entry for each run: its repetitions were turned by the same share.
     moved: dict[tuple[str, int, str], float] = {}
     for each, name, group in zip(
         found, columns["recording"].tolist(), columns["group"].tolist(), strict=True

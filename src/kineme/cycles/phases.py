@@ -34,6 +34,7 @@ def mean_phase(phases: Floats) -> float:
     """
     if not len(phases):
         return np.nan
+    # Unit vectors on a circle that is one cycle long.
     directions = np.exp(2j * np.pi * phases / CYCLE)
     return float(np.angle(directions.sum()) / (2 * np.pi) * CYCLE % CYCLE)
 
@@ -46,4 +47,5 @@ def phase_differences(differences: Floats) -> Floats:
     >>> phase_differences(np.array([96.0, -3.0, 50.0])).tolist()
     [-4.0, -3.0, -50.0]
     """
+    # Shifted by half a cycle, so that the modulo leaves -50 to 50 instead of 0 to 100.
     return np.asarray((differences + CYCLE / 2) % CYCLE - CYCLE / 2)

@@ -81,6 +81,7 @@ def repetitions(
         Of each: the group of a `movement`. Repetitions of one group begin at one phase.
     """
     fine = [fine_features(recording) for recording in recordings]
+    # Runs of one key are shifted to one phase.
     members: dict[Hashable, list[tuple[Run, list[Segment]]]] = defaultdict(list)
     for number, table in enumerate(tables):
         dims, comparable = fine[number].values.shape[1], fine[number].comparable
@@ -88,6 +89,8 @@ def repetitions(
             frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
             run = run_of(number, np.array(frames) / table.fps)
             what = movement(segments[0])
+            # A run without cluster or label is alone; features that do not compare stay in their
+            # recording.
             alone = id(run) if what == "" else -1 if comparable else number
             group = groups[number].get(what, what)
             members[group, dims, alone].append((run, segments))
@@ -132,6 +135,7 @@ def _each(run: Run, segments: Sequence[Segment], table: Segmentation) -> list[Re
     n, found = len(segments), []
     activity = table.activities[segments[0].activity]
     least, most, end = activity.start_s, activity.stop_s, table.n_frames / table.fps
+    # Borders were moved, and may lie a little outside of their activity.
     reach = OUTSIDE * run.period
     for i, segment in enumerate(segments):
         start, stop = run.borders[i : i + 2].tolist()
@@ -140,6 +144,7 @@ def _each(run: Run, segments: Sequence[Segment], table: Segmentation) -> list[Re
             start, stop = max(start, least), min(stop, most)
         start, stop = min(max(start, 0.0), end), min(max(stop, 0.0), end)
         first, last = i == 0, i == n - 1
+        # Only the first and the last can be cut short by an end.
         if first or last:
             complete &= stop - start >= (1 - OUTSIDE) * run.period
         place = "only" if first and last else "first" if first else "last" if last else "inner"
@@ -163,6 +168,7 @@ def _each(run: Run, segments: Sequence[Segment], table: Segmentation) -> list[Re
 def _stillness(runs: Sequence[Run], fine: Sequence[FineFeatures]) -> float:
     """Return the speed below which repetitions of these runs stand still."""
     total, count = 0.0, 0
+    # The root mean square over all frames of all runs; no run is weighed by itself.
     for run in runs:
         rate = fine[run.recording].rate
         frames = slice(max(0, int(run.borders[0] * rate)), int(run.borders[-1] * rate) + 1)
@@ -178,11 +184,14 @@ def _trim_pauses(run: list[Repetition], fine: FineFeatures, still: float) -> lis
     """
     trimmed = list(run)
     for i, each in enumerate(run):
+        # A pause reaches from the last movement of one repetition to the first of the next.
         following = run[i + 1] if i + 1 < len(run) else None
         begins, ends = _movement(each, fine, still)
+        # Standing still before the first repetition is not a part of it.
         if i == 0 and begins - each.start >= PAUSE_S:
             trimmed[0] = replace(trimmed[0], start=begins)
         until = each.stop if following is None else _movement(following, fine, still)[0]
+        # `trimmed[i]` may begin later than `each`: the pause before it was cut off already.
         if ends > trimmed[i].start and until - ends >= PAUSE_S:
             trimmed[i] = replace(trimmed[i], stop=ends)
             if following is not None and until < following.stop:
@@ -192,10 +201,12 @@ def _trim_pauses(run: list[Repetition], fine: FineFeatures, still: float) -> lis
 
 def _movement(each: Repetition, fine: FineFeatures, still: float) -> tuple[float, float]:
     """When the first and the last movement of a repetition are; its ends where there is none."""
+    # The frames of `speed` that lie within the repetition.
     first = max(0, int(np.ceil(each.start * fine.rate)))
     moves = np.flatnonzero(fine.speed[first : int(each.stop * fine.rate) + 1] > still)
     if len(moves) == 0:
         return each.start, each.stop
+    # Frames of the first and the last movement, in seconds.
     begins, ends = (first + moves[[0, -1]]) / fine.rate
     return max(each.start, float(begins)), min(each.stop, float(ends))
 

@@ -55,10 +55,12 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
     rows = [np.isin(side["group"], groups) for side in sides]
     keys = [list(zip(s["group"][r].tolist(), s["measure"][r].tolist(), strict=True))
             for s, r in zip(sides, rows, strict=True)]  # fmt: skip
+    # Rows of the second summary, in the order of the first.
     order = [keys[1].index(key) for key in keys[0]]
     one = {name: sides[0][name][rows[0]] for name in ("group", "measure", "n", "mean", "sd")}
     two = {name: sides[1][name][rows[1]][order] for name in ("n", "mean", "sd")}
     difference, low, high = _welch(*(each[n] for each in (one, two) for n in ("n", "mean", "sd")))
+    # A difference of phases goes the shorter way round; its bounds are moved as much.
     turned = np.where([is_phase(m) for m in one["measure"].tolist()],
                       phase_differences(difference) - difference, 0.0)  # fmt: skip
     difference, low, high = difference + turned, low + turned, high + turned
@@ -111,9 +113,11 @@ def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Colu
             "compared: measure both with the same points="
         )
     one, two = (each.mean_curves(ends=ends) for each in (first, second))
+    # Curves are blocks of channels times points, one block for each group in order.
     rows = np.isin(one["group"], groups)
     place = {group: i for i, group in enumerate(second.groups)}
     size = first.curves.shape[2] * len(first.channels)
+    # Rows of the second in the order of the groups of the first.
     order = np.concatenate([np.arange(size) + size * place[group] for group in first.groups
                             if group in place])  # fmt: skip
     numbers = ("n", "mean", "sd")
@@ -155,11 +159,15 @@ def _welch(
     """Return the second mean less the first, and its bounds."""
     from scipy.special import stdtrit
 
+    # With fewer than two cycles this divides by zero, and the bounds are nan.
     with np.errstate(divide="ignore", invalid="ignore"):
+        # Squared standard errors of both means.
         parts = sd**2 / n, other_sd**2 / other_n
         error = np.sqrt(parts[0] + parts[1])
+        # Degrees of freedom after Welch and Satterthwaite.
         freedom = error**4 / (parts[0] ** 2 / (n - 1) + parts[1] ** 2 / (other_n - 1))
         half = stdtrit(freedom, (1 + CONFIDENCE) / 2) * error
+    # Without any spread the freedom is 0 / 0, but the bounds are the difference itself.
     half = np.where(error == 0, 0.0, half)
     difference = other_mean - mean
     return difference, difference - half, difference + half

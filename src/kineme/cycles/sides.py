@@ -54,6 +54,7 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
     check_type(cycles, Cycles, "compare_sides", "kineme.cycles(recording, segments) gives them")
     check_flag(ends, "ends")
     used = cycles.used(ends=ends)
+    # The unit tells stance channels, whose mean is the share of stance.
     stances = {
         name for name, unit in zip(cycles.channels, cycles.units, strict=True) if unit == "%"
     }
@@ -89,6 +90,7 @@ def right_of(name: str) -> str:
 
     The name itself where it is of no side.
     """
+    # The case of the word is kept; a name that has no `left` may end in `_l`.
     turned = re.sub("left", lambda found: _RIGHT.get(found[0], "right"), name, flags=re.IGNORECASE)
     return turned if turned != name else re.sub("_l$", "_r", name)
 
@@ -103,6 +105,7 @@ def _compare_values(
     n = int(both.sum())
     if n == 0:
         return 0, *[np.nan] * 6
+    # Paired: the differences within each cycle are what is averaged.
     apart = left[both] - right[both]
     of_left, of_right = left[both].mean(), right[both].mean()
     if is_phase(measure):
@@ -111,7 +114,9 @@ def _compare_values(
     mean = apart.mean()
     half = np.nan
     if n > 1:
+        # Student's t with n - 1 degrees of freedom times the standard error of the mean difference.
         half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * apart.std(ddof=1) / np.sqrt(n)
     total = of_left + of_right
+    # Per cent of the mean of both sides: 100 / (total / 2).
     index = 200 * mean / total if indexed and total > 0 else np.nan
     return n, *(float(each) for each in (of_left, of_right, mean, mean - half, mean + half, index))

@@ -127,6 +127,7 @@ class Cycles:
         """
         check_flag(ends, "ends")
         counts = np.asarray(self.columns["excluded"] == "")
+        # A cycle at an end of its activity may be cut short or a start from rest.
         return counts if ends else counts & (self.columns["place"] == INNER)
 
     def exclude(self, rows: Collection[int], reason: str = BY_HAND) -> Cycles:
@@ -160,8 +161,10 @@ class Cycles:
         for row in chosen:
             if not 0 <= row < len(self):
                 raise ParameterError(f"there is no cycle {row}: they are 0 to {len(self) - 1}")
+        # Fixed-width texts would cut longer reasons, so they are objects meanwhile.
         reasons = self.columns["excluded"].astype(object)
         for row in chosen:
+            # The first reason stays.
             reasons[row] = reasons[row] or reason
         return replace(self, columns={**self.columns, "excluded": reasons.astype(np.str_)})
 
@@ -186,7 +189,11 @@ class Cycles:
             if len(rows) < FEWEST:
                 continue
             curves, duration = self.curves[rows], self.columns["duration_s"][rows]
+            # (rows, channels): distance of each cycle from the median curve; a mean would follow
+            # outliers.
             apart = _distances(curves - np.median(curves, axis=0))
+            # The factor turns the median deviation into standard deviations of a normal
+            # distribution.
             for values in (DEVIATION * np.abs(duration - np.median(duration)), *apart.T):
                 far |= set(rows[values > deviations * np.median(values)].tolist())
         return self.exclude(sorted(far), FAR)
@@ -218,6 +225,7 @@ class Cycles:
         float
             nan where nobody says, and where nothing is repeated.
         """
+        # A single repetition is not counted.
         rows = (self.columns["group"] == group) & (self.columns["place"] != "only")
         names = "confidence", "border_confidence"
         return count_confidence(*(self.columns[name][rows] for name in names))
@@ -251,6 +259,7 @@ class Cycles:
         """
         used = self.used(ends=ends)
         duration = self.columns["duration_s"]
+        # A cycle whose event is missing has no duration.
         with np.errstate(divide="ignore"):
             measures = {"duration_s": duration, "cadence_per_min": 60 / duration}
         measures |= {
@@ -292,11 +301,13 @@ class Cycles:
         for group in self.groups:
             for place, channel in enumerate(self.channels):
                 curves = self.curves[used & (self.columns["group"] == group), place]
+                # A gap would make the mean of its points one over fewer cycles.
                 curves = curves[np.isfinite(curves).all(axis=1)]
                 n = len(curves)
                 missing = np.full(points, np.nan)
                 mean = curves.mean(axis=0) if n else missing
                 sd = curves.std(axis=0, ddof=1) if n > 1 else missing
+                # Student's t at each point, n - 1 degrees of freedom.
                 half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * sd / np.sqrt(n) if n > 1 else missing
                 blocks.append(
                     {
@@ -390,6 +401,7 @@ class Cycles:
             import xarray as xr
         except ImportError as error:
             raise MissingDependencyError("xarray", "xarray") from error
+        # Statistics are not coordinates, since they can be computed from the curves.
         measured = {f"{channel}.{name}" for channel in self.channels for name in STATISTICS}
         points = self.curves.shape[2]
         return xr.Dataset(
@@ -414,6 +426,7 @@ def count_confidence(confidence: Floats, borders: Floats) -> float:
     nan where there is nothing to count, or where ``confidence`` is no probability: that of the
     published methods, which have none of ``borders``.
     """
+    # One repetition is no count.
     if len(confidence) < 2 or not np.isfinite(confidence * borders).any():
         return np.nan
     return float(np.nanmin(confidence))
@@ -433,6 +446,7 @@ def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
     # Of angles a share of the mean says nothing: their zero is chosen.
     cv = sd / mean if measure in ("duration_s", "cadence_per_min") else np.nan
     low, median, high = np.percentile(values, [25, 50, 75]).tolist()
+    # Back to 0 to 100 %.
     if circular:
         mean, median, low, high = (each % CYCLE for each in (mean, median, low, high))
     return n, mean, sd, cv, median, low, high
@@ -442,6 +456,7 @@ def _distances(differences: Floats) -> Floats:
     """Return the root of the mean square of each curve; what was not recorded does not count."""
     recorded = np.isfinite(differences)
     total = (np.where(recorded, differences, 0.0) ** 2).sum(axis=2)
+    # The floor avoids 0 / 0 where nothing was recorded.
     return np.asarray(np.sqrt(total / np.maximum(recorded.sum(axis=2), 1)))
 
 

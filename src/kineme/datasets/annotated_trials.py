@@ -99,6 +99,7 @@ def _mend(trial: str, rows: list[Action]) -> list[Action]:
     mended = []
     for number, row in enumerate(rows, 1):
         frames = CORRECTIONS.get((trial, number, row[1:]), row[1:])
+        # A mean outside of its span widens the span.
         fixed = Action(row.label, min(frames), frames[1], max(frames))
         if fixed != row:
             warnings.warn(

@@ -177,6 +177,7 @@ def _n_frames(path: Path, folder: Path) -> int:
     for warning in caught:
         if "truncated" in str(warning.message):
             raise ReadError(path, str(warning.message).removeprefix(f"{path}, "))
+    # A shorter file of an annotated trial is not the published one.
     expected = FRAMES.get(path.stem, found)
     if found != expected:
         raise ReadError(path, f"{found} frames, while trial {path.stem} has {expected}")

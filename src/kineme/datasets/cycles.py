@@ -63,8 +63,10 @@ class Cycle:
         for name, values in self.angles.items():
             curve = _cyclic(self.at, values)
             for full_name in _full_names(name):
+                # Half a cycle earlier in the curve is half a cycle later in time.
                 late = 0.5 if self.gait and full_name.startswith("right") else 0.0
                 angle = curve(phase - late)
+                # An angle that goes on turning is not scaled, or it would lose whole turns.
                 turns = values[0] != values[-1]
                 rest = STANDING[full_name]
                 found[full_name] = angle if turns else rest + amplitude * (angle - rest)
@@ -89,8 +91,10 @@ def _full_names(name: str) -> list[str]:
 
 def _cyclic(at: Sequence[float], values: Sequence[float]) -> Callable[[Floats], Floats]:
     """Return the cyclic curve through values at the given shares of a cycle."""
+    # What the angle gains in a cycle, such as 360 degrees of an arm circle.
     gain = values[-1] - values[0]
     phases, heights = np.asarray(at, float), np.asarray(values, float)
+    # A cycle more on either side, so that the curve is smooth across the border of cycles.
     curve = PchipInterpolator(
         np.concatenate([phases[:-1] - 1, phases, phases[1:] + 1]),
         np.concatenate([heights[:-1] - gain, heights, heights[1:] + gain]),

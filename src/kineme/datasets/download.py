@@ -96,6 +96,7 @@ class _Download:
             try:
                 return self._rest(url)
             except _BrokenOffError as error:
+                # An attempt that brought something new starts the count again.
                 failures = 0 if self._size() > furthest else failures + 1
                 furthest = max(furthest, self._size())
                 if failures == ATTEMPTS:
@@ -112,6 +113,7 @@ class _Download:
         headers = {"Accept-Encoding": "identity"}
         if size:
             date = formatdate(self.part.stat().st_mtime, usegmt=True)
+            # The server sends the whole file if its date is not this one any more.
             headers |= {"Range": f"bytes={size}-", "If-Range": date}
         try:
             with requests.get(url, headers=headers, stream=True, timeout=self.timeout_s) as answer:

@@ -97,7 +97,9 @@ def joint_rotations(skeleton: Skeleton, angles: Mapping[str, Floats], heading: F
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
         hip, spread, knee, foot, toe, swing, lift, roll, elbow = (a[f"{side} {x}"] for x in LIMBS)
         thigh = _euler("xz", -hip, sign * spread)
+        # Local rotations of hip and knee follow from plain angles.
         shin = _euler("x", knee)
+        # The foot's angle is against the floor, so what the leg does is taken out.
         leg = rot.multiply(rot.multiply(local["Hips"], thigh), shin)
         sole = _euler("yx", facing + sign * _TOES_OUT, -foot)
         of_side = {

@@ -30,16 +30,21 @@ def root_path(skeleton: Skeleton, rotations: Floats, airborne: Floats, fps: floa
     contacts = _contacts(skeleton, rotations, fps)
     heights = contacts[:, :, 1]
     lowest = heights.min(axis=1, keepdims=True)
+    # Soft minimum of the contacts' heights, taken from the lowest for the sake of the exponential.
     bearing = np.exp((lowest - heights) / _FLOOR_SHARED).mean(axis=1)
     floor = lowest[:, 0] - _FLOOR_SHARED * np.log(bearing)
+    # Weights of the contacts that bear, which sum to 1.
     grip = np.exp((lowest - heights) / _GRIP_SHARED)
     grip /= grip.sum(axis=1, keepdims=True)
+    # The root moves against the contacts that bear, so that these stay.
     velocity = -np.einsum("fc,fcx->fx", grip, np.gradient(contacts, axis=0))
     on_floor = np.flatnonzero(airborne <= 0)
     path = np.empty((len(airborne), 3))
     for axis in (0, 2):
+        # In the air the speed goes on from take-off to landing.
         speed = np.interp(np.arange(len(airborne)), on_floor, velocity[on_floor, axis])
         path[:, axis] = np.cumsum(gaussian_filter1d(speed, _SMOOTHING_S * fps))
+    # The body is raised until its lowest contact is on the floor.
     path[:, 1] = airborne - gaussian_filter1d(floor, _SMOOTHING_S / 2 * fps)
     return path
 
@@ -52,6 +57,7 @@ def _contacts(skeleton: Skeleton, rotations: Floats, fps: float) -> Floats:
     points = []
     for side in ("Left", "Right"):
         ankle, ball = skeleton.joint(f"{side}Foot"), skeleton.joint(f"{side}ToeBase")
+        # The heel lies behind the ankle, as a share of the way to the ball of the foot.
         heel = skeleton.offsets[ball] * _HEEL
         points.append(motion.positions[:, ankle] + rot.rotate(world[:, ankle], heel))
         points.append(motion.positions[:, ball])

@@ -42,6 +42,7 @@ def join_recordings(
     halves = []
     for before, after in pairwise(range(len(placed))):
         shorter = min(len(rotations[before]), len(rotations[after]))
+        # At most a third of the shorter motion in all, so that joins do not meet.
         half = min(round(join * fps / 2), shorter // 6)
         _blend(rotations[before], rotations[after], translations[before], translations[after], half)
         halves.append(half)
@@ -70,10 +71,13 @@ def check_fit(motions: Sequence[Motion]) -> None:
 
 def _placed_after(before: Motion, motion: Motion) -> Motion:
     """Return the motion turned and moved so that its root goes on where the one before ends."""
+    # Rotation of the root where the first motion ends and the second begins.
     ended, begins = np.array(before.rotations)[-1, 0], np.array(motion.rotations)[0, 0]
     q = rot.multiply(ended, rot.conjugate(begins))
+    # The part of the rotation about y: twice the angle between w and y.
     turned = turn(motion, 2 * float(np.arctan2(q[2], q[0])))
     step = before.positions[-1, 0] - turned.positions[0, 0]
+    # On the floor only: heights are left to the blend.
     return move(turned, step * [1, 0, 1])
 
 
@@ -85,13 +89,17 @@ def _blend(a: Floats, b: Floats, a_shift: Floats, b_shift: Floats, half: int) ->
         return
     x = (np.arange(2 * half) + 0.5) / (2 * half)
     share = (x * x * (3 - 2 * x))[:, None, None]
+    # A smooth step; the second motion starts bent back by what is left of it.
     share[half:] -= 1
+    # The rotation from the end of the first motion to the start of the second.
     vectors = Rotation.from_quat(np.roll(rot.multiply(rot.conjugate(a[-1]), b[0]), -1, -1))
     angles = share * vectors.as_rotvec()
     bends = np.roll(Rotation.from_rotvec(angles.reshape(-1, 3)).as_quat(), 1, -1)
     bends = bends.reshape(*angles.shape[:2], 4)
+    # Translations are made up in the same way, in a line.
     shift = share * (b_shift[0] - a_shift[-1])
     a[-half:] = rot.multiply(a[-half:], bends[:half])
     b[:half] = rot.multiply(b[:half], bends[half:])
     a_shift[-half:] += shift[:half]
+    # The same share as for the rotations.
     b_shift[:half] += shift[half:]

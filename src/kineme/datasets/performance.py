@@ -30,10 +30,12 @@ def perform(
     heading = _heading(parts, frames, rng)
     sway = {name: _SWAY_DEG * _slow_noise(frames, _SWAY_S * fps, rng) for name in ANGLES}
     for part in parts:
+        # An action begins with its fade-in and ends with its fade-out, in which others overlap.
         start, stop = part.frames[0] - part.fade_in, part.frames[-1] + part.fade_out
         span = slice(start, stop)
         phase = phase_of(part)
         sizes = part.action.amplitude * (1 + rng.normal(0, _SIZE_VARIES, part.action.repetitions))
+        # The size changes from the middle of one repetition to the middle of the next.
         size = np.interp(phase, np.arange(len(sizes)) + 0.5, sizes)
         cycle = ACTIONS[part.action.name]
         angles = cycle.angles_at(phase, size)
@@ -42,10 +44,12 @@ def perform(
         swaying = {name: angle + sway[name][span] for name, angle in angles.items()}
         weight = weight_of(part)
         turned = joint_rotations(skeleton, swaying, heading[span])
+        # As q and -q are one rotation: the sign that is nearer to what is there already.
         nearer = np.sign(np.einsum("fjc,fjc->fj", turned, rotations[span]))
         nearer[nearer == 0] = 1
         rotations[span] += weight[:, None, None] * nearer[..., None] * turned
         airborne[span] += weight * size * _flight(part, phase, fps)
+    # A weighted sum of quaternions, normalised, blends the actions.
     rotations /= np.linalg.norm(rotations, axis=2, keepdims=True)
     return rotations, airborne
 
@@ -53,12 +57,15 @@ def perform(
 def shaken(skeleton: Skeleton, rotations: Floats, noise: float, rng: np.random.Generator) -> Floats:
     """Return the rotations with a small random turn of every joint that carries something."""
     reach = np.zeros(skeleton.n_joints)
+    # Children before parents: how far the longest chain below each joint reaches.
     for joint in range(skeleton.n_joints - 1, 0, -1):
         parent = skeleton.parents[joint]
         bone = float(np.linalg.norm(skeleton.offsets[joint]))
         reach[parent] = max(reach[parent], bone + reach[joint])
+    # Turned by this angle, the far end moves by about the noise.
     angle = np.divide(noise, reach, out=np.zeros_like(reach), where=reach > 0)
     vectors = rng.normal(size=(*rotations.shape[:2], 3)) * angle[:, None] / 2
+    # A small rotation as (1, half its vector), normalised below.
     shakes = np.concatenate([np.ones((*rotations.shape[:2], 1)), vectors], axis=2)
     turned = rot.multiply(rotations, shakes)
     return np.asarray(turned / np.linalg.norm(turned, axis=2, keepdims=True))
@@ -70,6 +77,7 @@ def _flight(part: Part, phase: Floats, fps: float) -> Floats:
     share = phase - np.floor(phase)
     height = np.zeros(len(phase))
     for leaves, lands in ACTIONS[part.action.name].flights:
+        # Height of a throw between take-off and landing: g/2 times time since and time until.
         since, until = (share - leaves) * period, (lands - share) * period
         height += _GRAVITY / 2 * np.maximum(since, 0) * np.maximum(until, 0)
     return height
@@ -89,6 +97,8 @@ def _heading(parts: list[Part], frames: int, rng: np.random.Generator) -> Floats
 
 def _slow_noise(frames: int, sigma: float, rng: np.random.Generator) -> Floats:
     """Smooth noise of standard deviation 1."""
+    # The filter needs values on both sides; they are cut off again.
     margin = int(4 * sigma)
     smooth = gaussian_filter1d(rng.normal(size=frames + 2 * margin), sigma)
+    # A normal filter divides the deviation of white noise by this root.
     return np.asarray(smooth[margin : margin + frames] * np.sqrt(2 * np.sqrt(np.pi) * sigma))

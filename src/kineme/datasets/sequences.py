@@ -109,6 +109,7 @@ def exercise_sequence(
     check_fit([exercise.motion for takes in of_name.values() for exercise in takes])
     rng = np.random.default_rng(seed)
     names = rng.permutation(sorted(of_name))[:actions].tolist()
+    # Sorted first, so that the draw does not depend on the order of the input.
     order = _run_order(names, runs, rng)
     parts = [
         exercise
@@ -158,6 +159,7 @@ def _run_order(names: list[str], runs: int, rng: np.random.Generator) -> list[st
     while len(order) < runs:
         again = rng.permutation(names).tolist()
         if order and again[0] == order[-1]:
+            # No action follows itself.
             again.append(again.pop(0))
         order += again
     return order[:runs]
@@ -182,13 +184,16 @@ def _truth(
 
     for name, members in groupby(range(len(parts)), lambda i: parts[i].name):
         run = list(members)
+        # First frames of the run's exercises, and the end of the last one.
         edges = starts[run[0] : run[-1] + 2].tolist()
         before, after = halves[run[0]], halves[run[-1] + 1]
         for level in ("activity", "primitive"):
+            # Each transition is added once, by the action after it.
             add(level, "transition", edges[0] - before, edges[0] + before)
         edges[0], edges[-1] = edges[0] + before, edges[-1] - after
         add("activity", "activity", edges[0], edges[-1], name)
         for i, (start, stop) in zip(run, pairwise(edges), strict=True):
+            # Repetitions within an exercise are taken to be equally long.
             borders = np.linspace(start, stop, parts[i].repetitions + 1).astype(int).tolist()
             for a, b in pairwise(borders):
                 add("primitive", "primitive", a, b, name)

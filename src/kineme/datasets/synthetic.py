@@ -126,6 +126,7 @@ def random_recording(
     """
     rng = np.random.default_rng(seed)
     exercises = [name for name in ACTIONS if name not in ("walk", "stand")]
+    # Every other activity is an exercise, and no exercise comes twice.
     if not 1 <= activities <= 2 * len(exercises):
         raise ParameterError(f"activities must be 1 to {2 * len(exercises)}, not {activities}")
     drawn = iter(rng.permutation(exercises).tolist())

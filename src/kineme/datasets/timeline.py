@@ -82,7 +82,9 @@ def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) ->
     now, fade_in = 0, 0
     for place, action in enumerate(actions):
         seconds = ACTIONS[action.name].seconds / action.speed
+        # Each repetition with a length of its own, about the usual one.
         lasting = seconds * (1 + rng.normal(0, _PACE_VARIES, action.repetitions))
+        # Borders from sums of seconds, so that rounding does not add up.
         frames = now + np.rint(np.cumsum([0.0, *lasting]) * fps).astype(np.int64)
         if np.diff(frames).min() < 3:
             raise ParameterError(
@@ -91,6 +93,7 @@ def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) ->
         last = place == len(actions) - 1
         fade_out = 0 if last else round(rng.uniform(*_TRANSITION_S) * fps)
         parts.append(Part(action, frames, fade_in, fade_out))
+        # The next action fades in while this one fades out.
         now, fade_in = int(frames[-1]) + fade_out, fade_out
     return parts
 
@@ -131,9 +134,11 @@ def phase_of(part: Part) -> Floats:
     """Cycles done at each frame, fades included: they run up to and down from full pace."""
     frames = part.frames.astype(float)
     cycles = np.arange(len(frames), dtype=float)
+    # Monotone cubic through the borders: the pace changes smoothly and never goes backwards.
     inside = PchipInterpolator(frames, cycles) if len(frames) > 2 else None
     at = np.arange(frames[0], frames[-1])
     between = inside(at) if inside else np.interp(at, frames, cycles)
+    # The run-up is a run-down backwards, before the first cycle.
     run_up = _run_down(part.fade_in, frames[1] - frames[0])[::-1]
     run_down = _run_down(part.fade_out, frames[-1] - frames[-2])
     return np.concatenate([-run_up, between, cycles[-1] + run_down])
@@ -144,13 +149,16 @@ def weight_of(part: Part) -> Floats:
     rise = np.linspace(0, 1, part.fade_in, endpoint=False)
     fall = np.linspace(1, 0, part.fade_out, endpoint=False)
     weight = np.concatenate([rise, np.ones(part.frames[-1] - part.frames[0]), fall])
+    # The smooth step of the weight has no slope at either end.
     return np.asarray(weight * weight * (3 - 2 * weight))
 
 
 def _run_down(fade: int, period: float) -> Floats:
     """Cycles gone while the pace falls evenly to nothing within half of the fade."""
     ramp = max(fade / 2, 1.0)
+    # After half of the fade the figure stands still.
     elapsed = np.minimum(np.arange(fade), ramp)
+    # The integral of a pace that falls evenly to 0.
     return np.asarray((elapsed - elapsed**2 / (2 * ramp)) / period)
 
 

@@ -66,6 +66,8 @@ def is_annotations(path: Path) -> bool:
 
 def _truth(rows: list[Action], fps: float) -> Truth:
     earliest, mean, latest = (
+        # Marks count frames from 1. The last row ends with the recording and has no border after
+        # it.
         round_half_up(np.array([row[i] for row in rows[:-1]]) * (fps / TRIAL_FPS)) - 1
         for i in (1, 2, 3)
     )

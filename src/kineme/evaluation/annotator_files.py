@@ -75,6 +75,7 @@ def annotator_names(paths: Sequence[Path]) -> list[str]:
     plain = [
         path.absolute() if path.is_dir() else path.absolute().with_suffix("") for path in paths
     ]
+    # As many folders as it takes to make all names different.
     for parts in range(1, max(len(path.parts) for path in plain) + 1):
         names = ["/".join(path.parts[-parts:]) for path in plain]
         if len(set(names)) == len(names):

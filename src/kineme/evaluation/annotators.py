@@ -209,7 +209,9 @@ def fleiss_kappa(counts: ArrayLike) -> float:
     n = float(people[0])
     if n < 2 or (people != n).any():
         raise ParameterError("every subject needs as many people, and two at least")
+    # Pairs of people who agree, of all ordered pairs, averaged over subjects.
     agreed = float(np.mean((np.square(table).sum(axis=1) - n) / (n * (n - 1))))
+    # Shares of the classes in everything that was said.
     by_chance = float(np.square(table.sum(axis=0) / table.sum()).sum())
     return (agreed - by_chance) / (1 - by_chance) if by_chance < 1 else 1.0
 
@@ -249,6 +251,7 @@ def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
         name: {who: _truth(found) for who, found in sides.items()}
         for name, sides in several.items()
     }
+    # Names are compared only if people use the same ones; else clusters are mapped.
     by: By = "names" if _have_names_in_common(several, truths) else "mapping"
     sides_by = _Sides(truths, by)
     pairs = tuple(sides_by.pair(first, second) for first, second in combinations(people, 2))
@@ -291,6 +294,7 @@ class _Sides:
         compared = self._compared(first, second)
         if not compared:
             return Pair(first, second, math.nan, math.nan, 0)
+        # All recordings as one, so that one mapping serves them all.
         both = Comparison(
             np.concatenate([one.truth for one in compared]),
             np.concatenate([one.found for one in compared]),
@@ -298,12 +302,14 @@ class _Sides:
             self._mapping(compared),
             transitions=True,
         )
+        # Either of the two is the truth in turn, since borders have a tolerance on one side only.
         borders = [border_score(one).f1 for one in (*compared, *self._compared(second, first))]
         return Pair(first, second, cohen_kappa(both), float(np.mean(borders)), len(compared))
 
     def stacks(self, first: str) -> dict[str, Ints]:
         """By recording the class of each frame, a row for each annotator, in the first one's."""
         mappings: dict[str, Mapping[int, int]] = {}
+        # Everybody's classes are expressed in those of the first person.
         for who in {who for sides in self._truths.values() for who in sides} - {first}:
             compared = self._compared(first, who)
             mappings[who] = self._mapping(compared) if compared else {}
@@ -315,6 +321,7 @@ class _Sides:
     def _numbered(self, who: str, truth: Truth) -> Ints:
         labelling = truth.labelling()
         keys = [("" if self._by == "names" else who, _class(label)) for label in labelling.labels]
+        # Numbers are shared by all recordings; by mapping, each person has their own.
         values = [
             UNLABELLED
             if name == TRANSITION
@@ -331,6 +338,7 @@ class _Sides:
                 self._classes[name][found],
                 sides[truth].fps,
                 transitions=True,
+                # Borders have spans in the truth only; the second person's are exact.
                 intervals=Spans(sides[truth], sides[found].labelling(), sides[found].labelling()),
             )
             for name, sides in self._truths.items()
@@ -370,12 +378,14 @@ def _have_names_in_common(labelled: Labelled, truths: Truths) -> bool:
 
 def _map_classes(classes: Ints, mapping: Mapping[int, int]) -> Ints:
     """Return the classes that a mapping knows as it says, the others as they are."""
+    # The mapping of each class once, then spread over the frames.
     numbers, where = np.unique(classes, return_inverse=True)
     return np.array([mapping.get(int(n), int(n)) for n in numbers], np.int64)[where]
 
 
 def _counts(stack: Ints) -> Ints:
     """How many annotators (rows) put each frame (column) into each class: frames x classes."""
+    # Rows of the stack are annotators, columns frames; the sum counts annotators.
     classes = np.unique(stack)
     return np.stack([(stack == each).sum(axis=0) for each in classes], axis=1)
 
@@ -384,8 +394,10 @@ def _differences(sides: Sequence[Truth], stack: Ints) -> Iterator[Difference]:
     """Where the rows of a stack are not equal, and what each side says there."""
     labels = [side.labelling().per_frame() for side in sides]
     fps, least = sides[0].fps, sides[0].tolerance_s * sides[0].fps
+    # Numbers of the different columns: a run of one number says the same throughout.
     _, columns = np.unique(stack, axis=1, return_inverse=True)
     for run in runs(columns.ravel()):
+        # No longer than the tolerance of borders: a border that is a little off is no difference.
         if run.stop - run.start > least and (stack[:, run.start] != stack[0, run.start]).any():
             names = ("" if (name := each[run.start]) == TRANSITION else name for each in labels)
             yield Difference(run.start / fps, run.stop / fps, tuple(names))

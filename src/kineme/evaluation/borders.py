@@ -56,8 +56,10 @@ def border_score(compared: Comparison) -> BorderScore:
     truth, found = compared.spans.actions, border_frames(compared.spans.activities)
     if not truth.mean.size + found.size:
         return BorderScore(1.0, 1.0, 1.0)
+    # The tolerance beyond the span in which people put the border, in frames.
     slack = truth.tolerance_s * truth.fps
     hits = len(_matches(truth.earliest - slack, truth.latest + slack, found))
+    # A share of nothing is 0.
     return BorderScore(
         hits / found.size if found.size else 0.0,
         hits / truth.mean.size if truth.mean.size else 0.0,
@@ -91,20 +93,27 @@ def repetition_f1(compared: Comparison) -> Ratio | None:
         return None
     ends = truth.at_means().borders
     starts, stops = _single(truth.repetitions)
+    # Action of each repetition, by its middle.
     actions = np.searchsorted(ends, (starts + stops) / 2, "right")
+    # Neighbouring repetitions of one action have a border between them.
     before = np.flatnonzero(actions[1:] == actions[:-1])
+    # A pause between two repetitions is one border, anywhere in it.
     earliest, latest = stops[before], starts[before + 1]
     lengths = np.minimum((stops - starts)[before], (stops - starts)[before + 1])
     slack = np.minimum(REPETITION_TOLERANCE_S * truth.fps, REPETITION_TOLERANCE * lengths)
 
     first, last = _single(primitives)
     found = (last[:-1] + first[1:]) / 2
+    # Only within actions whose repetitions people cut.
     found = found[np.isin(np.searchsorted(ends, found, "right"), actions)]
     hits = _matches(earliest - slack, latest + slack, found)
     near = REPETITION_TOLERANCE_S * truth.fps
     begin, end = truth.earliest - near, truth.latest + near
+    # (found, borders): a border near the end of an action is no wrong repetition.
     at_ends = np.any((begin <= found[:, None]) & (found[:, None] <= end), axis=1)
+    # Neither right nor near an end of an action.
     wrong = np.delete(~at_ends, hits)
+    # 2 TP + FN + FP: true borders, hits, and wrong ones.
     total = len(earliest) + len(hits) + int(wrong.sum())
     return Ratio(2 * len(hits), total) if total else None
 
@@ -119,12 +128,14 @@ def border_frames(found: Labelling) -> Floats:
         label == TRANSITION and stop - start < SHORT_TRANSITION_S * found.fps
         for label, start, stop in zip(runs.labels, runs.starts, runs.stops, strict=True)
     ]
+    # At an end of the recording a transition has one border anyway.
     short[0] = short[-1] = False
     borders: list[float] = []
     for i in range(1, len(short)):
         if short[i]:
             borders.append((runs.starts[i] + runs.stops[i]) / 2)
         elif not short[i - 1]:
+            # Not after a short transition, whose middle stands for both of its sides.
             borders.append(float(runs.starts[i]))
     return np.array(borders)
 
@@ -144,6 +155,7 @@ def covering(compared: Comparison) -> float:
     actions, found = compared.spans.actions.at_means(), compared.spans.activities.merged()
     best = []
     for start, stop in zip(actions.starts, actions.stops, strict=True):
+        # Where the two do not overlap this is negative, and counts as 0 below.
         inner = np.minimum(stop, found.stops) - np.maximum(start, found.starts)
         union = np.maximum(stop, found.stops) - np.minimum(start, found.starts)
         best.append((np.maximum(inner, 0) / union).max())
@@ -182,6 +194,7 @@ def cluster_ratio(compared: Comparison) -> Ratio:
     >>> cluster_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
     Ratio(part=2, total=2)
     """
+    # The number -1 is a transition only if the comparison says so.
     neither = {UNLABELLED} if compared.transitions else set()
     sides = ({*np.unique(side).tolist()} - neither for side in (compared.found, compared.truth))
     return Ratio(*map(len, sides))
@@ -198,6 +211,7 @@ def _matches(first: ArrayLike, last: ArrayLike, found: Floats) -> list[int]:
     hits: list[int] = []
     following = 0
     for start, stop in zip(np.asarray(first), np.asarray(last), strict=True):
+        # Borders are in order, so an earlier found border is never needed again.
         following = max(following, int(np.searchsorted(found, start)))
         if following < found.size and found[following] <= stop:
             hits.append(following)

@@ -163,6 +163,7 @@ class Comparison:
         ParameterError
             Labels of another length than the truth.
         """
+        # Activities and primitives are the clusters by default.
         groups, spans, units = (
             (level or clusters).at(frames=truth.frames, fps=truth.fps)
             for level in (clusters, activities, primitives)
@@ -180,6 +181,7 @@ class Comparison:
         """Class that each frame's cluster stands for; below 0 where it stands for none."""
         mapping = best_mapping([self]) if self.mapping is None else self.mapping
         clusters, where = np.unique(self.found, return_inverse=True)
+        # Clusters without a class get numbers of their own, below that of transitions.
         classes = [mapping.get(int(c), -2 - i) for i, c in enumerate(clusters)]
         return np.asarray(classes, np.int64)[where]
 
@@ -187,6 +189,7 @@ class Comparison:
     def agreed(self) -> Comparison:
         """Return the same of the frames on which people agree, with a mapping of their own."""
         certain = self.truth != UNLABELLED
+        # Without certain frames there is nothing to cut out.
         if certain.all() or not certain.any():
             return self
         return Comparison(
@@ -222,8 +225,10 @@ class Comparison:
         first, last = (actions.labels[i] == TRANSITION for i in (0, -1))
         if not first and not last:
             return self
+        # Silence ends at the latest mark at which the first action may begin.
         start = int(actions.latest[0]) if first else 0
         stop = int(actions.earliest[-1]) if last else actions.frames
+        # A border lies between two actions, so there is one less.
         rows = slice(int(first), len(actions.labels) - int(last))
         between = slice(rows.start, rows.stop - 1)
         inner = replace(
@@ -318,6 +323,7 @@ def compare(
         UNLABELLED if row.kind == "transition" else numbers.setdefault(text_of(row), len(numbers))
         for row in truth.activities
     ]
+    # Activities in no cluster get numbers above all clusters.
     lonely = 1 + max(found.activities.cluster.tolist(), default=0)
     groups = [
         UNLABELLED if row.kind == "transition" else row.cluster if row.cluster >= 0 else lonely + i
@@ -327,12 +333,14 @@ def compare(
     counted = labels != UNLABELLED
     if not counted.any():
         raise ParameterError("the labels say nothing of this recording: every frame is unlabelled")
+    # Frames without a label are cut out of both sides.
     compared = Comparison(labels[counted], clusters[counted], found.fps)
     spans = compared.spans
     single = labelling_of(found.primitives or found.activities, fps=truth.fps)
     actions = truth_of(truth, n_frames=truth.n_frames, fps=truth.fps)
     intervals = replace(
         spans,
+        # Primitives without the frames that were cut out; repetitions are counted on every frame.
         primitives=single.within(counted) if len(found.primitives) else spans.primitives,
         repetitions=Repetitions(actions, single),
     )
@@ -354,10 +362,12 @@ def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
     )
     mapping = {}
     if any(c.transitions for c in comparisons) and (found == UNLABELLED).any():
+        # A transition can only stand for a transition, so it takes no part in the assignment.
         mapping = {UNLABELLED: UNLABELLED}
         free = (found != UNLABELLED) & (truth != UNLABELLED)
         truth, found = truth[free], found[free]
     clusters, classes, frames = contingency(found, truth)
+    # Hungarian method: the assignment of clusters to classes with the most common frames.
     pairs = zip(*linear_sum_assignment(frames, maximize=True), strict=True)
     return mapping | {int(clusters[row]): int(classes[column]) for row, column in pairs}
 
@@ -367,6 +377,7 @@ def contingency(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
     clusters, given = np.unique(found, return_inverse=True)
     classes, true = np.unique(truth, return_inverse=True)
     frames = np.zeros((len(clusters), len(classes)), np.int64)
+    # `add.at` adds repeated index pairs one by one.
     np.add.at(frames, (given, true), 1)
     return clusters, classes, frames
 
@@ -380,6 +391,8 @@ def runs(labels: ArrayLike) -> list[Run]:
     [Run(label=3, start=0, stop=2), Run(label=5, start=2, stop=3)]
     """
     per_frame = np.asarray(labels, np.int64)
+    # A run begins where the number changes; the + 1 since the difference belongs to the frame
+    # before.
     borders = [0, *(np.flatnonzero(np.diff(per_frame)) + 1).tolist(), len(per_frame)]
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
 

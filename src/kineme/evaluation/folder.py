@@ -77,6 +77,7 @@ class FolderScores:
         """Return the scores of a method over its recordings by name, and ``seconds_per_hour``."""
         good = [one for one in self.methods[method] if not one.error]
         found = {n: pool_scores(one.results.get(n) for one in good) for n in scores() if good}
+        # Weighed by length: seconds over all recordings.
         length = sum(one.length_s for one in good)
         if length:
             found["seconds_per_hour"] = 3600 * sum(one.seconds for one in good) / length
@@ -205,6 +206,7 @@ def joined_comparisons(
         for i, (sides, found) in _join_clusters(answers, n_clusters).items()
     }
     if not compared:
+        # None of the jobs succeeded.
         return [None] * len(answers)
     mapping = best_mapping(list(compared.values()))
     mapped = {i: replace(one, mapping=mapping) for i, one in compared.items()}
@@ -230,6 +232,7 @@ def _join_clusters(
     answers: Sequence[tuple[Job, Answer]], n_clusters: int | None
 ) -> dict[int, tuple[Sides, Segmentation]]:
     """By the place of an answer: what was found there, with the joined clusters."""
+    # Recordings whose clusters can be joined: bodies under (), signals by their channels.
     kinds: dict[tuple[str, ...], list[int]] = {}
     for i, (_, answer) in enumerate(answers):
         if answer.sides is not None:
@@ -242,6 +245,7 @@ def _join_clusters(
         sides = [s for i in rows if (s := answers[i][1].sides) is not None]
         shared = _check_one_kind(jobs, sides, n_clusters)
         for i, side, one in zip(rows, sides, shared, strict=True):
+            # Numbers of different kinds must not meet.
             found[i] = side, _numbered_on(one, following)
         following += 1 + max(int(one.table.cluster.max()) for one in shared)
     return dict(sorted(found.items()))
@@ -254,6 +258,7 @@ def _check_one_kind(
     samples = [one.samples for one in sides if one.samples is not None]
     if samples:
         return share_by_samples(samples, segmentations, n_clusters=n_clusters)
+    # Motions are read again: to keep them all would take much memory.
     motions = [motion for job in jobs if isinstance(motion := job.reading.read(job.path), Motion)]
     try:
         return share_clusters(motions, segmentations)

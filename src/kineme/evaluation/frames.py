@@ -99,9 +99,11 @@ def cohen_kappa(compared: Comparison) -> float:
     0.0
     """
     found, true, frames = contingency(compared.mapped, compared.truth)
+    # Places of the classes that both sides have.
     row, column = np.nonzero(found[:, None] == true)
     shares = frames / frames.sum()
     right = shares[row, column].sum()
+    # Expected agreement: the product of both sides' shares, for each class.
     by_chance = (shares.sum(axis=1)[row] * shares.sum(axis=0)[column]).sum()
     return float((right - by_chance) / (1 - by_chance)) if by_chance < 1 else 1.0
 

@@ -53,6 +53,7 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
             counted = content.fps or (found.fps if content.unit == "seconds" else fps or found.fps)
             length_s = found.n_frames / found.fps
             content = convert_clock_times(content, found.clock, length_s=length_s)
+            # Labels in seconds reach to the end of the recording, those in frames as many frames.
             if content.length is None:  # silence at the end
                 length = length_s if content.unit == "seconds" else round(length_s * counted)
                 content = replace(content, length=length)
@@ -99,10 +100,12 @@ def differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, f
     if compared is None:
         return []
     least = compared.spans.actions.tolerance_s * compared.fps
+    # Frames on which the truth has a class, and the result another.
     wrong = (compared.truth != compared.mapped) & (compared.truth != UNLABELLED)
     return [
         (run.start / compared.fps, run.stop / compared.fps)
         for run in runs(wrong)
+        # `runs` of a mask: label 1 where it is true.
         if run.label and run.stop - run.start > least
     ]
 
@@ -122,6 +125,7 @@ def _scores(compared: Comparison) -> dict[str, float]:
 def comparison(found: Segmentation) -> tuple[int, float]:
     """Frames and rate at which a result is compared: 30 Hz, or its own if lower."""
     rate = min(FPS, found.fps)
+    # Frames that fit up to the last one; the small number guards against rounding.
     return floor((found.n_frames - 1) * rate / found.fps + 1e-9) + 1, rate
 
 

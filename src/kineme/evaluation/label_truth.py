@@ -41,11 +41,14 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
     single = origin.get("level") == "primitive"
     groups = _groups(rows, pauses=single)
     inner = list(labels.primitives) or _repetitions(rows, groups, given, single=single)
+    # A sum is known only if each row's count is.
     counts = [_sum([given[i] for i in group if not _is_transition(rows[i])]) for group in groups]
     starts = [rows[group[0]].start_frame for group in groups]
     found = [row.start_frame for row in inner if not _is_transition(row)]
+    # How many repetitions start in each group.
     numbers = np.bincount(np.searchsorted(starts, found, "right") - 1, minlength=len(groups))
     for i, group in enumerate(groups):
+        # A count that people gave is kept.
         if all(given[row] is None for row in group) and numbers[i]:
             counts[i] = int(numbers[i])
     joined = [replace(rows[g[0]], stop_frame=rows[g[-1]].stop_frame) for g in groups]
@@ -72,6 +75,7 @@ def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
         TRANSITION if _is_transition(row) else _class(row.label) or name
         for row, name in zip(rows, clusters.labels, strict=True)
     ]
+    # Numbered, so that the rows that remain at the new rate can be told.
     numbered = replace(clusters, labels=tuple(map(str, range(len(names)))))
     numbered = numbered.at(frames=n_frames, fps=fps)
     kept = [int(label) for label in numbered.labels]  # the others vanished at this rate
@@ -109,6 +113,7 @@ def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
     >>> labelling_of(found.activities, fps=found.fps).labels[:4]
     ('0', 'transition', '1', 'transition')
     """
+    # A class of its own for a row without cluster and label.
     labels = [
         TRANSITION
         if row.kind == "transition"
@@ -151,6 +156,7 @@ def _groups(rows: Sequence[Segment], *, pauses: bool) -> list[list[int]]:
         if name and groups and name == _name(rows[groups[-1][-1]]):
             groups[-1].append(i)
         elif pauses and name and len(groups) > 1 and _is_pause(*rows[i - 2 : i + 1]):
+            # The last group but one takes in the pause and this row.
             groups[-2:] = [[*groups[-2], i - 1, i]]
         else:
             groups.append([i])
@@ -185,6 +191,7 @@ def _repetitions(
                 for i, kind in zip(group, kinds, strict=True)
             ]
         else:  # nobody says
+            # Primitives cover the whole recording, so the rest is a transition.
             inner.append(
                 Segment("primitive", "transition", first.start_frame, last.stop_frame, 0.0, 0.0)
             )

@@ -42,9 +42,11 @@ def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:
     start, stop, certain = _closed_spans(compared.spans.actions)
     found = compared.spans.activities
     first = found.starts
+    # Closed spans, as in the authors' program: each ends on the first frame of the next.
     last = np.minimum(found.stops, found.frames - 1)
     owner = np.array(
         [
+            # Length of the overlap in frames of closed spans; `argmax` takes the first of equals.
             np.argmax(np.maximum(np.minimum(b, stop) - np.maximum(a, start) + 1, 0))
             for a, b in zip(first, last, strict=True)
         ]
@@ -52,6 +54,7 @@ def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:
     covered = np.zeros(start.size)
     for i in np.unique(owner):
         rows = owner == i
+        # The hull of all activities of the interval, cut to it; + 1 for closed spans.
         hull = min(stop[i], last[rows].max()) - max(start[i], first[rows].min()) + 1
         covered[i] = max(0, hull)
     length = stop - start + 1
@@ -74,6 +77,7 @@ def majority_accuracy(compared: Comparison) -> tuple[float, float]:
     """
     clusters, classes, frames = contingency(compared.found, compared.truth)
     most = frames.max(axis=1)
+    # A class needs more than half of the cluster's frames.
     given = np.where(2 * most > frames.sum(axis=1), classes[frames.argmax(axis=1)], UNLABELLED)
     right = given[np.searchsorted(clusters, compared.found)] == compared.truth
     return float(right.mean()), float(right[compared.truth != UNLABELLED].mean())
@@ -81,10 +85,12 @@ def majority_accuracy(compared: Comparison) -> tuple[float, float]:
 
 def _closed_spans(truth: Truth) -> tuple[Ints, Ints, NDArray[np.bool_]]:
     """First and last frames of actions and uncertain spans in turn, and which are actions."""
+    # Each border gives two marks: actions and uncertain spans alternate.
     borders = np.stack([truth.earliest, truth.latest], axis=1).ravel()
     start = np.concatenate([[0], borders])
     stop = np.concatenate([borders, [truth.frames - 1]])
     certain = np.zeros(start.size, np.bool_)
+    # Every second span, from the first on, is an action.
     certain[::2] = [label != TRANSITION for label in truth.labels]
     return start, stop, certain
 

@@ -103,6 +103,7 @@ def segment_by(
     from kineme.methods.segmenter import segment
 
     check_method(name)
+    # None as the preset's value asks for the true number of classes.
     if getattr(PRESETS[name], NUMBER_OF_CLASSES, 0) is None:
         constants = {NUMBER_OF_CLASSES: n_classes, **constants}
     return segment(recording, preset=name, **constants)
@@ -171,6 +172,7 @@ def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answe
                 future.result() if failure is None else _describe_failure(failure),
             )
     finally:
+        # Also reached when the caller stops early.
         pool.shutdown(cancel_futures=True)  # none is left, or nobody asks any more
 
 
@@ -190,6 +192,7 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
         n_frames=recording.n_frames, fps=recording.fps, clock=recording.provenance.clock
     )
     classes: dict[str, int] = {}
+    # Numbers the classes as the truth has them; the comparison itself is not needed.
     compare(truth, truth, classes=classes)
     start = clock()
     found = segment_by(job.method, recording, n_classes=len(classes), **job.constants)
@@ -198,6 +201,7 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     sides = None
     if job.joins:
         samples = channel_samples(recording) if isinstance(recording, Signals) else None
+        # The hierarchy is large and is not needed for joining.
         sides = Sides(truth, replace(found, hierarchy=None), samples)
     unmet = (str(note) for note in recording.provenance.notes if note.startswith(UNMET))
     notes = (*unmet, *truth.provenance.get("notes", ()))

@@ -260,6 +260,7 @@ def comparison_of(
     rows = found.activities
     activities = labelling_of(rows, fps=found.fps)
     primitives = labelling_of(found.primitives, fps=found.fps) if len(found.primitives) else None
+    # Activities without clusters or labels say nothing: then primitives are compared.
     grouped = bool(np.any((rows.cluster >= 0) | (rows.label != "")))
     return Comparison.of(
         truth,
@@ -290,6 +291,7 @@ def pool_scores(results: Iterable[Value]) -> float:
     ratios = [result for result in kept if isinstance(result, Ratio)]
     if ratios:
         return Ratio(sum(r.part for r in ratios), sum(r.total for r in ratios)).value
+    # A score that is not defined for a recording leaves it out.
     numbers = [value for value in map(value_of, kept) if math.isfinite(value)]
     return sum(numbers) / len(numbers) if numbers else math.nan
 

@@ -58,6 +58,7 @@ def edit_distance(a: Sequence[int], b: Sequence[int]) -> int:
     >>> edit_distance([1, 2, 3], [1, 3, 3, 4])
     2
     """
+    # Distances from the empty sequence: as many insertions.
     row = np.arange(len(b) + 1)
     columns = np.arange(len(b) + 1)
     other = np.asarray(b)
@@ -101,6 +102,7 @@ def found_counts(truth: Truth, primitives: Labelling) -> list[int]:
     """
     kept = np.array([label != TRANSITION for label in primitives.labels])
     middles = (primitives.starts + primitives.stops)[kept] / 2
+    # Histogram by the borders of the actions; a middle belongs to one action.
     counts: list[int] = np.histogram(middles, bins=truth.at_means().borders)[0].tolist()
     return counts
 
@@ -136,9 +138,11 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
 
 def _hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
     """Return how many true segments are found."""
+    # Columns of the runs: label, start, stop.
     labels, starts, stops = np.array(true).T
     hits: set[int] = set()
     for label, start, stop in found:
+        # Negative where the two are apart; the hull is then too large, but never chosen.
         inner = np.minimum(stops, stop) - np.maximum(starts, start)
         union = np.maximum(stops, stop) - np.minimum(starts, start)
         overlap = np.where(labels == label, inner / union, -1.0)

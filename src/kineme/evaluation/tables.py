@@ -52,6 +52,7 @@ def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
     """Return why scores of borders and of classes disagree, or "" if they do not."""
     for values in columns.values():
         by_class = values.get("edit", math.nan)
+        # False for nan.
         if values.get("border_f1", math.nan) - by_class > DISAGREEMENT:
             return (
                 "Borders are better than classes: Edit, F1@k and shares of frames also need the "
@@ -89,6 +90,7 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
             table = csv.DictWriter(file, names, lineterminator="\n")
             table.writeheader()
             table.writerows(
+                # Texts that look like formulas are protected for spreadsheets.
                 {k: as_text(v) if isinstance(v, str) else v for k, v in record.items()}
                 for record in rows
             )

@@ -79,6 +79,7 @@ class Labelling:
         cls, cuts: ArrayLike, labels: Sequence[object] | None = None, *, frames: int, fps: float
     ) -> Labelling:
         """Return the intervals between cuts; without labels each gets one of its own."""
+        # 0 and the length are borders, too.
         borders = np.concatenate([[0], np.asarray(cuts, np.int64), [frames]])
         names = range(borders.size - 1) if labels is None else labels
         return cls(borders, tuple(map(str, names)), fps)
@@ -91,7 +92,9 @@ class Labelling:
         names = np.array([str(label) for label in labels], dtype=object)
         if not names.size:
             raise ParameterError("one label per frame is needed, there are none")
+        # Index of the first frame of each new label.
         cuts = np.flatnonzero(names[1:] != names[:-1]) + 1
+        # The first frame of every run tells its label.
         starts = np.concatenate([[0], cuts])
         return cls.from_cuts(cuts, names[starts].tolist(), frames=names.size, fps=fps)
 
@@ -124,6 +127,7 @@ class Labelling:
 
     def within(self, frames: NDArray[np.bool_]) -> Labelling:
         """Return the same without the frames that are False; what vanishes is left out."""
+        # New place of each border: how many kept frames come before it.
         moved = np.concatenate([[0], np.cumsum(frames)])[self.borders]
         rows = np.flatnonzero(np.diff(moved) > 0)
         return Labelling(
@@ -133,6 +137,7 @@ class Labelling:
     def merged(self) -> Labelling:
         """Return the same labels with equal neighbours joined."""
         labels = self.labels
+        # Rows at which the label changes.
         rows = [i for i, label in enumerate(labels) if not i or label != labels[i - 1]]
         return Labelling(
             np.append(self.borders[rows], self.frames), tuple(labels[i] for i in rows), self.fps
@@ -150,7 +155,9 @@ class Labelling:
         """
         check_length(self.frames, self.fps, frames, fps)
         moved = round_half_up(self.borders * (fps / self.fps))
+        # Rounding must not lead beyond the end; the last border is the end itself.
         moved = np.append(np.minimum(moved[:-1], frames), frames)
+        # Intervals that round to no frame vanish.
         kept = np.flatnonzero(np.diff(moved) > 0)
         return Labelling(
             np.append(moved[kept], frames), tuple(self.labels[i] for i in kept), float(fps)
@@ -224,6 +231,7 @@ class Truth:
                     f"{len(self.labels)} actions have {len(self.labels) - 1} borders between "
                     f"them, not {frames.size} ({name})"
                 )
+        # A border must lie within the span in which people put it.
         backwards = np.flatnonzero((self.mean < self.earliest) | (self.latest < self.mean))
         if backwards.size:
             i = backwards[0]
@@ -231,6 +239,7 @@ class Truth:
                 f"the border after action {i + 1} ({self.labels[i]}) runs backwards: earliest "
                 f"{self.earliest[i]}, mean {self.mean[i]}, latest {self.latest[i]}"
             )
+        # Certain part of each action: after the latest start, before the earliest end.
         begins = np.concatenate([[0], self.latest])
         ends = np.concatenate([self.earliest, [self.frames]])
         if self.latest.size and self.latest.max() >= self.frames:
@@ -260,11 +269,13 @@ class Truth:
         Its middle counts as the mean. A transition at the beginning or the
         end of the recording stays a row of its own. Counts are one for each interval.
         """
+        # Only transitions between two actions are borders; at the ends they stay rows.
         middle = [
             0 < i < len(labelling.labels) - 1 and label == TRANSITION
             for i, label in enumerate(labelling.labels)
         ]
         rows = [i for i, between in enumerate(middle) if not between]
+        # A border's span is from the end of one action to the start of the next.
         earliest = labelling.stops[rows[:-1]]
         latest = labelling.starts[rows[1:]]
         return cls(
@@ -298,12 +309,14 @@ class Truth:
 
 def round_half_up(values: ArrayLike) -> Ints:
     """Whole numbers; halves go up, as MATLAB rounds."""
+    # `np.round` would round halves to even numbers.
     return np.floor(np.asarray(values, np.float64) + 0.5).astype(np.int64)
 
 
 def check_length(frames: int, fps: float, others: int, rate: float) -> None:
     """A `ParameterError` where labels are not as long as their recording, which has the others."""
     length, other = frames / fps, others / rate
+    # One frame of the slower rate, which rounding of the length can cost.
     if abs(length - other) > 1 / min(fps, rate) + 1e-9:
         raise ParameterError(
             f"the labels cover {length:.3f} s ({frames} frames at {fps:g} fps), the "

@@ -141,6 +141,7 @@ def length_variance(found: Labelling) -> tuple[float, float]:
     for label, frames in zip(found.labels, np.diff(found.borders), strict=True):
         if label != TRANSITION:
             lengths.setdefault(label, []).append(frames / found.fps)
+    # A single segment has no variance.
     shared = [seconds for seconds in lengths.values() if len(seconds) > 1]
     if not shared:
         return float("nan"), float("nan")
@@ -165,6 +166,7 @@ def _variance(label: str, spans: list[slice], distances: Distances, fps: float) 
     normalised = []
     for i, j in combinations(range(len(spans)), 2):
         cost = warped_cost(np.ascontiguousarray(distances(spans[i], spans[j])))
+        # The path costs the same in both directions, so one warp gives both ordered pairs.
         normalised += [cost / lengths[i], cost / lengths[j]]
     seconds = lengths / fps
     return ClusterVariance(

@@ -32,25 +32,31 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
     projections = np.empty(count)
     at, pull = np.empty(dims), np.empty(dims)
     for i in range(start, stop):
+        # Offset from the point, which starts at the mean of the projected neighbours.
         for d in range(dims):
             at[d] = 0
         for k in range(count):
             projections[k] = 0
+            # Neighbours relative to the point: along its direction, and across it.
             for d in range(dims):
                 across[k, d] = points[neighbors[i, k], d] - points[i, d]
                 projections[k] += across[k, d] * directions[i, d]
             for d in range(dims):
                 across[k, d] -= projections[k] * directions[i, d]
                 at[d] += across[k, d] / count
+        # Weiszfeld: step to the mean of the neighbours, each weighted by the inverse of its
+        # distance.
         for _ in range(MOST_STEPS):
             weights = distances = strength = 0.0
             coincident = 0
             for d in range(dims):
                 pull[d] = 0
             for k in range(count):
+                # The part along the direction is fixed, but counts in the distance.
                 square = projections[k] * projections[k]
                 for d in range(dims):
                     square += (across[k, d] - at[d]) ** 2
+                # The weight of a neighbour at the position itself is infinite: it is counted apart.
                 if square == 0:
                     coincident += 1
                     continue
@@ -62,10 +68,12 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
             for d in range(dims):
                 strength += pull[d] * pull[d]
             strength = np.sqrt(strength)
+            # Vardi and Zhang: neighbours here hold the position against the pull of the others.
             if strength <= coincident:
                 break
             share = (1 - coincident / strength) / weights
             for d in range(dims):
+                # The pull, shortened by what coinciding neighbours hold back.
                 at[d] += share * pull[d]
             if share * strength <= PRECISION * distances / count:
                 break

@@ -64,6 +64,7 @@ def body_frame(
     pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
     positions = motion.positions if joints is None else motion.positions[:, joints]
     relative = positions - motion.positions[:, pelvis, None]
+    # A copy of x, since its column is overwritten before z needs it.
     x, z = relative[:, :, 0].copy(), relative[:, :, 2]
     relative[:, :, 0] = cos * x + sin * z
     relative[:, :, 2] = cos * z - sin * x
@@ -86,6 +87,7 @@ def heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[i
     ('Hips', (2898,))
     """
     pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
+    # `_turns` gives the turn back to +z, which is the opposite of the heading.
     return pelvis, np.arctan2(-sin, cos)[:, 0]
 
 
@@ -94,6 +96,7 @@ def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats
     pelvis, left_hip, right_hip = _pelvis(motion.skeleton, effectors)
     if motion.rotations is None:
         to_left = motion.positions[:, left_hip] - motion.positions[:, right_hip]
+        # A line shorter than the threshold stays shorter than a unit vector and counts as upright.
         to_left /= np.maximum(np.linalg.norm(to_left, axis=1, keepdims=True), _UPRIGHT)
     else:
         to_left = _turned_axis(motion.skeleton, motion.rotations, pelvis, left_hip, right_hip)
@@ -104,10 +107,12 @@ def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]
     """Joint where the legs part, and the left and right joint where they first lie apart."""
     left = _ancestry(skeleton, effectors.left_ankle)
     right = _ancestry(skeleton, effectors.right_ankle)
+    # Both chains begin at the root and are equal down to the joint where the legs part.
     shared = sum(1 for a, b in zip(left, right, strict=False) if a == b)
     if shared == 0:
         raise MotionError("the legs hang on different roots, so there is no pelvis")
     pelvis = left[shared - 1]
+    # Some skeletons have several joints at the same place before the legs are apart.
     for left_hip, right_hip in zip(left[shared:], right[shared:], strict=False):
         if np.linalg.norm(_at_rest(skeleton, pelvis, left_hip, right_hip)) > 0:
             return pelvis, left_hip, right_hip
@@ -129,6 +134,7 @@ def _at_rest(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip: int) -> 
 
     def from_pelvis(joint: int) -> Floats:
         chain = _ancestry(skeleton, joint)
+        # Offsets below the pelvis only: they are in the pelvis's own axes at rest.
         return np.asarray(skeleton.offsets[chain[chain.index(pelvis) + 1 :]].sum(axis=0))
 
     return from_pelvis(left_hip) - from_pelvis(right_hip)
@@ -140,7 +146,9 @@ def _turned_axis(
     """(frames, 3): the pelvis's axis to the left, in the world."""
     rest = _at_rest(skeleton, pelvis, left_hip, right_hip)
     axis = np.zeros(3)
+    # The coordinate axis nearest to the line of the hips, with its sign.
     axis[np.argmax(np.abs(rest))] = np.sign(rest[np.argmax(np.abs(rest))])
+    # Local rotations from the pelvis up to the root bring the axis into the world.
     for joint in reversed(_ancestry(skeleton, pelvis)):
         axis = rot.rotate(rotations[:, joint], axis)
     return axis
@@ -148,11 +156,13 @@ def _turned_axis(
 
 def _facing(to_left: Floats) -> tuple[Floats, Floats]:
     """Cosine and sine, (frames, 1) each, of the turn that brings the axis to +x."""
+    # Length of the horizontal part.
     length = np.hypot(to_left[:, 0], to_left[:, 2])
     upright = np.flatnonzero(length > _UPRIGHT)
     if len(upright) == 0:
         return np.ones((len(length), 1)), np.zeros((len(length), 1))
     if len(upright) < len(length):
+        # `searchsorted` among the middles gives the nearest frame; at a tie the earlier one.
         middles = (upright[:-1] + upright[1:]) / 2
         nearest = upright[np.searchsorted(middles, np.arange(len(length)))]
         to_left, length = to_left[nearest], length[nearest]

@@ -43,18 +43,22 @@ def have_bones(positions: ArrayLike) -> bool:
     False
     """
     array = np.asarray(positions, np.float64)
+    # Every n-th frame: distances vary alike in fewer frames.
     array = array[:: max(1, len(array) // _FRAMES)]
     if array.shape[1] < POINTS:
         return False
+    # (points,): variance of the place, summed over the three axes.
     moved = array.var(axis=0).sum(axis=1)
     bent = False
     for point in range(array.shape[1]):
         distances = np.linalg.norm(array - array[:, point, None], axis=2)
         deviation = distances.std(axis=0)
+        # If two points moved independently, their distance would deviate by about this much.
         both = np.sqrt(moved + moved[point])
         tied = deviation < TIED * both
         tied[point] = False
         if not tied.any():
             return False
+        # In a rigid body no distance varies, and a body bends.
         bent = bent or bool((deviation > BENT * distances.mean(axis=0)).any())
     return bent

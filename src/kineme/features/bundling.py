@@ -36,6 +36,7 @@ from kineme.features import _kernels
 
 FEWEST_COMPONENTS = 3
 DERIVATIVE = np.array([1, -8, 0, 8, -1]) / 12
+# Coefficients of (1/2 + 1/2)**10, which sum to 1.
 BINOMIAL = np.array([comb(10, k) for k in range(11)]) / 2**10
 
 
@@ -84,7 +85,9 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
         )
     center = points.mean(axis=0)
     axes = _principal_axes(points - center, variance)
+    # The kernel needs rows that are contiguous in memory.
     reduced = np.ascontiguousarray((points - center) @ axes)
+    # At least as many neighbours as dimensions.
     nearest = _nearest_others(reduced, max(neighbors, axes.shape[1]))
     directions = _directions(reduced)
     moved = np.empty_like(reduced)
@@ -93,14 +96,17 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
         _kernels.move_to_medians(reduced, directions, nearest, part.start, part.stop, moved)
 
     map_threads(move, make_even_slices(len(reduced)))
+    # Back to the original axes; what was left out of the components stays 0.
     return cast(Floats, moved @ axes.T + center)
 
 
 def _principal_axes(centered: Floats, variance: float) -> Floats:
     """(dims, components): the fewest orthonormal axes that hold this share of the variance."""
     spread, axes = np.linalg.eigh(centered.T @ centered)
+    # Eigenvalues ascend, so both are reversed; rounding can make the smallest ones negative.
     spread, axes = np.maximum(spread[::-1], 0), axes[:, ::-1]
     totals = np.cumsum(spread)
+    # The first place at which the share is reached, plus one for a count.
     enough = int(np.searchsorted(totals, variance * totals[-1])) + 1
     return axes[:, : max(enough, FEWEST_COMPONENTS)]
 
@@ -109,6 +115,7 @@ def _nearest_others(points: Floats, count: int) -> NDArray[np.int64]:
     """(frames, count): each frame's nearest without itself; fewer where there are not as many."""
     n = len(points)
     count = min(count, n - 1)
+    # A list of ranks keeps the second axis, even for a single neighbour; rank 1 is usually itself.
     _, found = cKDTree(points).query(points, np.arange(1, count + 2), workers=count_threads())
     others = found != np.arange(n)[:, None]
     others[others.all(axis=1), -1] = False  # among its equals a frame may not find itself
@@ -117,11 +124,16 @@ def _nearest_others(points: Floats, count: int) -> NDArray[np.int64]:
 
 def _directions(points: Floats) -> Floats:
     """Unit vectors along the curve of the points; zero where it stands still."""
+    # Steps at both ends; the sum makes them 0 where there is only one point.
     first, last = np.diff(points[:2], axis=0).sum(axis=0), np.diff(points[-2:], axis=0).sum(axis=0)
     beyond = np.array([[1.0], [2.0]])
+    # Two points more at each end, on straight lines, for the derivative of five points.
     longer = np.concatenate([points[0] - beyond[::-1] * first, points, points[-1] + beyond * last])
+    # Convolution reverses its weights, so they are reversed before.
     slopes = convolve1d(longer, DERIVATIVE[::-1], axis=0)[2:-2]
+    # Sum of the weights that lie inside, so that ends are not drawn to 0.
     inside = convolve1d(np.ones(len(points)), BINOMIAL, mode="constant")
     smooth = convolve1d(slopes, BINOMIAL, axis=0, mode="constant") / inside[:, None]
     lengths = np.linalg.norm(smooth, axis=1, keepdims=True)
+    # A direction of length 0 stays 0.
     return np.ascontiguousarray(smooth / np.where(lengths > 0, lengths, 1))

@@ -44,6 +44,7 @@ class Reduction(NamedTuple):
 
     def apply(self, rows: Floats) -> Floats:
         """Return the rows (samples, channels), each mapped."""
+        # Only the shrunk directions change: add what their factors differ from 1.
         shrunk = (rows @ self.directions) * (self.factors - 1)
         return np.asarray((rows + shrunk @ self.directions.T) * self.scales, np.float64)
 
@@ -89,12 +90,16 @@ def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> F
     check_rates(fps, new)
     array = np.asarray(values, np.float64)
     middle: Floats = array.mean(axis=0)  # sums of what is left lose no digits to a large offset
+    # `sums[k]` is the sum of the first k frames, so any mean is a difference of two sums.
     sums = np.concatenate([np.zeros((1, array.shape[1])), np.cumsum(array - middle, axis=0)])
+    # The small number keeps a last frame that rounding would lose.
     n = int((len(array) - 1) * new / fps + 1e-9) + 1
     times = np.arange(n) / new
     half = max(smoothing, 1 / fps, 1 / new) / 2
+    # Frame k stands for k - 0.5 to k + 0.5, so the sums at its edges are half a frame later.
     starts = np.clip((times - half) * fps + 0.5, 0, len(array))
     stops = np.clip((times + half) * fps + 0.5, 0, len(array))
+    # Sums between frames are interpolated, so windows need not end at a frame.
     means = (interpolate_frames(sums, stops) - interpolate_frames(sums, starts)) / (stops - starts)[
         :, None
     ]
@@ -106,9 +111,11 @@ def standardized(values: ArrayLike) -> Floats:
     centred = np.asarray(values, np.float64)
     centred = centred - centred.mean(axis=0)
     largest = np.abs(centred).max(axis=0)
+    # Rounding of a constant with a large offset is no variation.
     steady = largest <= 1e-12 * np.abs(values).max(axis=0)
     scaled: Floats = centred / np.where(steady, 1.0, largest)  # squares of tiny numbers vanish
     scaled /= np.where(steady, 1.0, scaled.std(axis=0))
+    # Rounding errors of constant channels must not be scaled up.
     scaled[:, steady] = 0.0
     return scaled
 
@@ -160,20 +167,24 @@ def in_mixtures(
 
     A band at a time: all bands of a long recording are many times as large as itself.
     """
+    # Windows of this width about each sample, cut at the ends.
     at, width = sampled_at(len(channels), fps, rate), max(1, round(window * fps))
     first = np.clip(at - width // 2, 0, len(channels))
     last = np.clip(at - width // 2 + width, 0, len(channels))
+    # None stands for the unfiltered channels, of which means are taken.
     edges = [None, *(edge for edge in pairwise(bands) if edge[0] < NYQUIST * fps)]
     groups = []
     for edge in edges:
         band = channels if edge is None else _band(channels, fps, *edge)
         mixed = (mixture.of(band) for mixture in mixtures)
         groups.append([_means(each, first, last, squared=edge is not None) for each in mixed])
+    # One array for each mixture: its means and bands side by side.
     return [np.hstack(each) for each in zip(*groups, strict=True)]
 
 
 def sampled_at(frames: int, fps: float, rate: float) -> Ints:
     """Return the frames that are looked at, `rate` times a second."""
+    # The small number keeps a last sample that rounding would lose.
     n = int((frames - 1) / fps * rate + 1e-9) + 1
     at: Ints = np.minimum(np.rint(np.arange(n) * fps / rate).astype(np.int64), frames - 1)
     return at
@@ -185,9 +196,11 @@ def _means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
     Of squares, the root of it.
     """
     sums = np.zeros((len(values) + 1, values.shape[1]))
+    # Squared into the sums' own memory: a long recording needs no second copy.
     np.multiply(values, values if squared else 1.0, out=sums[1:])
     np.cumsum(sums[1:], axis=0, out=sums[1:])
     means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
+    # Differences of sums can be negative by rounding.
     return np.sqrt(np.maximum(means, 0.0)) if squared else means
 
 
@@ -195,5 +208,7 @@ def _band(channels: Floats, fps: float, low: float, high: float) -> Floats:
     """Return the channels between two frequencies, without delay (Butterworth, both ways)."""
     high = min(high, NYQUIST * fps)
     if low >= high:
+        # The whole band is above what the rate can show.
         return np.zeros_like(channels)
+    # Padded by three periods of the lowest frequency, but less than the recording.
     return filter_band(channels, fps, low, high, min(len(channels) - 1, int(3 * fps / low)))

@@ -75,6 +75,7 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
         raise MotionError("a single point is in no distance: segment its coordinates as signals")
     points = spread_points(array)
     features = _without_spikes(_distances(array[:, points]))
+    # Before centring: the largest mean distance tells the size of the whole.
     largest = float(features.mean(axis=0).max(initial=0))
     features -= features.mean(axis=0)
     deviation = features.std(axis=0)
@@ -82,9 +83,11 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     if not varies.any():
         return np.zeros((len(array), 1)), points
     features, deviation = features[:, varies], deviation[varies]
+    # Divided by the root of each deviation; the summed variance is then `VARIATION` squared.
     features *= VARIATION / np.sqrt(deviation * deviation.sum())
     if features.shape[1] > AXES:
         axes = np.linalg.eigh(features.T @ features)[1]
+        # Eigenvalues ascend: the last axes hold most of the variance.
         features = features @ axes[:, -AXES:]
     return features, points
 
@@ -100,12 +103,16 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     positions : ndarray of shape (frames, points, 3)
     """
     n = positions.shape[1]
+    # Evenly spread over all points.
     considered = np.arange(min(n, CONSIDERED)) * n // min(n, CONSIDERED)
     few = positions[:: max(1, len(positions) // _FRAMES), considered]
     apart, varying = _mean_and_deviation(few)
     kept = np.flatnonzero(~_of_the_lab(few, varying))
+    # Rows and columns of the points that are kept.
     apart, varying = apart[np.ix_(kept, kept)], varying[np.ix_(kept, kept)]
+    # The point whose distances vary most, then always the one farthest from those chosen.
     chosen = [int(varying.sum(axis=1).argmax())]
+    # Mean distance of each point to the nearest of those chosen.
     nearest = apart[chosen[0]]
     while len(chosen) < most and nearest.max() > _SAME * apart.max():
         chosen.append(int(nearest.argmax()))
@@ -115,11 +122,13 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
 
 def _of_the_lab(positions: Floats, varying: Floats) -> NDArray[np.bool_]:
     """Return which points never move, though none that move keep their distance from them."""
+    # Root mean square of the distance from the mean place, for each point.
     movement = np.linalg.norm(positions - positions.mean(axis=0), axis=2)
     movement = np.sqrt((movement**2).mean(axis=0))
     moves = movement > _STILL * movement.max()
     if moves.sum() < 2:
         return np.zeros(len(moves), np.bool_)
+    # Fixed to a point that moves: their distance varies less than that point moves.
     tied = (varying[:, moves] < _APART * movement[moves]).any(axis=1)
     lonely: NDArray[np.bool_] = ~(moves | tied)
     return lonely
@@ -129,6 +138,7 @@ def _mean_and_deviation(positions: Floats) -> tuple[Floats, Floats]:
     """Mean and standard deviation (points, points) of the distances."""
     n = positions.shape[1]
     mean, deviation = np.empty((n, n)), np.empty((n, n))
+    # One row at a time: all distances of all frames would not fit in memory.
     for point in range(n):
         distances = np.linalg.norm(positions - positions[:, point, None], axis=2)
         mean[point], deviation[point] = distances.mean(axis=0), distances.std(axis=0)
@@ -141,6 +151,7 @@ def _without_spikes(values: Floats) -> Floats:
     A marker that is taken for another for a frame or two would outweigh all movement.
     """
     before, here, after = values[:-2], values[1:-1], values[2:]
+    # The median of three by minimum and maximum; the first and the last value stay.
     middle = np.maximum(np.minimum(before, here), np.minimum(np.maximum(before, here), after))
     return np.concatenate([values[:1], middle, values[1:][-1:]])
 

@@ -104,6 +104,7 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     """
     check_type(source, (Motion, Skeleton), "end_effectors", "kineme.read(path) gives a motion")
     skeleton = source.skeleton if isinstance(source, Motion) else source
+    # The first source that names a part wins: the user, ASF names, usual names, shape.
     found = {part: (joint, "as named") for part, joint in _named(skeleton, names).items()}
     _add(found, _find_by_asf_names(skeleton), "by ASF name")
     _add(found, _find_by_names(skeleton), "by name")
@@ -117,6 +118,7 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
             reason=f"no {_listed(missing, 'or')} among the joints",
         )
     joints = [found[part][0] for part in PARTS]
+    # One joint that serves as two parts would count twice.
     if len(set(joints)) < len(PARTS):
         twice = next(joint for joint in joints if joints.count(joint) > 1)
         reason = f"joint {skeleton.names[twice]!r} serves as two end effectors"
@@ -197,15 +199,18 @@ def _crown(skeleton: Skeleton, head: int) -> int:
         if parent == head
         and (joint in skeleton.end_sites or _CROWN.intersection(words_of(skeleton.names[joint])))
     ]
+    # Of several ends the farthest one is the crown.
     return max(leaves, key=lambda j: float(np.linalg.norm(skeleton.offsets[j])), default=head)
 
 
 def _upright_pose(source: Skeleton | Motion) -> NDArray[np.float64]:
     if isinstance(source, Motion):
         heights = source.positions[:, :, 1]
+        # The frame with the largest difference in height.
         upright: NDArray[np.float64] = source.positions[np.ptp(heights, axis=1).argmax()]
         return upright
     pose = source.offsets.copy()
+    # Parents come before children, so each is placed already.
     for joint, parent in enumerate(source.parents):
         if parent >= 0:
             pose[joint] += pose[parent]

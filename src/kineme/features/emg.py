@@ -55,6 +55,8 @@ def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> ND
         )
     raw = np.asarray(values, np.float64)
     rectified = np.abs(raw - raw.mean(axis=0))
+    # One cycle of the cutoff, but less than the recording.
     padding = min(len(raw) - 1, int(fps / cutoff))
     smooth = filter_low(rectified.reshape(len(raw), -1), fps, cutoff, padding)
+    # The filter overshoots below 0 after strong bursts.
     return np.asarray(np.maximum(smooth, 0.0), np.float64).reshape(raw.shape)

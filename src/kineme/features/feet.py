@@ -39,5 +39,6 @@ def low_and_slow(path: Floats, fps: float, *, height: float, speed: float) -> ND
     speed : float
         Metres per second, below which it is slow.
     """
+    # A low percentile instead of the minimum, which may be a tracking error.
     low = path[:, 1] < np.percentile(path[:, 1], LOWEST) + height
     return np.asarray(low & (speed_of(path, fps) < speed))

@@ -60,6 +60,8 @@ def filter_band(values: Floats, fps: float, low: float, high: float, padding: in
     root = np.sqrt(half**2 - center)
     # Each pole of the low-pass filter becomes one below the band's centre and one above it.
     poles = np.concatenate([half + root, half - root])
+    # Two zeros of the band-pass lie at infinite analogue frequency: each brings a factor 4 into
+    # the gain. In z there are two zeros at 1 and two at -1.
     return _filter_both_ways(
         values, _make_sections(poles, width**2 * 16, [1.0, 0.0, -1.0]), padding
     )
@@ -82,11 +84,14 @@ def _make_sections(
 
     ``zeros`` is the numerator of each; the gain is that of the analogue filter.
     """
+    # The bilinear transform s = 4 (z - 1) / (z + 1), solved for z.
     digital = (4 + poles) / (4 - poles)
     gain /= float(np.prod(np.abs(4 - poles) ** 2))
     sections = np.empty((len(poles), 5))
     sections[:, :3] = zeros
+    # The gain of the whole chain, in one section.
     sections[0, :3] *= gain
+    # (1 - p / z) (1 - p* / z) of a pole and its conjugate.
     sections[:, 3], sections[:, 4] = -2 * digital.real, np.abs(digital) ** 2
     return sections
 
@@ -98,6 +103,7 @@ def _filter_both_ways(values: Floats, sections: Floats, padding: int) -> Floats:
     found = np.empty(values.shape)
     for start in range(0, values.shape[1], FILTERED):
         some = values[:, start : start + FILTERED]
+        # Odd continuation: value and slope run on at the ends, so the filter starts without a jump.
         before = 2 * some[:1] - some[padding:0:-1]
         after = 2 * some[-1:] - some[-2 : -padding - 2 : -1]
         longer = np.ascontiguousarray(np.concatenate([before, some, after]))

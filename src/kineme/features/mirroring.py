@@ -59,6 +59,7 @@ def mirror(motion: Motion) -> Motion:
         motion,
         skeleton=skeleton,
         positions=motion.positions[:, partners] * FLIP,
+        # The rotation conjugated by the flip: y and z of the axis change their sign.
         rotations=None if rotations is None else rotations[:, partners] * FLIP_QUATERNION,
         provenance=motion.provenance.noted("mirrored"),
     )
@@ -93,6 +94,7 @@ def mirror_features(features: ArrayLike) -> Floats:
             f"only pose features have a mirror image: frames x a multiple of {block}, "
             f"not {values.shape}"
         )
+    # Frames, stacked blocks, parts, axes.
     parts = values.reshape(len(values), -1, len(PARTS), 3)
     mirrored: Floats = parts[:, :, EXCHANGED] * FLIP
     return mirrored.reshape(values.shape)
@@ -113,6 +115,7 @@ def _partners(skeleton: Skeleton) -> list[int]:
     for joint, parent in enumerate(skeleton.parents):
         other = partners[joint]
         beside = skeleton.parents[other]
+        # Both sides must hang on partners, or the mirrored limbs would tear.
         if partners[other] != joint or beside != (partners[parent] if parent >= 0 else -1):
             raise MotionError(
                 f"joint {names[joint]!r} has no counterpart on the other side of the body"
@@ -122,6 +125,7 @@ def _partners(skeleton: Skeleton) -> list[int]:
 
 def _renamed(name: str) -> Iterator[str]:
     """Yield the name with one word for a side turned into the other, each way to do so."""
+    # A name may hold several letters that look like a side, as in `l_hand_r`.
     for found in _SIDE.finditer(name):
         side = found[1]
         other = _SIDES[side.lower()]

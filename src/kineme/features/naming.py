@@ -37,6 +37,7 @@ def find_by_name(names: Sequence[str], words: Sequence[str], side: str | None) -
             if (before := _words_before(name, word, side)) is not None
         ]
         if found:
+            # The fewest words before; of equals the first joint, which is nearer to the root.
             return min(found)[1]
     return None
 
@@ -44,6 +45,7 @@ def find_by_name(names: Sequence[str], words: Sequence[str], side: str | None) -
 @lru_cache(maxsize=4096)
 def words_of(name: str) -> tuple[str, ...]:
     """Return the words of a name in lower case, without namespace, separators and numbers."""
+    # Namespaces end with a colon (`mixamorig:`) or a bar.
     local = re.split(r"[:|]", name)[-1]
     return tuple(word.lower() for word in _WORD.findall(local) if not word.isdigit())
 
@@ -55,6 +57,7 @@ def part_and_side(name: str) -> tuple[str, str]:
         if word in _SIDES:
             del words[place]
             return "".join(words), _SIDES[word]
+    # A side without separator, as in `lhand`, is looked for in the last word only.
     side_prefix = _SIDE_PREFIX.fullmatch(words[-1]) if words else None
     return (side_prefix[2], _SIDES[side_prefix[1]]) if side_prefix else ("".join(words), "")
 
@@ -69,10 +72,12 @@ def _words_before(name: str, word: str, side: str | None) -> int | None:
             found_side = _SIDES[candidate]
             del words[place]
             break
+    # The same for a side without separator, if the rest is the word wanted.
     side_prefix = _SIDE_PREFIX.fullmatch(words[-1]) if found_side is None and words else None
     if side_prefix and side_prefix[2] == word:
         found_side, words[-1] = _SIDES[side_prefix[1]], word
     if not words or words[-1] != word or found_side != side:
         return None
+    # Controls such as `ik_hand_l` are no joints of the body.
     prefix = words[:-1]
     return None if _NOT_THE_JOINT.intersection(prefix) else len(prefix)

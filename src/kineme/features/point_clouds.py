@@ -37,10 +37,12 @@ def cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -
     """
     floor_a, height_a, _ = _clouds(points, np.arange(rows.start, rows.stop), half)
     floor_b, height_b, _ = _clouds(points, np.arange(columns.start, columns.stop), half)
+    # Squares of (a - b) summed are |a|² + |b|² - 2 ab: matrix products give all pairs at once.
     squares_a = (np.abs(floor_a) ** 2).sum(1) + (height_a**2).sum(1)
     squares_b = (np.abs(floor_b) ** 2).sum(1) + (height_b**2).sum(1)
     shared = np.abs(floor_a.conj() @ floor_b.T) + height_a @ height_b.T
     squares = squares_a[:, None] + squares_b - 2 * shared
+    # Rounding can make squares of equal clouds negative.
     distances: Floats = np.sqrt(np.maximum(squares, 0) / floor_a.shape[1])
     return distances
 
@@ -68,6 +70,7 @@ def fit_clouds(
     shifts : ndarray of shape (pairs, 2)
         Metres along x and z, done after the turn.
     """
+    # Of no pairs there is one empty block, so that `concatenate` has something to join.
     blocks = range(0, max(len(first), 1), PAIRS_AT_ONCE)
     parts = [
         _fit(points, first[i : i + PAIRS_AT_ONCE], second[i : i + PAIRS_AT_ONCE], half)
@@ -83,11 +86,14 @@ def _fit(
     floor_a, height_a, center_a = _clouds(points, first, half)
     floor_b, height_b, center_b = _clouds(points, second, half)
     shared = (floor_a * floor_b.conj()).sum(axis=1)
+    # The turn that lays the second cloud onto the first, as a complex number of length 1.
     turn = np.exp(1j * np.angle(shared))
     squares = np.abs(floor_a - turn[:, None] * floor_b) ** 2 + (height_a - height_b) ** 2
+    # The centres are not at the origin: the turn about the origin moves the second one.
     shift = center_a - turn * center_b
     return (
         np.sqrt(squares.mean(axis=1)),
+        # A turn by an angle about y multiplies x + iz by exp(-i angle), hence the minus.
         -np.angle(turn),
         np.stack([shift.real, shift.imag], axis=1),
     )
@@ -98,6 +104,7 @@ def _clouds(
 ) -> tuple[Complex, Floats, Complex]:
     """Floor coordinates about their centre, heights, and the centre, one row per cloud."""
     frames = centers[:, None] + np.arange(-half, half + 1)
+    # (clouds, joints of the window, 3); frames beyond the ends repeat the outermost one.
     cloud = points[np.clip(frames, 0, len(points) - 1)].reshape(len(frames), -1, 3)
     floor = cloud[..., 0] + 1j * cloud[..., 2]
     center = floor.mean(axis=1)

@@ -87,11 +87,13 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
         raise ParameterError(f"features must be frames x dims, not of shape {features.shape}")
     if len(offsets) == 0 or len(set(offsets)) < len(offsets):
         raise ParameterError(f"offsets must be different frames, at least one, not {offsets!r}")
+    # Frames that are needed beyond either end.
     before, after = max(0, -min(offsets)), max(0, *offsets)
     longer = _extrapolated(features, before, after)
     frames, dims = features.shape
     stacked = np.empty((frames, len(offsets), dims))
     for block, offset in enumerate(sorted(offsets)):
+        # Frame t + offset of the features is row before + t + offset of the longer array.
         stacked[:, block] = longer[before + offset : before + offset + frames]
     return stacked.reshape(frames, -1)
 
@@ -124,8 +126,10 @@ def offsets_in_frames(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]
 
 def _extrapolated(features: Floats, before: int, after: int) -> Floats:
     """Return features with so many frames more at either end, in line with the two outermost."""
+    # A single frame has no step and is repeated.
     first = features[1] - features[0] if len(features) > 1 else np.zeros(features.shape[1])
     last = features[-1] - features[-2] if len(features) > 1 else first
+    # The farthest frame comes first in time, so the steps descend.
     head = features[0] - np.arange(before, 0, -1)[:, None] * first
     tail = features[-1] + np.arange(1, after + 1)[:, None] * last
     return np.concatenate([head, features, tail])

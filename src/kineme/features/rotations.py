@@ -46,6 +46,7 @@ def joint_quaternions(motion: Motion) -> Floats:
             f"ASF files: {', '.join(JOINTS)}"
         )
     q = motion.rotations[:, [names.index(joint) for joint in JOINTS]]
+    # q and -q are the same rotation; w >= 0 chooses the shorter way.
     return np.where(q[..., :1] < 0, -q, q)
 
 
@@ -62,5 +63,6 @@ def log_maps(quaternions: Floats) -> Floats:
     (frames, 3 * joints) array
     """
     half = np.arccos(np.clip(quaternions[..., :1], -1, 1))
+    # `sinc(half / pi)` is sin(half) / half, which is 1 at the identity: no division by 0.
     logs = quaternions[..., 1:] / np.sinc(half / np.pi)
     return logs.reshape(len(logs), -1)

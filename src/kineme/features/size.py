@@ -44,6 +44,7 @@ def _chain(motion: Motion, joint: int) -> float:
     """Return the length of the bones from a joint up to the hips."""
     length = 0.0
     parent = motion.skeleton.parents[joint]
+    # The carrier is the hips, where the chain ends.
     while parent >= 0 and joint != motion.skeleton.carrier:
         if motion.rotations is None:
             bone = motion.positions[:, joint] - motion.positions[:, parent]

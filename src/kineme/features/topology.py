@@ -50,11 +50,13 @@ def find_by_shape(parents: Sequence[int], pose: Floats) -> dict[str, int]:
     pairs = _limb_pairs(parents, paths, lengths, pose)[:2]
     if len(pairs) < 2:
         return {}
+    # Both limbs of the lower pair end lower.
     legs, arms = sorted(pairs, key=lambda pair: float(pose[[limb.end for limb in pair], 1].sum()))
     found = _head(parents, arms, paths, lengths)
     left = _left(legs, pose)
     if left is not None:
         for part, pair in (("ankle", legs), ("wrist", arms)):
+            # Along the direction of the left, the right limb comes first.
             right_limb, left_limb = sorted(pair, key=lambda limb: float(pose[limb.top] @ left))
             found |= {f"left_{part}": left_limb.end, f"right_{part}": right_limb.end}
     return found
@@ -64,7 +66,9 @@ def _longest_paths(parents: Sequence[int], pose: Floats) -> tuple[list[list[int]
     """For each joint the longest way down to a leaf, and its length from the joint's parent."""
     paths: list[list[int]] = [[joint] for joint in range(len(parents))]
     below = [0.0] * len(parents)
+    # A root has no parent: index 0 stands in for it.
     bones = np.linalg.norm(pose - pose[np.maximum(parents, 0)], axis=1).tolist()
+    # Children before parents, so what hangs below a joint is known when it is reached.
     for joint in range(len(parents) - 1, -1, -1):
         parent = parents[joint]
         if parent >= 0 and bones[joint] + below[joint] > below[parent]:
@@ -79,11 +83,13 @@ def _limb_pairs(
     """Pairs of like branches of one joint, the longest first."""
     children: dict[int, list[int]] = {}
     for joint, parent in enumerate(parents):
+        # A branch of one joint has no bone below it.
         if parent >= 0 and len(paths[joint]) > 1:
             children.setdefault(parent, []).append(joint)
     pairs = []
     for branches in children.values():
         longest = sorted(branches, key=lambda joint: -lengths[joint])[:_MOST_BRANCHES]
+        # Sorted by joint again, so that the order in a pair does not depend on lengths.
         for one, other in combinations(sorted(longest), 2):
             if pair := _pair(parents, paths[one], paths[other], pose):
                 pairs.append(pair)
@@ -97,11 +103,15 @@ def _pair(
     if len(one) != len(other):
         return None
     paths = np.array([one, other])
+    # The joint at which each bone begins, (2, bones).
     starts = np.asarray(parents)[paths]
     bones = np.linalg.norm(pose[paths] - pose[starts], axis=2)
+    # Summed differences of the bones, as a share of the length of one branch.
     if np.abs(bones[0] - bones[1]).sum() > _SAME_LENGTH * bones[0].sum():
         return None
+    # Clavicles and the like begin at the same place on both sides.
     apart = np.any(pose[starts[0]] != pose[starts[1]], axis=1)
+    # The two longest bones, in order down the limb; at ties the upper ones.
     long_bones = np.sort(np.argsort(-(bones[0] * apart), kind="stable")[:2])
     first, second = (long_bones[0], long_bones[-1])
     left_and_right = [
@@ -113,6 +123,7 @@ def _pair(
 
 def _left(legs: tuple[_Limb, _Limb], pose: Floats) -> Floats | None:
     """Direction of the body's left in the pose, or None where the feet do not tell."""
+    # From the ankles to the tips of the toes, both feet together.
     feet = sum((pose[leg.tip] - pose[leg.end] for leg in legs), start=np.zeros(3))
     ahead = np.array([feet[0], 0.0, feet[2]])
     if np.linalg.norm(ahead) < _SHORTEST_FOOT * legs[0].length:
@@ -124,6 +135,7 @@ def _head(
     parents: Sequence[int], arms: tuple[_Limb, _Limb], paths: list[list[int]], lengths: list[float]
 ) -> dict[str, int]:
     """Return the end of the longest branch beside the arms."""
+    # The joint at which the arms begin.
     chest, used = arms[0].parent, {arm.branch for arm in arms}
     others = [j for j, parent in enumerate(parents) if parent == chest and j not in used]
     return {"head": paths[max(others, key=lambda j: lengths[j])][-1]} if others else {}

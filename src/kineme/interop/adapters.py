@@ -169,6 +169,7 @@ def from_mir_eval(intervals: ArrayLike, labels: Sequence[str], *, fps: float) ->
     times = np.asarray(intervals, float)
     if times.ndim != 2 or times.shape[1] != 2 or not np.isfinite(times).all():
         raise ParameterError(f"intervals must be finite, (n, 2), not of shape {times.shape}")
+    # The nearest frame, halves up, as label files have it.
     frames = np.floor(times * fps + 0.5).astype(np.int64)
     return _touching(frames[:, 0], frames[:, 1], list(labels), fps)
 

@@ -71,8 +71,10 @@ def to_movement(
         import xarray as xr
     missing = mark_spans(motion.gaps, motion.n_frames)
     positions = np.where(missing[:, None, None], np.nan, motion.positions)
+    # The same confidence for all keypoints of a frame: 0 in gaps, else 1.
     confidence = np.repeat(1.0 - missing[:, None], motion.skeleton.n_joints, axis=1)
     variables: dict[str, Any] = {
+        # Frames, axes, keypoints, and one individual.
         "position": (DIMS, positions.transpose(0, 2, 1)[..., None]),
         "confidence": (("time", "keypoints", "individuals"), confidence[..., None]),
     }
@@ -152,6 +154,7 @@ def from_movement(
     notes = [] if "z" in axes else ["two-dimensional: z is 0, and image rows count downwards"]
     if "confidence" in person:
         likelihood = np.asarray(person["confidence"].transpose("time", "keypoints"), np.float64)
+        # False for nan: without a confidence a point counts.
         places[likelihood < confidence] = np.nan
     attributes = dataset.attrs
     source = FileContent(Path(str(attributes.get("source_file") or "dataset")), b"")

@@ -92,6 +92,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
     recording.log("body/bones", rr.LineStrips3D.from_fields(radii=BONE_RADIUS), static=True)
     frames = np.flatnonzero(~mark_spans(motion.gaps, motion.n_frames))
     positions = motion.positions[frames].astype(np.float32)
+    # One flat list of points, which is parted into frames below.
     joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
     times = _times(frames, motion.fps)
     counts = np.full(len(frames), motion.skeleton.n_joints)
@@ -99,6 +100,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
     children = [j for j, parent in enumerate(motion.skeleton.parents) if parent >= 0]
     if children:
         parents = [motion.skeleton.parents[j] for j in children]
+        # Frames, bones, both ends, axes.
         ends = np.stack([positions[:, parents], positions[:, children]], axis=2)
         bones = rr.LineStrips3D.columns(strips=ends.reshape(-1, 2, 3))
         counts = np.full(len(frames), len(children))

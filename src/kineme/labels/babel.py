@@ -111,12 +111,15 @@ def _apart(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
     How many have several.
     """
     solid = [span for span in spans if span.start < span.stop]
+    # Empty and backward spans are kept as they are: reading refuses or drops them later.
     apart = [span for span in spans if not span.start < span.stop]
     waiting = sorted(solid, key=lambda span: span.start, reverse=True)
     active: list[Span] = []
     shared = 0
+    # Between two successive times the same labels hold.
     for start, stop in pairwise(sorted({time for span in solid for time in span[:2]})):
         active = [span for span in active if span.stop > start]
+        # The earliest waits at the end of the list.
         while waiting and waiting[-1].start <= start:
             active.append(waiting.pop())
         if len(active) > AT_ONCE:

@@ -107,6 +107,7 @@ def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
         if kind == "POINT":
             continue
         same = ("Observation id", "Subject", "Behavior", "Behavioral category")
+        # States of several subjects and observations may be open at once.
         key = tuple(cells.get(name, "") for name in same)
         time = number(cells["Time"], "Time", path, line)
         if kind == "START" and key not in starts:

@@ -170,6 +170,7 @@ def read(path: Path, names: Collection[str] | None = None) -> Labels:
     for name in names or ():
         if name not in present:
             raise ReadError(path, f"has no event {name!r}; there are {', '.join(present)}")
+    # Of several events in one frame the last one counts.
     frames = {round(at * file.rate): name for at, name in inside if not names or name in names}
     starts = sorted(frames)
     stops = [*starts[1:], len(file.points)]

@@ -39,7 +39,9 @@ def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float)
         return labels
     times = np.array([span[:2] for span in labels.spans], np.float64)
     seconds, remarks = _seconds(times, clock, length_s)
+    # A label may begin before the recording.
     begin, end = np.maximum(seconds[:, 0], 0.0), seconds[:, 1]
+    # Labels that run backwards are kept, so that they are refused by name later.
     backward = times[:, 1] < times[:, 0]
     meets = backward | ((begin < np.minimum(end, length_s)) & (end > 0))
     placed = [
@@ -79,5 +81,6 @@ def _seconds(times: Floats, clock: Clock, length_s: float) -> tuple[Floats, tupl
 
 def _shared_seconds(seconds: Floats, length_s: float) -> float:
     """Seconds of the recording that labels meet, to the millisecond."""
+    # The part of each label that lies in the recording.
     inside = np.clip(seconds, 0.0, length_s)
     return round(float(np.maximum(inside[:, 1] - inside[:, 0], 0.0).sum()), 3)

@@ -94,6 +94,7 @@ def labels_and_strays(
     """What `labels_of` gives, and the recordings that a table names and that are not there."""
     files, home = list(recordings), Path(labels)
     named = _find_in_folder(home) if home.is_dir() else _find_in_table(home)
+    # Tables may name a recording with or without its suffix.
     pairs = ((path, named.get(path.name) or named.get(path.stem)) for path in files)
     found = {path: source for path, source in pairs if source is not None}
     if not found:
@@ -147,11 +148,13 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     lost = [old for old, new in pairs if old.start <= old.stop and new.start >= new.stop]
     beyond = sum(old.stop * rate > n_frames + 1 for old, new in pairs if new.start < new.stop)
     before = sum(old.start * rate < -1 for old, new in pairs if new.start < new.stop)
+    # Counted from the front: spans that meet what is covered already.
     earlier: defaultdict[Level, _Covered] = defaultdict(_Covered)
     overlaps = sum(
         earlier[span.level].add(span.start, span.stop) != [(span.start, span.stop)]
         for span in forward
     )
+    # From the end of the file, so that of two that overlap the later one holds.
     later: defaultdict[Level, _Covered] = defaultdict(_Covered)
     kept: list[Span] = []
     for span in reversed(forward):
@@ -159,6 +162,7 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
         count = span.repetitions if len(free) == 1 else None  # else nobody says of which part
         kept += [
             span._replace(start=start, stop=stop, repetitions=count)
+            # The list is turned round below, and parts must come out in order.
             for start, stop in reversed(free)
         ]
     kept.reverse()
@@ -178,6 +182,7 @@ def _first_frame(time: float, n_frames: int) -> int:
 
     The end for times beyond, however far.
     """
+    # A frame has a label from the frame on whose time it begins: rounded up, with slack for digits.
     return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
 
@@ -190,12 +195,15 @@ class _Covered:
 
     def add(self, start: float, stop: float) -> list[tuple[float, float]]:
         """Cover a span, too; what of it was free, in order."""
+        # Covered spans that overlap or touch the new one; both lists are sorted.
         meeting = slice(bisect_left(self._stops, start), bisect_right(self._starts, stop))
         starts, stops = self._starts[meeting], self._stops[meeting]
+        # These become one span with the new one.
         self._starts[meeting], self._stops[meeting] = (
             [min([start, *starts])],
             [max([stop, *stops])],
         )
+        # Free is what lies between the covered spans, and before and after them.
         free = zip([start, *stops], [*starts, stop], strict=True)
         return [(begin, end) for begin, end in free if begin < end]
 
@@ -218,5 +226,6 @@ def _find_in_folder(folder: Path) -> dict[str, LabelSource]:
     for path in sorted(folder.iterdir()):
         if path.is_file() and holds_labels(path):
             found.setdefault(path.stem, LabelSource(path))
+            # The part before the first dot, for names as `walk.labels.csv`.
             found.setdefault(path.name.split(".")[0], LabelSource(path))
     return found

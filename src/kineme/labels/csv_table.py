@@ -92,6 +92,7 @@ def _read_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:
     """Return the table, with what lies beside it."""
     beside = provenance_path(path)
     if beside.is_file():
+        # A table that was cut or extended no longer fits what lies beside it.
         head = parse(beside.read_text(encoding="utf-8-sig"), beside)
         if head.get("n_frames") != max(columns["stop_frame"]):
             raise ReadError(
@@ -118,6 +119,7 @@ def provenance_path(path: Path) -> Path:
 
 def roundest_rate(n_frames: int, seconds: float) -> float:
     """Of the frame rates at which so many frames last so long, the one with fewest digits."""
+    # From 0 digits on: the first rate that gives the very seconds of the table.
     rounded = (round(n_frames / seconds, digits) for digits in range(16))
     return next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
 
@@ -228,6 +230,7 @@ def _digest(columns: Mapping[str, Any]) -> str:
 
 def _rate(columns: dict[str, list[Any]]) -> float | None:
     """Return the frame rate that the last row tells, if it tells one."""
+    # The row that ends last tells frames and seconds most exactly.
     n_frames, seconds = max(zip(columns["stop_frame"], columns["stop_s"], strict=True))
     valid = 0 < n_frames < 2**53 and 0 < seconds < math.inf
     return roundest_rate(n_frames, seconds) if valid else None

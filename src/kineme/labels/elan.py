@@ -62,6 +62,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
     _name_medium(header, segmentation)
     for name, value in (("fps", repr(segmentation.fps)), ("n_frames", segmentation.n_frames)):
         ET.SubElement(header, "PROPERTY", NAME=f"kineme.{name}").text = str(value)
+    # Each time once: segments that touch share a time slot.
     times = sorted({time for row in rows for time in _milliseconds(row)})
     slots = {time: f"ts{number}" for number, time in enumerate(times, 1)}
     order = ET.SubElement(root, "TIME_ORDER")

@@ -219,10 +219,12 @@ def _lines(table: SegmentTable) -> Iterator[str]:
 def _as_text(column: NDArray[Any]) -> list[str]:
     values: list[Any] = column.tolist()
     if column.dtype.kind == "U":
+        # Labels repeat in many rows: each is quoted once.
         quoted = {text: json.dumps(text) for text in {*values}}
         return [quoted[text] for text in values]
     texts = msgspec.json.encode(values)[1:-1].decode().split(",") if values else []
     size = np.abs(column)  # it is several times as fast, and writes other exponents
+    # Numbers that both write differently are written anew, so that files stay the same.
     for row in np.flatnonzero((size > 0) & (size < 1e-4) | (size >= 1e16)).tolist():
         texts[row] = json.dumps(values[row])
     return texts

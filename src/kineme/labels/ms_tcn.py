@@ -43,6 +43,7 @@ def write(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
     mapping = path.parent.parent / "mapping.txt"
     classes = _classes(mapping)
     for text in texts:
+        # New classes go on after the largest number.
         classes.setdefault(text, 1 + max(classes.values(), default=-1))
     with atomic_write(mapping) as class_draft, atomic_write(path) as draft:
         lines = (f"{number} {text}\n" for text, number in classes.items())
@@ -59,6 +60,7 @@ def read(path: Path) -> Labels:
     spans = []
     at = 0
     with path.open(encoding="utf-8-sig", newline="\n") as file:
+        # Runs of equal lines are segments.
         for text, run in groupby(line.strip() for line in file):
             if not text:
                 raise ReadError(path, "has an empty line: every frame needs a label", line=at + 1)

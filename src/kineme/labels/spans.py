@@ -144,6 +144,7 @@ def as_segmentation(
     if n_frames < 1:
         raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
     unusual = list(labels.notes)
+    # Spans that round to no frame.
     full = _as_long_as_a_frame(rows, n_frames)
     if len(full) < len(rows):
         unusual.append(
@@ -154,6 +155,7 @@ def as_segmentation(
     level = "activity" if any(row[0] == "activity" for row in full) else "primitive"
     if level == "primitive":
         source["level"] = level
+    # By first frame, which tells rows of a level apart.
     counts = {
         row[2]: span.repetitions
         for row, span in zip(rows, labels.spans, strict=True)
@@ -193,6 +195,7 @@ def _row(span: Span, per_unit: float, path: Path) -> Row:
 
 def _frame(value: float, per_unit: float, path: Path) -> int:
     frame = value * per_unit
+    # A start may round down to frame 0.
     if not -0.5 <= frame < TOO_FAR:
         raise ReadError(path, f"has a label at {value}, which no recording reaches")
     return math.floor(frame + 0.5)
@@ -237,6 +240,7 @@ def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path
 
 
 def _gap(level: Level, start: int, stop: int, borders: list[int]) -> Iterator[Row]:
+    # Borders strictly inside of the gap: a transition must not cross an activity's end.
     inside = borders[bisect_right(borders, start) : bisect_left(borders, stop)]
     for left, right in pairwise([start, *inside, stop]):
         if left < right:

@@ -32,7 +32,6 @@ from kineme.methods.constants import (
 )
 
 if TYPE_CHECKING:
-    from kineme.methods.region_growing.neighbors import NeighborGraph
     from kineme.methods.stages import Progress
 
 Columns = dict[str, NDArray[Any]]
@@ -53,10 +52,6 @@ class Found(Protocol):
     @property
     def timings(self) -> dict[str, float]:
         """Seconds per stage."""
-
-    @property
-    def graph(self) -> NeighborGraph:
-        """Neighbours of every sample, for pictures."""
 
     def columns(self) -> Columns:
         """Columns of a segment table: ``level``, ``kind``, ``start_frame``, ``stop_frame``.

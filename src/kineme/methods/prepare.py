@@ -115,6 +115,7 @@ def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> P
             return Prepared([_compute_rotations(span, preset) for span in motions], recorded, [])
         except MotionError as error:
             notes.append(f"{error}: seen by the positions of head, hands and feet")
+    # The body does not change its size: the longest span tells it best.
     longest = max((span for _, span in spans), key=lambda span: span.n_frames)
     try:
         found = end_effectors(motion, names=effectors)
@@ -164,6 +165,7 @@ def _measure_distances(
             f"{reason}, so nothing tells left from right: name five joints with --effectors, "
             f"or leave out mirroring"
         ) from error
+    # All spans together, so that they have the same axes.
     features, points = distance_features(np.concatenate([span.positions for span in motions]))
     names = motions[0].skeleton.names
     note = (
@@ -171,6 +173,7 @@ def _measure_distances(
         + remedy(motions[0].skeleton)
     )
     notes = [note, f"points: {', '.join(names[point] for point in points)}"]
+    # Ends of the spans but the last, as `np.split` takes them.
     ends = np.cumsum([span.n_frames for span in motions])[:-1]
     return np.split(features, ends), notes
 
@@ -178,6 +181,7 @@ def _measure_distances(
 def _stack_poses(pose: Floats, preset: Preset, size: float) -> Floats:
     stacked = stack(pose, offsets_in_frames(preset.offsets, preset.working_fps))
     if preset.unit == "body sizes":
+        # Root of the offsets: stacking several poses does not make distances larger.
         stacked /= size * np.sqrt(len(preset.offsets))
     return stacked
 
@@ -232,6 +236,7 @@ def prepare_signals(
         notes.append(f"lengths are in units of {unit:.3g} {named}")
     elif preset.unit != "any":
         notes.append(f"lengths are in {named}")
+    # Ends of the spans but the last, as `np.split` takes them.
     ends = np.cumsum([span.n_samples for span in spans])[:-1]
     split = np.split(features, ends)
     return Prepared(split, spans, notes, joints=points is not None)
@@ -243,7 +248,9 @@ def _stack_channels(rows: list[Floats], preset: Preset, *, standardize: bool) ->
     joined = np.concatenate(rows)
     scaled = standardized(joined) if standardize else joined
     offsets = offsets_in_frames(preset.offsets, preset.working_fps)
+    # Stacked within each span: frames of two spans are no neighbours.
     stacked = np.concatenate([stack(row, offsets) for row in np.split(scaled, ends)])
+    # Root mean square over window and channels.
     return np.asarray(stacked / np.sqrt(stacked.shape[1]), np.float64)
 
 
@@ -290,6 +297,7 @@ def find_joints(signals: Signals) -> Indices | None:
     if not points:
         return None
     values = np.concatenate([signals.values[slice(*span)] for span in signals.spans()])
+    # Frames, points, axes.
     return np.array(points) if have_bones(values[:, points]) else None
 
 
@@ -308,10 +316,12 @@ def replace_by_distances(rows: Sequence[Floats], points: Indices, fps: float) ->
     from scipy.ndimage import gaussian_filter1d
 
     places = [
+        # The columns of all points in a row; back to points and axes below.
         gaussian_filter1d(row[:, points.ravel()], STEADY * fps, axis=0, mode="nearest")
         for row in rows
     ]
     posture, _ = distance_features(np.concatenate(places).reshape(-1, *points.shape))
+    # Channels that are no coordinates stay as they are.
     others = np.delete(np.concatenate(rows), points.ravel(), axis=1)
     ends = np.cumsum([len(row) for row in rows])[:-1]
     return np.split(np.hstack([posture, others]), ends)

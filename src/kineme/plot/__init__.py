@@ -1,7 +1,7 @@
 """Pictures of segmentations, each on Axes of matplotlib that are given or made."""
 
 from kineme.plot.curves import plot_curves, plot_sessions, plot_sides
-from kineme.plot.matrix import plot_matrix, plot_segmentation, similarity_image
+from kineme.plot.matrix import plot_matrix, plot_segmentation
 from kineme.plot.strips import plot_strip
 from kineme.plot.timeline import compare, plot_timeline
 
@@ -14,5 +14,4 @@ __all__ = [
     "plot_sides",
     "plot_strip",
     "plot_timeline",
-    "similarity_image",
 ]

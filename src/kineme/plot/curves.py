@@ -58,6 +58,7 @@ def plot_curves(
     axes = ax if ax is not None else new_axes(6, 3.5)
     numbers = zip(cycles.columns["group"].tolist(), cycles.columns["cluster"].tolist(), strict=True)
     clusters = dict(numbers)
+    # Colours of clusters tell groups apart only if each group has a cluster of its own.
     many = len(set(clusters.values())) == len(clusters)
     for place, group in enumerate(cycles.groups):
         curves = cycles.layout(channel, group, ends=ends)
@@ -141,7 +142,8 @@ def plot_sessions(
     Examples
     --------
     >>> import kineme
-    >>> from kineme.cycles import compare_curves, plot_sessions
+    >>> from kineme.cycles import compare_curves
+    >>> from kineme.plot import plot_sessions
     >>> from kineme.datasets import bundled_truth
     >>> from matplotlib.figure import Figure
     >>> motion = kineme.read(kineme.bundled_recording())
@@ -156,6 +158,7 @@ def plot_sessions(
         mean, sd = (curves[f"{session}_{name}"][rows] for name in ("mean", "sd"))
         _add_band(axes, percent, mean, sd, color, session, style)
     differs = (curves["low"][rows] > 0) | (curves["high"][rows] < 0)
+    # A bar along the bottom: x in per cent of the cycle, y as a share of the axes' height.
     axes.fill_between(
         percent, 0, 0.03, where=differs, color=SECOND, linewidth=0, step="mid",
         transform=axes.get_xaxis_transform(),

@@ -26,12 +26,15 @@ def plot_graph(graph: MotionGraph, path: Path) -> None:
     figure = Figure(figsize=(12, 6), layout="constrained")
     FigureCanvasAgg(figure)
     ring, matrix = figure.subplots(1, 2)
+    # Clockwise from the top.
     turn = np.pi / 2 - 2 * np.pi * np.arange(len(colors)) / len(colors)
     at = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     for edge in graph.edges:
         a, b = at[edge.tail], at[edge.head]
         style = {"lw": 0.5, "alpha": 0.5} if edge.jump else {"lw": 2.0, "alpha": 1.0}
         bend = np.linspace(0, 1, 24)[:, None]
+        # Control point of a quadratic Bézier curve: jumps are drawn towards the middle of the
+        # circle.
         middle = (a + b) / 2 * (0.4 if edge.jump else 1)
         curve = (1 - bend) ** 2 * a + 2 * bend * (1 - bend) * middle + bend**2 * b
         ring.plot(*curve.T, color=colors[edge.tail], zorder=1, **style)
@@ -42,6 +45,7 @@ def plot_graph(graph: MotionGraph, path: Path) -> None:
     ring.legend(
         handles=[
             Patch(color=shown[name], label=name or "transition")
+            # Names in order, the nameless (transitions) last.
             for name in sorted(shown, key=lambda name: not name)
         ],
         loc="center right",
@@ -51,6 +55,7 @@ def plot_graph(graph: MotionGraph, path: Path) -> None:
     ends = np.array([(e.head, e.tail) for e in graph.edges])
     matrix.scatter(*ends.T, c=[colors[e.tail] for e in graph.edges], marker="s", s=8)
     matrix.set(
+        # Rows go down, as in a printed matrix.
         xlim=(-0.5, len(colors) - 0.5),
         ylim=(len(colors) - 0.5, -0.5),
         aspect="equal",

@@ -3,21 +3,17 @@
 Time runs to the right and downwards. A dark dot at (t, j) means that frame j
 looks like frame t: the darker, the nearer. Squares frame the activities, fine
 lines inside them the primitives. The bars along both edges are coloured by
-cluster; grey is what belongs to none.
-
-Only stored pairs are drawn, reduced to the pixels of the picture row by row:
-an hour takes no more memory than a minute.
+cluster; grey is what belongs to none. Similarities are those that the studio and
+reports show (`kineme.features.similarity`), at the zoom that fits the picture.
 
 Source: Vögele, Krüger and Klein 2014, figure 2, and figure 1 of its supplement.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import ceil, floor
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -30,20 +26,18 @@ from numpy.typing import NDArray
 
 from kineme._util.checks import check_path, check_type
 from kineme._util.files import as_display_name, atomic_write
-from kineme.errors import WriteError
+from kineme.errors import ParameterError, WriteError
+from kineme.features.effectors import Names
+from kineme.features.similarity import compare_frames
 from kineme.plot.timeline import new_axes
+from kineme.recordings import Motion, Signals
 from kineme.segments.colors import NO_CLUSTER, cluster_color, label_colors
 from kineme.segments.html import segment_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
-if TYPE_CHECKING:
-    from kineme.methods.base import Found
-    from kineme.methods.region_growing.neighbors import NeighborGraph
-
 SUFFIXES = (".png", ".pdf", ".svg")
-PIXELS = 1600
-ENTRIES_AT_ONCE = 1 << 20
+PIXELS = 1600  # a side at most
 INK = "#1B1F2A"
 BORDER = "#C2571A"
 SHADES = LinearSegmentedColormap.from_list("similarity", ["#FFFFFF", "#B9C0CE", INK])
@@ -53,16 +47,21 @@ MAX_GAPS = 400  # bars; more are drawn without gaps between them
 
 
 def plot_matrix(
-    segmentation: Segmentation, graph: NeighborGraph | Found, *, ax: Axes | None = None
+    segmentation: Segmentation,
+    recording: Motion | Signals,
+    *,
+    effectors: Names | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Return the matrix with frames around activities and primitives, seconds along both edges.
 
     Parameters
     ----------
     segmentation : Segmentation
-    graph : NeighborGraph or Found
-        The neighbour graph of the same recording, at any frame rate; or what a method
-        found, which has one.
+    recording : Motion or Signals
+        The same recording.
+    effectors : joints, optional
+        Of a motion, to take for head, hands and feet where names do not tell.
     ax : Axes, optional
         Where to draw; Axes of a new figure of pyplot by default.
 
@@ -73,7 +72,7 @@ def plot_matrix(
     Raises
     ------
     ParameterError
-        Something else than a segmentation and its graph.
+        Something else than a segmentation and its recording.
 
     Examples
     --------
@@ -82,27 +81,30 @@ def plot_matrix(
     >>> import kineme
     >>> angle = np.linspace(0, 16 * np.pi, 480)
     >>> circles = kineme.Signals(np.column_stack([np.sin(angle), np.cos(angle)]), 30.0)
-    >>> segments, found = kineme.segment_and_found(circles)
-    >>> kineme.plot_matrix(segments, found, ax=Figure().add_subplot()).get_ylabel()
+    >>> segments = kineme.segment(circles)
+    >>> kineme.plot_matrix(segments, circles, ax=Figure().add_subplot()).get_ylabel()
     'seconds'
     """
     check_type(segmentation, Segmentation, "plot_matrix", "kineme.segment gives one")
-    graph = _graph_of(graph, "plot_matrix")
+    _check_recording(recording, segmentation)
     axes = new_axes(9.4, 8.2) if ax is None else ax
     seconds = segmentation.n_frames / segmentation.fps
     bar = 0.022 * seconds
-    gaps = segmentation.provenance.get("gaps", ())
+    matrix = compare_frames(recording, effectors=effectors)
+    level = next(i for i, cells in enumerate(matrix.levels) if len(cells) <= PIXELS)
     axes.imshow(
-        similarity_image(insert_gaps(graph, gaps, segmentation.n_frames) if gaps else graph),
+        matrix.cells(level, slice(None), slice(None)),
         cmap=SHADES,
         vmin=0,
         vmax=1,
+        # Row 0 is at the top: time runs down.
         extent=(0, seconds, seconds, 0),
         interpolation="antialiased",
         resample=True,
     )
     _draw_borders(axes, segmentation)
     _draw_bars(axes, segmentation, bar)
+    # Room for the bars at the left and below.
     axes.set_xlim(-1.5 * bar, seconds)
     axes.set_ylim(seconds + 1.5 * bar, 0)
     axes.set_aspect("equal")
@@ -124,9 +126,10 @@ def plot_matrix(
 
 def plot_segmentation(
     segmentation: Segmentation,
-    graph: NeighborGraph | Found,
+    recording: Motion | Signals,
     path: str | PathLike[str],
     *,
+    effectors: Names | None = None,
     title: str | None = None,
 ) -> None:
     """Write the picture that `plot_matrix` draws as PNG, PDF or SVG, by suffix.
@@ -134,17 +137,19 @@ def plot_segmentation(
     Parameters
     ----------
     segmentation : Segmentation
-    graph : NeighborGraph or Found
-        As for `plot_matrix`.
+    recording : Motion or Signals
+        The same recording.
     path : path-like
         Where to write it.
+    effectors : joints, optional
+        As for `plot_matrix`.
     title : str, optional
         A line above it; by default the name of the recording.
 
     Raises
     ------
     ParameterError
-        Something else than a segmentation, its graph and a path.
+        Something else than a segmentation, its recording and a path.
     WriteError
         Another suffix, or the file cannot be written.
 
@@ -152,18 +157,17 @@ def plot_segmentation(
     --------
     >>> import kineme
     >>> motion = kineme.read(kineme.bundled_recording())
-    >>> segments, found = kineme.segment_and_found(motion)
-    >>> kineme.plot_segmentation(segments, found, "segments.png")
+    >>> kineme.plot_segmentation(kineme.segment(motion), motion, "segments.png")
     """
     check_type(segmentation, Segmentation, "plot_segmentation", "kineme.segment gives one")
-    graph = _graph_of(graph, "plot_segmentation")
+    _check_recording(recording, segmentation)
     check_path(path, "plot_segmentation")
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"pictures are written as {', '.join(SUFFIXES)}")
     figure = Figure(figsize=(9.4, 8.2))
     FigureCanvasAgg(figure)
     axes = figure.add_axes((0.085, 0.075, 0.74, 0.86))
-    plot_matrix(segmentation, graph, ax=axes)
+    plot_matrix(segmentation, recording, effectors=effectors, ax=axes)
     axes.set_title(
         _title(segmentation) if title is None else title, loc="left", fontsize=10, pad=10
     )
@@ -171,53 +175,24 @@ def plot_segmentation(
         figure.savefig(draft, dpi=200)
 
 
-def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.float32]:
-    """Square picture of the graph: 1 where frames are equal, 0 where none are neighbours.
-
-    Parameters
-    ----------
-    graph : NeighborGraph
-    pixels : int
-        Of each edge, at most. Where several pairs of frames fall on one pixel, the most
-        similar one counts.
-
-    Returns
-    -------
-    (size, size) array
-
-    Examples
-    --------
-    >>> import kineme
-    >>> from kineme.plot import similarity_image
-    >>> graph = kineme.neighbor_graph([[0.0], [0.5], [5.0]], radius=1.0)
-    >>> (similarity_image(graph) > 0).tolist()
-    [[True, True, False], [True, True, False], [False, False, True]]
-    """
-    n = max(len(graph), graph.n_columns)
-    size = min(n, pixels)
-    image = np.zeros(size * size, np.float32)
-    scale = graph.radius or 1.0
-    for first, last in _runs_of_rows(graph.indptr):
-        entries = slice(graph.indptr[first], graph.indptr[last])
-        rows = np.repeat(np.arange(first, last), np.diff(graph.indptr[first : last + 1]))
-        columns = graph.indices[entries].astype(np.int64)
-        cells = rows * size // n * size + columns * size // n
-        # A neighbour at the very rim of the radius is still seen.
-        np.maximum.at(image, cells, 1 - 0.85 * graph.distances[entries] / np.float32(scale))
-    return image.reshape(size, size)
-
-
-def _runs_of_rows(indptr: NDArray[np.int64]) -> list[tuple[int, int]]:
-    """Rows in runs of about ENTRIES_AT_ONCE entries."""
-    bounds = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
-    starts = np.unique(np.searchsorted(indptr, bounds, side="right") - 1).tolist()
-    return list(zip(starts, [*starts[1:], len(indptr) - 1], strict=True))
+def _check_recording(recording: object, segmentation: Segmentation) -> None:
+    """Raise a ParameterError unless the segments can be those of the recording."""
+    if not isinstance(recording, Motion | Signals):
+        raise ParameterError(
+            f"a picture needs the Motion or Signals segmented, not {type(recording).__name__}"
+        )
+    if recording.n_frames != segmentation.n_frames:
+        raise ParameterError(
+            f"the recording has {recording.n_frames} frames, its segments {segmentation.n_frames}: "
+            f"they are of another recording"
+        )
 
 
 def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
     activities, primitives = segmentation.activities, segmentation.primitives
     counts = np.bincount(primitives.activity, minlength=len(activities))
     lengths = (activities.stop_frame - activities.start_frame) / segmentation.n_frames
+    # Where primitives are narrower than a line, only the activity is framed.
     wide = lengths > counts * NARROW
     cuts = [
         line
@@ -258,6 +233,7 @@ def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
 
 def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.float64]]:
     """Corners (4, 2) of upright rectangles; a number stands for as many as needed."""
+    # Clockwise from the upper left corner: eight columns of numbers become four points.
     left, right, top, bottom = np.broadcast_arrays(left, right, top, bottom)
     corners = [left, top, right, top, right, bottom, left, bottom]
     return list(np.stack(corners, axis=-1).reshape(-1, 4, 2))
@@ -266,6 +242,7 @@ def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.floa
 def _legend(segmentation: Segmentation) -> list[Patch]:
     """Return the largest clusters by number of primitives, in the order of their numbers."""
     counts = segmentation.repetitions()
+    # The largest clusters, shown by number.
     shown = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
     handles = [
         Patch(color=cluster_color(cluster), label=f"{cluster}  ({counts[cluster]}×)")
@@ -278,16 +255,6 @@ def _legend(segmentation: Segmentation) -> list[Patch]:
     return handles
 
 
-def _graph_of(graph: Any, caller: str) -> NeighborGraph:
-    """Return the neighbour graph given, or that of what a method found; else ParameterError."""
-    from kineme.methods.region_growing.neighbors import NeighborGraph  # compiled code
-
-    given = getattr(graph, "graph", graph)
-    check_type(given, NeighborGraph, caller, "kineme.neighbor_graph gives one")
-    found: NeighborGraph = given
-    return found
-
-
 def _title(segmentation: Segmentation) -> str:
     source = segmentation.provenance.get("input", {}).get("path") or "recording"
     preset = segmentation.provenance.get("preset")
@@ -297,35 +264,3 @@ def _title(segmentation: Segmentation) -> str:
         *([preset] if preset else []),
     ]
     return "  ·  ".join(parts)
-
-
-def insert_gaps(
-    graph: NeighborGraph, gaps: Sequence[Sequence[int]], n_frames: int
-) -> NeighborGraph:
-    """Return the graph with empty rows and columns in gaps, so that it shows all of the time.
-
-    Parameters
-    ----------
-    graph : NeighborGraph
-        Of the spans without gaps, at any rate.
-    gaps : sequence of pairs of int
-        Frames [start, stop).
-    n_frames : int
-        Of the recording.
-    """
-    from kineme.methods.region_growing.neighbors import NeighborGraph
-
-    n_present = n_frames - sum(stop - start for start, stop in gaps)
-    per_frame = len(graph) / max(n_present, 1)
-    place = np.arange(len(graph))
-    before = 0
-    for start, stop in gaps:
-        at = floor((start - before) * per_frame + 0.5)
-        before += stop - start
-        place[at:] = np.arange(at, len(graph)) + ceil(before * per_frame)
-    n = max(floor(n_frames * per_frame + 0.5), int(place[-1]) + 1)
-    counts = np.zeros(n, np.int64)
-    counts[place] = graph.counts
-    indptr = np.concatenate([[0], np.cumsum(counts)])
-    indices = place[graph.indices].astype(np.int32)
-    return NeighborGraph(indptr, indices, graph.distances, n, graph.radius)

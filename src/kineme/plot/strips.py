@@ -109,10 +109,15 @@ def _from_the_side(span: Floats, poses: Floats) -> Floats:
 
     The line of sight is the level one along which the joints move least about their middle.
     """
+    # The level coordinates, x and z.
     level = span[:, :, [0, 2]]
     middle = level.mean(axis=1)
+    # Movement of joints against each other: without the path of the body and the mean pose.
     moved = (level - middle[:, None]) - (level - middle[:, None]).mean(axis=0)
+    # First right singular vector: the level direction in which the joints move most.
     across = np.linalg.svd(moved.reshape(-1, 2), full_matrices=False)[2][0]
+    # Seen so that the body walks to the right; else the larger component decides, for a stable
+    # sign.
     travel = float((middle[-1] - middle[0]) @ across)
     sign = np.sign(travel) or np.sign(across[np.argmax(np.abs(across))])
     outlines = poses[:, :, [0, 2]]
@@ -123,12 +128,15 @@ def _from_the_side(span: Floats, poses: Floats) -> Floats:
 
 def _draw_poses(axes: Axes, outlines: Floats, parents: Sequence[int], color: str) -> None:
     """Bones of poses beside each other; joints alone where nothing joins them."""
+    # A pose that stands upright and slim gets some width as well.
     wide = max(
         2 * float(np.abs(outlines[:, :, 0]).max()), SLIM * float(outlines[:, :, 1].max()), 1e-3
     )
+    # (poses, 1, 1) times (2,): each pose is moved to the right of the one before.
     placed = outlines + np.arange(len(outlines))[:, None, None] * np.array([BESIDE * wide, 0.0])
     bones = [(joint, parent) for joint, parent in enumerate(parents) if parent >= 0]
     if bones:
+        # A line (2 points, 2 coordinates) for each bone of each pose.
         lines = placed[:, bones].reshape(-1, 2, 2)
         axes.add_collection(LineCollection(list(lines), colors=color, capstyle="round"))
     else:
@@ -142,9 +150,11 @@ def _draw_poses(axes: Axes, outlines: Floats, parents: Sequence[int], color: str
 def _draw_channels(axes: Axes, signals: Signals, first: int, last: int, color: str) -> None:
     """Draw the lines of channels below each other, each as high as the next."""
     values = signals.values[first:last]
+    # The channels that vary most, shown in their own order.
     varied = np.argsort(-values.std(axis=0), kind="stable")
     chosen = np.sort(varied[:MOST_CHANNELS])
     low, high = values[:, chosen].min(axis=0), values[:, chosen].max(axis=0)
+    # From 0 to 1; a constant channel stays 0.
     shares = (values[:, chosen] - low) / np.maximum(high - low, 1e-12)
     seconds = np.arange(first, last) / signals.fps
     for row in range(len(chosen)):

@@ -154,6 +154,7 @@ def draw_timeline(
             if segment.label and segment.duration_s > NAMED * seconds:
                 _write_label(axes, segment, number, color)
     axes.set_yticks(range(len(rows)), list(rows))
+    # The first row is at the top.
     axes.set_ylim(len(rows) - 0.5, -0.5)
     axes.set_xlim(0, seconds)
     axes.set_xlabel("seconds")
@@ -170,7 +171,9 @@ def new_axes(width: float, height: float) -> Axes:
 
 
 def _write_label(axes: Axes, segment: Segment, row: int, color: str) -> None:
+    # Red, green and blue from "#rrggbb".
     red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
+    # Perceived brightness (weights of ITU-R BT.601), 0 to 255.
     dark = 0.299 * red + 0.587 * green + 0.114 * blue < 140
     axes.text(
         (segment.start_s + segment.stop_s) / 2,
@@ -192,15 +195,19 @@ def match_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
     first_clusters, other_clusters = (
         np.unique(table.cluster[table.cluster >= 0]) for table in (first, other)
     )
+    # Between two of these times nothing changes in either table.
     times = np.unique(np.concatenate([first.start_s, first.stop_s, other.start_s, other.stop_s]))
     middles, lengths = (times[1:] + times[:-1]) / 2, np.diff(times)
     a, b = _clusters_at(first, middles), _clusters_at(other, middles)
     both = (a >= 0) & (b >= 0)
     shared = np.zeros((len(first_clusters), len(other_clusters)))
+    # Row and column of each interval's pair of clusters.
     cells = np.searchsorted(first_clusters, a[both]), np.searchsorted(other_clusters, b[both])
+    # `add.at` adds repeated pairs one by one.
     np.add.at(shared, cells, lengths[both])
     numbers = {
         int(other_clusters[column]): int(first_clusters[row])
+        # Minus, since the assignment minimises.
         for row, column in zip(*linear_sum_assignment(-shared), strict=True)
         if shared[row, column] > 0
     }
@@ -211,6 +218,7 @@ def match_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
 
 def _clusters_at(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[np.int64]:
     """Return the cluster at each time; -1 where there is none."""
+    # The segment that begins last before each time.
     row = np.searchsorted(table.start_s, times, side="right") - 1
     inside = times < table.stop_s[row]
     return np.where(inside, table.cluster[row], -1)

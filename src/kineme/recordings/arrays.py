@@ -24,11 +24,13 @@ def frozen(
     A contiguous float64 array is not copied. ``what`` is what messages call them, ``row`` what
     their first axis counts.
     """
+    # A view, so that the caller's own array stays writable.
     array = np.ascontiguousarray(as_floats(values, what, error=error)).view()
     finite = np.isfinite(array)
     if not finite.all():
         reason = f"{what} hold values that are not finite (NaN or infinite)"
         if array.ndim:
+            # The first row in which not all values are finite: `argmin` finds the first False.
             first = int(np.argmin(finite.reshape(len(array), -1).all(axis=1)))
             reason += f", first in {row} {first}"
         raise error(reason)
@@ -50,6 +52,7 @@ def as_rate(fps: object, *, error: Error = ParameterError) -> float:
 def assign(instance: object, **values: object) -> None:
     """Set fields of a frozen dataclass while it is being made."""
     for name, value in values.items():
+        # A frozen dataclass refuses plain assignment.
         object.__setattr__(instance, name, value)
 
 
@@ -61,5 +64,6 @@ def spans_of(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
     >>> spans_of(np.array([True, False, True, True])).tolist()
     [[0, 1], [2, 4]]
     """
+    # False at both ends closes every span; changes then come in pairs of start and stop.
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
     return edges.reshape(-1, 2)

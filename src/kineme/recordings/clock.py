@@ -73,12 +73,15 @@ class Clock:
         """
         shown = np.asarray(times, np.float64)
         seconds = np.arange(len(shown)) / fps
+        # How far the clock is ahead of the frames: constant within a span.
         ahead = shown - seconds
+        # Half a frame at high rates, where 0.05 s would be several frames.
         near = min(CLOSE_S, 0.5 / fps)
         if np.abs(ahead).max(initial=0.0) <= near:
             return None
         starts, since = [0], float(ahead[0])
         for i, off in enumerate(ahead.tolist()):
+            # Small errors of single times begin no new span.
             if abs(off - since) > CLOSE_S:
                 starts.append(i)
                 since = off
@@ -103,6 +106,7 @@ class Clock:
     def time(self, seconds: ArrayLike) -> Floats:
         """Return what it shows at seconds of the recording."""
         at = np.asarray(seconds, np.float64)
+        # The span of each second: the last that begins at or before it.
         k = np.maximum(np.searchsorted(self.seconds, at, side="right") - 1, 0)
         shown: Floats = np.asarray(self.times)[k] + at - np.asarray(self.seconds)[k]
         return shown
@@ -114,9 +118,13 @@ class Clock:
         """
         at = np.asarray(times, np.float64)
         begin, shown = np.asarray(self.seconds), np.asarray(self.times)
+        # Each span lasts until the next one; the last one has no end.
         end = np.append(begin[1:], np.inf)
+        # Latest time shown up to the end of each span; the accumulation holds where the clock goes
+        # back.
         k = np.searchsorted(np.maximum.accumulate(shown + end - begin), at, side="right")
         since = at - shown[k]
+        # Times in a pause are negative here and belong to the start of the next span.
         found: Floats = begin[k] + np.where(k > 0, np.maximum(since, 0.0), since)
         return found
 

@@ -37,6 +37,8 @@ def axes_by_point(columns: Iterable[str]) -> dict[str, dict[str, str]]:
     for column in columns:
         match = COORDINATE.fullmatch(column.strip())
         if match:
+            # The expression has two alternatives, with a separator or by a capital: each has its
+            # own groups.
             point, axis = (match[1], match[2]) if match[1] else (match[3], match[4])
             found.setdefault(point, {})[axis.lower()] = column
     return {point: axes for point, axes in found.items() if {"x", "y"} <= axes.keys()}

@@ -53,8 +53,10 @@ def forward_kinematics(
     if translations is not None:
         shift = np.ascontiguousarray(np.asarray(translations, float).transpose(1, 2, 0))
     else:
+        # Frames last: each component is one contiguous row.
         shift = np.broadcast_to(skeleton.offsets[:, :, None], (skeleton.n_joints, 3, n)).copy()
     if root_positions is not None:
+        # Row per root, with its position instead of its offset.
         shift[[p < 0 for p in skeleton.parents]] = np.asarray(root_positions, float).T
     positions = np.empty((skeleton.n_joints, 3, n))
     world: list[Floats] = []
@@ -66,6 +68,7 @@ def forward_kinematics(
         carried = skeleton.offsets[j] if translations is None else shift[j].T
         positions[j] = positions[parent] + rot.rotate(world[parent], carried).T
         leaf = j in skeleton.end_sites
+        # An end site has no rotation of its own, so its parent's stands for it.
         world.append(world[parent] if leaf else rot.multiply(world[parent], local[j].T))
     return positions.transpose(2, 0, 1)
 
@@ -104,5 +107,6 @@ def local_translations(
     for j, parent in enumerate(skeleton.parents):
         if parent >= 0:
             step = positions[:, j] - positions[:, parent]
+            # The inverse of the parent's rotation brings the step into the parent's frame.
             local[:, j] = rot.rotate(rot.conjugate(world[:, parent]), step)
     return local

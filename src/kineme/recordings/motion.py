@@ -73,6 +73,7 @@ class Motion(Recording):
         check_type(self.skeleton, Skeleton, "Motion", "then positions and fps", error=MotionError)
         assign(self, fps=as_rate(self.fps, error=MotionError))
         assign(self, positions=frozen(self.positions, "positions", error=MotionError))
+        # The maximum and minimum need no copy, unlike absolute values.
         reach = max(float(self.positions.max(initial=0.0)), -float(self.positions.min(initial=0.0)))
         if reach > FARTHEST:
             raise MotionError(
@@ -93,6 +94,7 @@ class Motion(Recording):
             raise MotionError(
                 f"rotations have shape {self.rotations.shape}, not ({self.n_frames}, {joints}, 4)"
             )
+        # Squared lengths: an array of them needs no square root to be compared with 1.
         norm = np.einsum("fjc,fjc->fj", self.rotations, self.rotations)
         if max(norm.max() - 1, 1 - norm.min()) > 1e-6:
             raise MotionError("rotations are not unit quaternions: divide them by their norm")

@@ -69,10 +69,13 @@ def resample(motion: Motion, fps: float) -> Motion:
     if ratio == 1:
         return motion
     check_rates(motion.fps, fps)
+    # The small number keeps a last frame that rounding would lose.
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
     note = f"resampled from {motion.fps:g} to {fps:g} Hz"
+    # A whole ratio, up to rounding: frames are taken and not interpolated.
     if abs(ratio - round(ratio)) < 1e-9 * ratio:
         return _frames(motion, slice(0, motion.n_frames, round(ratio)), fps, note)
+    # Rounding must not lead beyond the last frame.
     at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
     provenance = motion.provenance.noted(note)
     gaps = _gaps(motion, 0, ratio, n)
@@ -81,6 +84,7 @@ def resample(motion: Motion, fps: float) -> Motion:
             motion.skeleton, interpolate_frames(motion.positions, at), fps, None, provenance, gaps
         )
     rotations = _slerp(motion.rotations, at)
+    # Translations are interpolated in the parents' frames, so bones keep their length.
     translations = interpolate_frames(
         local_translations(motion.skeleton, motion.positions, motion.rotations), at
     )
@@ -212,11 +216,13 @@ def turn(motion: Motion, angle: float) -> Motion:
     """
     if not is_number(angle):
         raise ParameterError(f"angle is {angle!r:.60}: give radians")
+    # A quaternion of half the angle about y.
     about_y = np.array([cos(angle / 2), 0.0, sin(angle / 2), 0.0])
     rotations = motion.rotations
     if rotations is not None:
         rotations = np.array(rotations)
         roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
+        # Only roots: all other joints are relative to their parents.
         rotations[:, roots] = rot.multiply(about_y, rotations[:, roots])
     return replace(
         motion,
@@ -271,8 +277,11 @@ def _gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, 
     """
     spans: list[tuple[int, int]] = []
     for start, stop in motion.gaps:
+        # The first new frame after the last recorded one before the gap.
         begin = max(0, floor((start - first - 1) / ratio + 1e-9) + 1)
+        # The first new frame at or after the end of the gap.
         end = min(n, ceil((stop - first) / ratio - 1e-9))
+        # Gaps that touch at the new rate become one.
         if spans and begin <= spans[-1][1]:
             begin = spans.pop()[0]
         if begin < end:
@@ -289,6 +298,7 @@ def _slerp(rotations: Floats, at: Floats) -> Floats:
     frames = np.arange(len(rotations))
     out = np.empty((len(at), rotations.shape[1], 4))
     for j in range(rotations.shape[1]):
+        # SciPy puts w last in a quaternion, kineme first.
         turns = Rotation.from_quat(np.roll(rotations[:, j], -1, axis=1))
         out[:, j] = np.roll(Slerp(frames, turns)(at).as_quat(), 1, axis=1)
     return out

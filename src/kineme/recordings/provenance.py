@@ -40,6 +40,7 @@ class Note(str):
     def text(self) -> str:
         return str(self)
 
+    # A text alone would lose its severity when it is pickled.
     def __reduce__(self) -> tuple[type[Self], tuple[str, Severity]]:
         return type(self), (str(self), self.severity)
 
@@ -106,6 +107,7 @@ class Provenance:
         found = {"path": self.path, "format": self.format, "sha256": self.sha256}
         if len(self.takes) > 1:
             found["take"] = self.take
+        # A person matters only where the file holds several.
         if len(self.people) > 1:
             found["person"] = self.person
         return found

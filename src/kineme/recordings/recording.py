@@ -80,6 +80,7 @@ class Recording(Protocol):
 
     def spans(self) -> list[tuple[int, int]]:
         """Frames [start, stop) that the gaps leave, in time order; without gaps, all of them."""
+        # The spans between gaps: from the end of each to the start of the next.
         starts = [0, *(stop for _, stop in self.gaps)]
         stops = [*(start for start, _ in self.gaps), self.n_frames]
         return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
@@ -111,6 +112,7 @@ class Recording(Protocol):
             if not is_number(at) or at < 0:
                 raise ParameterError(f"{at!r:.60} is no time in a recording: give seconds from 0")
         last = self.duration if stop is None else min(stop, self.duration)
+        # Seconds beyond the end count as the end.
         first, end = round(min(start, self.duration) * self.fps), round(last * self.fps)
         if first >= end:
             until = "the end" if stop is None else f"{stop:g} s"
@@ -131,6 +133,7 @@ class Recording(Protocol):
             raise ParameterError(f"a recording is sliced by frames, as in [0:600], not {frames!r}")
         try:
             step = 1 if frames.step is None else index(frames.step)
+            # `indices` resolves negative and missing bounds as numpy does.
             start, stop, _ = slice(frames.start, frames.stop).indices(self.n_frames)
         except TypeError:
             raise ParameterError(
@@ -144,6 +147,7 @@ class Recording(Protocol):
             )
         if start >= stop:
             raise ParameterError(f"frames {start} to {stop} of {self.n_frames} are none")
+        # Gaps are cut to the slice and counted from its start; those outside become empty.
         gaps = [(max(a, start) - start, min(b, stop) - start) for a, b in self.gaps]
         return self._sliced(
             start,

@@ -63,6 +63,7 @@ class Signals(Recording):
             values = values[:, None]
         if values.ndim != 2 or 0 in values.shape:
             raise ParameterError(f"signals are frames x channels, not of shape {values.shape}")
+        # The default names count from 1.
         columns = getattr(self.values, "columns", range(1, values.shape[1] + 1))
         assign(self, values=frozen(values, "signals"), fps=as_rate(self.fps))
         if (largest := float(np.abs(values).max())) > LARGEST:

@@ -78,6 +78,7 @@ class Skeleton:
                 f"{self.offsets.shape} do not describe one skeleton"
             )
         if len(self._index) != n:
+            # In the index the last of two equal names wins, so the first differs from its place.
             twice = next(name for j, name in enumerate(self.names) if self._index[name] != j)
             raise MotionError(f"two joints are called {twice!r}: rename one of them")
         for joint, parent in enumerate(self.parents):
@@ -86,6 +87,7 @@ class Skeleton:
                     f"joint {self.names[joint]!r} (index {joint}) has parent {parent}: "
                     "parents come before their children, and a root has -1"
                 )
+        # Joints that have a child, -1, and numbers beyond the last joint cannot be end sites.
         inner = self.end_sites & ({*self.parents} | {-1} | {*self.end_sites} - {*range(n)})
         if inner:
             raise MotionError(f"end site {min(inner)} is not a leaf of the skeleton")
@@ -136,6 +138,7 @@ class Skeleton:
         1
         """
         below, depth = [1] * self.n_joints, [0] * self.n_joints
+        # Children before parents, so the counts of a joint are complete when it is reached.
         for joint in range(self.n_joints - 1, 0, -1):
             if (parent := self.parents[joint]) >= 0:
                 below[parent] += below[joint]
@@ -144,6 +147,7 @@ class Skeleton:
         joint = max(roots, key=lambda root: below[root])
         while branches := self.children[joint]:
             limbs = [below[each] for each in branches if depth[each] >= LIMB]
+            # Two limbs with equally many joints, as two legs have.
             if len(limbs) > len(set(limbs)):
                 return joint
             joint = max(branches, key=lambda branch: below[branch])

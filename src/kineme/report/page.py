@@ -23,6 +23,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.web.curves import as_recording, curves_of
 from kineme.web.cycle_curves import CycleCurves
 from kineme.web.encoding import to_json
+from kineme.web.matrix import make_report_tiles
 from kineme.web.messages import Recording, ReportCurves
 from kineme.web.page_data import PageData, Shown, page_data, recording_message
 
@@ -73,7 +74,7 @@ def write_report(
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"reports are written as {', '.join(SUFFIXES)}")
     data = page_data(recording, fps=segmentation.fps, effectors=effectors)
-    tiles, band = data.matrix.report_tiles()
+    tiles, band = make_report_tiles(data.matrix)
     message = recording_message(
         data, segmentation, name=name or _name(segmentation), band=band, levels=True
     )
@@ -136,6 +137,7 @@ def _name(segmentation: Segmentation) -> str:
 def _json(value: object) -> str:
     """JSON that stays inside its script element, whatever the texts in it hold."""
     text = json.dumps(json.loads(to_json(value)), separators=(",", ":"))  # which is ASCII
+    # Neither a tag nor an entity can begin in it.
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 

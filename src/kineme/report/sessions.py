@@ -141,6 +141,7 @@ def _page(sheet: Sheet) -> str:
     before, after = (escape(name) for name in sheet.names)
     groups = _groups(sheet)
     shown = groups[:MOST_GROUPS]
+    # Lines of each group's table, less its head and the times.
     n_channels = LINES[len(shown)] // len(shown) - HEADS - len(TIMES)
     channels = {group: _channels(sheet, group)[:n_channels] for group in shown}
     body = [
@@ -176,6 +177,7 @@ def _counts(sheet: Sheet) -> str:
 def _groups(sheet: Sheet) -> list[str]:
     """Return the groups that are in both sessions, those with most repetitions first."""
     groups = list(dict.fromkeys(sheet.numbers["group"].tolist()))
+    # A group that is rare in one session is rare in the comparison.
     return sorted(groups, key=lambda group: -min(_count(each, group) for each in sheet.sessions))
 
 
@@ -202,6 +204,7 @@ def _channels(sheet: Sheet, group: str) -> list[str]:
     def certainty(channel: str) -> float:
         row = _row(sheet, group, f"{channel}.range")
         width = row["high"] - row["low"]
+        # How many times as large as its bounds are wide.
         return abs(row["difference"]) / width if width > 0 else -1.0
 
     return sorted(sheet.sessions[0].channels, key=certainty, reverse=True)
@@ -217,6 +220,7 @@ def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
     lines = []
     for measure, label in labels.items():
         row = _row(sheet, group, measure)
+        # Bounds that leave out 0; False where they are nan.
         clear = row["low"] > 0 or row["high"] < 0
         verdict = ("more" if row["difference"] > 0 else "less") if clear else "not clear"
         digits = _digits(row["first_mean"], row["second_mean"])
@@ -244,6 +248,7 @@ def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
 
 def _panels(channels: dict[str, list[str]]) -> list[tuple[str, str]]:
     """Return which curves are drawn first: of each group in turn the channel that changed most."""
+    # One panel of each group before any group gets a second.
     turns = max(len(names) for names in channels.values())
     return [
         (group, names[turn])
@@ -283,6 +288,7 @@ def _picture(curves: Columns, group: str, channel: str) -> bytes:
     from matplotlib.figure import Figure
 
     drawn = BytesIO()
+    # A fixed salt and no date, so that equal curves give equal bytes.
     with mpl.rc_context({"font.size": 7, "svg.hashsalt": "kineme"}):
         figure = Figure(figsize=(2.4, 1.4), layout="constrained")
         axes = plot_sessions(curves, channel, group, ax=figure.add_subplot())
@@ -299,6 +305,7 @@ def _sides(sheet: Sheet, groups: Sequence[str]) -> str:
     if not keys:
         return ""
     pairs = list(dict.fromkeys(key[1:] for key in keys))
+    # One pair of channels after the other, each in all groups.
     keys = sorted(keys, key=lambda key: pairs.index(key[1:]))[: SIDES[len(groups)]]
     lines = []
     for key in keys:
@@ -355,6 +362,7 @@ def _cells(texts: Sequence[str], tag: str = "td") -> str:
 def _digits(*values: float) -> int:
     """Return how many digits after the point numbers of this size are told with."""
     size = max((abs(value) for value in values if np.isfinite(value)), default=0.0)
+    # Three digits of the largest number, one after the point at least.
     return max(1, 2 - floor(log10(size))) if size > 0 else 1
 
 
@@ -362,4 +370,5 @@ def _text(value: float, digits: int) -> str:
     if not np.isfinite(value):
         return MISSING
     text = f"{value:.{digits}f}"
+    # No minus before a number that is rounded to 0.
     return text.removeprefix("-") if float(text) == 0 else text.replace("-", "\N{MINUS SIGN}")

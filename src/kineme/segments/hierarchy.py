@@ -59,6 +59,7 @@ class Hierarchy:
         steps = zip(pairwise(self.details), pairwise(self.tables), strict=True)
         for (less, more), (coarse, fine) in steps:
             for level in ("activity", "primitive"):
+                # Borders of the coarser table that the finer one lacks.
                 lost = np.setdiff1d(_starts(coarse, level), _starts(fine, level))
                 if len(lost):
                     raise ParameterError(
@@ -84,6 +85,8 @@ class Hierarchy:
             if not _same_spans(tables[detail], tables[kept[-1]]):
                 kept.append(detail)
         for detail in sorted((each for each in tables if each < DEFAULT_DETAIL), reverse=True):
+            # Equal to its finer neighbour, which is not detail 1: the coarser detail is kept for
+            # both.
             if _same_spans(tables[detail], tables[kept[0]]) and kept[0] < DEFAULT_DETAIL:
                 kept[0] = detail
             elif not _same_spans(tables[detail], tables[kept[0]]):
@@ -113,6 +116,7 @@ class Hierarchy:
             No such number.
         """
         check_detail(detail)
+        # Rounding must not lose the detail asked for.
         place = np.searchsorted(self.details, detail * (1 + 1e-9), side="right") - 1
         return Hierarchy(self.details, self.tables, self.details[max(0, int(place))])
 
@@ -130,6 +134,7 @@ class Hierarchy:
         """
         frames = _starts(self.tables[-1], level)
         details = np.full(len(frames), self.details[-1])
+        # From fine to coarse, so that each border ends with the least detail.
         for detail, table in zip(self.details[::-1], self.tables[::-1], strict=True):
             details[np.isin(frames, _starts(table, level))] = detail
         return frames, details
@@ -162,6 +167,7 @@ def _check_details(details: tuple[float, ...], present: float) -> None:
 
 def _starts(table: SegmentTable, level: Level) -> NDArray[np.int64]:
     """Where segments of a level begin, but the first."""
+    # The first segment begins at 0, which is no border.
     return np.sort(table.start_frame[table.level == level])[1:]
 
 
@@ -174,4 +180,5 @@ def _same_spans(a: SegmentTable, b: SegmentTable) -> bool:
     if not same:
         return False
     first, second = a.cluster.tolist(), b.cluster.tolist()
+    # One to one: as many pairs of numbers as there are numbers on either side.
     return len({*zip(first, second, strict=True)}) == len({*first}) == len({*second})

@@ -60,6 +60,7 @@ def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
         return
     if not len(rows) or rows.start_frame[0] != 0 or rows.stop_frame[-1] != n_frames:
         raise ParameterError(f"the {level} level must cover frames 0 to {n_frames}")
+    # The first of these, if any.
     for row in np.flatnonzero(rows.stop_frame[:-1] != rows.start_frame[1:])[:1].tolist():
         raise ParameterError(
             f"one {level} stops at frame {rows.stop_frame[row]}, the next starts at "
@@ -74,6 +75,7 @@ def check_parents(activities: SegmentTable, primitives: SegmentTable) -> None:
     """ParameterError where a primitive does not lie in the activity that it names."""
     if (activities.activity != np.arange(len(activities))).any():
         raise ParameterError("column 'activity' of the activity level must count 0, 1, 2, ...")
+    # The activity of each primitive: the last that begins at or before it.
     enclosing = np.searchsorted(activities.start_frame, primitives.start_frame, "right") - 1
     outside = primitives.stop_frame > activities.stop_frame[enclosing]
     if outside.any():

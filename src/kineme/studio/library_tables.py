@@ -38,6 +38,7 @@ class LibraryTables:
     def __init__(self, library: Library):
         table = library.table("segments")
         names = np.array(table.column("recording").to_pylist(), object)
+        # Rows of a recording follow each other: edges are where the name changes.
         edges = [0, *(np.flatnonzero(names[1:] != names[:-1]) + 1).tolist(), len(names)]
         self._rows = {names[a]: (a, b) for a, b in pairwise(edges) if a < b}
         self._columns = {name: as_array(table.column(name)) for name in COMPUTED}
@@ -92,6 +93,7 @@ def select_library_clusters(table: Segmentation, of_library: Segmentation) -> di
         if not len(rows) or not len(others):
             continue
         pairs = np.stack([_spread_clusters(rows), _spread_clusters(others)])
+        # (cluster, number) pairs, and on how many frames they occur.
         places, counts = np.unique(pairs, axis=1, return_counts=True)
         for (cluster, number), count in zip(places.T.tolist(), counts.tolist(), strict=True):
             if cluster >= 0:
@@ -117,6 +119,7 @@ def as_in_library(
     numbers = _numbers(table, places, edits, {*of_library.table.cluster.tolist()})
     after = renumber_clusters(table, numbers)
     former = names_by_cluster(table)
+    # Reversed: of clusters that get one number the first one's name wins.
     renamed = {numbers[cluster]: former[cluster] for cluster in reversed(former)}
     after = set_cluster_names(after, renamed)
     kept = 0
@@ -141,10 +144,12 @@ def _numbers(
     del sizes[-1]
     following = max([-1, *sizes, *present]) + 1
     numbers: dict[int, int] = {}
+    # The largest first: it gets the number that several could have.
     for cluster, _ in sizes.most_common():
         number: int = places.get(cluster, cluster)
         merged = cluster != number and edits.number(cluster) == number
         is_used = number in numbers.values() or (cluster not in places and number in present)
+        # Numbers are shared only by clusters that people have merged.
         if is_used and not merged:
             number = following
             following += 1

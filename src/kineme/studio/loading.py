@@ -145,6 +145,7 @@ class LoadedRecording:
         check_offered(preset, changed, signals=not self.is_motion)
         key = preset, *sorted(changed.items())
         former = self._found
+        # Another detail of the same segments needs no new run.
         if former is not None and former[0] == key and not self.changed():
             segments = former[1]
         else:
@@ -225,8 +226,10 @@ def drop_others(recording: Motion | Signals) -> Motion | Signals:
         return recording
     skeleton = recording.skeleton
     kept = [i for i, name in enumerate(skeleton.names) if name.rpartition(":")[0] not in others]
+    # New numbers of the joints that stay.
     places = {joint: place for place, joint in enumerate(kept)}
     parents = [skeleton.parents[joint] for joint in kept]
+    # A joint that hangs on one of the others cannot be parted from it.
     if len(kept) == skeleton.n_joints or not {*parents} <= {-1, *kept}:
         return recording
     names = tuple(skeleton.names[joint] for joint in kept)

@@ -73,6 +73,7 @@ class OpenRecordings:
         """
         self._forget_others(name)
         present = self._open.get(name)
+        # Checked again, since another thread may have opened it meanwhile.
         if present is not None and not present.loaded.changed():
             return present
         listed = _find_or_raise(self.folder.recordings(), name, "recording")
@@ -100,9 +101,11 @@ class OpenRecordings:
         """Drop cached pictures of the least recently used recordings."""
         with self._lock:
             self._asked[name] = None
+            # The first name is thus the one asked for longest ago.
             self._asked.move_to_end(name)
             while len(self._asked) > MOST_DRAWN:
                 last, _ = self._asked.popitem(last=False)
+                # The recording stays open; only what pages draw is dropped.
                 idle = self._open.get(last)
                 if idle is not None:
                     idle.loaded.forget_pictures()

@@ -48,6 +48,7 @@ from kineme.web.annotator_messages import (
     LabelLane,
 )
 from kineme.web.library_messages import CallEverywhere, TablesChanged
+from kineme.web.matrix import make_tile
 from kineme.web.messages import (
     ClusterCurves,
     Comparison,
@@ -213,7 +214,7 @@ class Api:
 
     def tile(self, request: Request) -> Response:
         place = _numbers(request, "level", "row", "column")
-        found = self._opened(request).loaded.page_data().matrix.tile(*place)
+        found = make_tile(self._opened(request).loaded.page_data().matrix, *place)
         if found is None:
             raise UnknownError("the matrix has no such tile")
         return Response(found, media_type="image/png")

@@ -49,10 +49,12 @@ class Placement:
 
     def after(self, angle: float, shift: tuple[float, float]) -> Placement:
         """Return the placement of what is itself turned and moved before."""
+        # The new turn comes first in space: its shift is turned and moved by this placement.
         return Placement(self.angle + angle, self.of(complex(*shift)))
 
     def of(self, floor: complex) -> complex:
         """Where a point of the floor comes to lie."""
+        # Placements turn x + iz by exp(-i angle), as a turn about y does.
         return complex(np.exp(-1j * self.angle)) * floor + self.shift
 
 
@@ -118,6 +120,7 @@ def synthesize(
             raise ParameterError(f"no node {node} in a graph of {len(graph.nodes)}")
     if start is not None:
         check_type(start, Placement, "start", "leave it out to start as recorded")
+    # Frame counts are a cheap check that the motions are those of the graph.
     if [m.n_frames for m in motions] != [s.n_frames for s in graph.sources]:
         raise ParameterError("the motions are not those the graph was built on: build it anew")
     spans = spans_of(graph, route, start or Placement())
@@ -146,6 +149,7 @@ def spans_of(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[Pl
             raise ParameterError(f"no edge leads from node {tail} to node {head}")
         edge, node = graph.edges[graph.edge_between[tail, head]], graph.nodes[head]
         if not edge.jump:
+            # The recording's own successor needs no blending: its span goes on.
             spans[-1] = replace(spans[-1], stop=node.stop)
             continue
         spans[-1] = replace(spans[-1], stop=edge.leave)
@@ -156,6 +160,7 @@ def spans_of(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[Pl
 
 def jump_frames(spans: Sequence[PlacedSpan]) -> list[int]:
     """Return the frame of the new motion at the middle of each jump."""
+    # Ends of all spans but the last.
     return list(accumulate(span.stop - span.start for span in spans))[:-1]
 
 
@@ -176,10 +181,14 @@ def _blend_spans(
     placed_spans = [placed(span, span.start, span.stop) for span in spans]
     rotations, translations = (np.concatenate(each) for each in zip(*placed_spans, strict=True))
     for t, (a, b) in zip(jump_frames(spans), pairwise(spans), strict=True):
+        # Blends of neighbouring jumps must not overlap, and need frames of both recordings.
         room = min(a.stop - a.start, b.stop - b.start) // 2
         n = min(half, room, motions[a.source].n_frames - a.stop, b.start)
+        # Frames before the jump continue past the end of the first span, and start before the
+        # second.
         before, before_shift = placed(a, a.stop - n, a.stop + n)
         after, after_shift = placed(b, b.start - n, b.start + n)
+        # Weights at the middles of the frames; the new axes match joints and components.
         w = ((np.arange(2 * n) + 0.5) / max(2 * n, 1))[:, None, None]
         w = w * w * (3 - 2 * w)
         rotations[t - n : t + n] = rot.slerp(before, after, w)
@@ -193,6 +202,7 @@ def _placed_motion(
     roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
     about_y = rot.rotate_about_y(at.angle)
     rotations, shifts = rotations.copy(), shifts.copy()
+    # Roots only: all other joints are relative to their parents.
     rotations[:, roots] = rot.multiply(about_y, rotations[:, roots])
     shifts[:, roots] = rot.rotate(about_y, shifts[:, roots])
     shifts[:, roots] += [at.shift.real, 0, at.shift.imag]

@@ -89,9 +89,11 @@ def motion_graph(
             f"of {[m.n_frames for m in motions]}"
         )
     if len(found) > 1:
+        # Clusters of different recordings are numbered alike where they match.
         found = share_clusters(motions, found)
     nodes, natural = _nodes_of(found)
     best = {(e.tail, e.head): e for e in jumps(motions, nodes, threshold, window)}
+    # The recording's own successor replaces a jump between the same nodes.
     best |= {(e.tail, e.head): e for e in natural}
     graph = MotionGraph(
         tuple(Source(m.provenance.path, m.provenance.sha256, m.n_frames) for m in motions),
@@ -142,6 +144,7 @@ def check_source(motion: Motion, first: Motion) -> None:
     same = (
         motion.skeleton.names == first.skeleton.names
         and motion.skeleton.parents == first.skeleton.parents
+        # Offsets may differ by rounding in the files, up to a millimetre.
         and np.allclose(motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3)
     )
     if not same or motion.fps != first.fps:

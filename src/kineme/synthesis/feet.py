@@ -72,6 +72,7 @@ def plant_feet(motion: Motion) -> Motion:
             continue
         path = motion.positions[:, ankle]
         target = path + _corrections(path, foot_contacts(path, motion.fps), motion.fps)
+        # The second leg starts from the motion that the first one has changed.
         motion = _reach(motion, (hip, knee, ankle), target)
     return motion
 
@@ -114,14 +115,18 @@ def _corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
     """Return what to add to the ankle's path, (frames, 3); nothing along y."""
     floor = path[:, [0, 2]]
     fade = round(FADE * fps)
+    # Knots of the correction: 0 one fade before the first frame.
     frames, values = [-fade], [np.zeros(2)]
     for start, stop in _holds(floor, contacts, round(SHORTEST * fps)):
+        # To the median place of the hold, which single frames do not draw away.
         offset = np.median(floor[start:stop], axis=0) - floor[start:stop]
+        # Far from the last hold, the correction fades to 0 in between; else it goes over directly.
         if start - frames[-1] > 2 * fade:
             frames += [frames[-1] + fade, start - fade]
             values += [np.zeros(2), np.zeros(2)]
         frames += range(start, stop)
         values += list(offset)
+    # 0 one fade after the last hold.
     frames.append(frames[-1] + fade)
     values.append(np.zeros(2))
     at = np.arange(len(path))
@@ -136,7 +141,10 @@ def _holds(floor: Floats, contacts: Spans, gap: int) -> Spans:
         first = start
         while first < stop:
             out_of_reach = np.linalg.norm(floor[first:stop] - floor[first], axis=1) > REACH
+            # The first frame out of reach: `argmax` finds the first True.
             last = first + int(np.argmax(out_of_reach)) if out_of_reach.any() else stop
+            # The gap gives the correction time to move to the next hold; a hold has one frame at
+            # least.
             holds.append((first, max(last - gap * (last < stop), first + 1)))
             first = last
     return holds
@@ -150,20 +158,26 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     """
     world = world_rotations(motion.skeleton, motion.rotations)
     hip, knee, ankle = (motion.positions[:, j] for j in leg)
+    # Untouched frames must stay exactly as they are.
     moved = np.linalg.norm(target - ankle, axis=1) > 1e-9
     if not moved.any():
         return motion
     thigh, shin = knee - hip, ankle - knee
     a, b = np.linalg.norm(thigh, axis=1), np.linalg.norm(shin, axis=1)
     length = np.linalg.norm(target - hip, axis=1)
+    # A triangle needs its third side between the difference and the sum of the others.
     length = np.clip(length, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
+    # Angle between the directions of thigh and shin, 0 for a straight leg.
     now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
+    # Law of cosines for the length wanted.
     angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
     bend = _mark_about(_hinge(thigh, shin, world[:, leg[0]]), angle - now)
     reached = thigh + rot.rotate(bend, shin)
+    # The bent leg turns about the hip so that the ankle points to the target.
     swing = _arc(reached, target - hip)
     still = np.where(moved[:, None], 1.0, 0.0)
     bend, swing = (still * q + (1 - still) * rot.IDENTITY for q in (bend, swing))
+    # New world rotations: the thigh swings, the shin bends and swings, the foot keeps its own.
     turned = {
         leg[0]: rot.multiply(swing, world[:, leg[0]]),
         leg[1]: rot.multiply(swing, rot.multiply(bend, world[:, leg[1]])),
@@ -172,6 +186,7 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     rotations = np.array(motion.rotations)
     for joint, turn in turned.items():
         parent = motion.skeleton.parents[joint]
+        # Relative to the parent as it is now, which may have been turned as well.
         above = turned.get(parent, world[:, parent])
         rotations[:, joint] = rot.multiply(rot.conjugate(above), turn)
     positions = forward_kinematics(
@@ -186,8 +201,10 @@ def _hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
     """Return the knee's axis in the world; that of the whole motion where the leg is straight."""
     axis = np.cross(thigh, shin)
     size = np.linalg.norm(axis, axis=1, keepdims=True)
+    # The usual axis in the frame of the thigh; bent frames weigh more, by their longer products.
     usual = rot.rotate(rot.conjugate(above), axis).sum(axis=0)
     usual /= max(float(np.linalg.norm(usual)), 1e-12)
+    # In a straight leg the product is too short to have a direction.
     clear = size > 0.02 * np.linalg.norm(thigh, axis=1, keepdims=True) ** 2
     hinge: Floats = np.where(clear, axis / np.maximum(size, 1e-12), rot.rotate(above, usual))
     return hinge
@@ -201,6 +218,7 @@ def _mark_about(axis: Floats, angle: Floats) -> Floats:
 def _arc(a: Floats, b: Floats) -> Floats:
     """Return the smallest rotations that turn the direction of a into that of b."""
     a, b = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (a, b))
+    # (1 + cos, sin axis) is twice cos(half) times the quaternion: normalised, it is the half angle.
     q = np.concatenate([1 + (a * b).sum(1, keepdims=True), np.cross(a, b)], axis=1)
     arc: Floats = q / np.linalg.norm(q, axis=1, keepdims=True)
     return arc

@@ -191,8 +191,10 @@ class MotionGraph:
 
         component = connected_components(self._adjacency(), connection="strong")[1]
         inner = [edge for edge in self.edges if component[edge.tail] == component[edge.head]]
+        # Only components with an edge inside: a node alone counts if it can repeat itself.
         edges = Counter(int(component[edge.tail]) for edge in inner)
         sizes = Counter(component.tolist())
+        # The minus makes the earlier component win a tie.
         largest = max(edges, key=lambda p: (sizes[p], edges[p], -p), default=-1)
         return np.flatnonzero(component == largest)
 
@@ -217,6 +219,7 @@ class MotionGraph:
         from scipy.sparse.csgraph import connected_components, shortest_path
 
         apart = shortest_path(self._adjacency(), unweighted=True)
+        # The distance of a node to itself is 0, though no edge may lead back: counted below.
         np.fill_diagonal(apart, np.inf)
         component = connected_components(self._adjacency(), connection="strong")[1]
         again = {component[e.tail] for e in self.edges if component[e.tail] == component[e.head]}
@@ -225,6 +228,7 @@ class MotionGraph:
     def _adjacency(self) -> Any:
         from scipy.sparse import csr_array
 
+        # The reshape keeps two columns where there are no edges.
         ends = np.array([(e.tail, e.head) for e in self.edges], np.int64).reshape(-1, 2)
         shape = (len(self.nodes), len(self.nodes))
         return csr_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=shape)

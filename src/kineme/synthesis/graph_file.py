@@ -74,6 +74,7 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
         "window": graph.window,
         "sources": [_source_cells(source, folder) for source in graph.sources],
     }
+    # The rows follow one on a line, so the closing brace comes last.
     text = json.dumps(head, indent=2).removesuffix("\n}")
     for name, rows in (("nodes", graph.nodes), ("edges", graph.edges)):
         lines = ",\n".join(f"    {json.dumps(asdict(row))}" for row in rows)
@@ -158,6 +159,7 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
         if not exists:
             raise ReadError(path, "is not there, and the graph was built on it: put it back, "
                             "or build the graph anew")  # fmt: skip
+        # Digests must match: spans of frames mean nothing in a changed file.
         if digest != source.sha256:
             raise ReadError(path, "has changed since the graph was built on it: build it anew")
         motions.append(read_motion(path, **source.options))
@@ -201,6 +203,7 @@ def _check_complete(row: dict[str, Any], kind: Any) -> None:
 
 def _resolve_source(source: Source, folder: Path) -> Source:
     """Return a source whose paths, in the file relative to its folder, are found from anywhere."""
+    # Unknown options of a newer version are left out.
     options = {name: value for name, value in source.options.items() if name in OPTIONS}
     if "skeleton" in options:
         options["skeleton"] = str(folder / options["skeleton"])
@@ -219,6 +222,7 @@ def _sound(graph: MotionGraph) -> Iterator[tuple[object, bool]]:
     for node in graph.nodes:
         placed = node.source in range(len(frames)) and node.cluster >= -1
         yield node, placed and 0 <= node.start < node.stop <= frames[node.source]
+    # A jump must not leave a node before its middle, nor enter it after: nodes keep some length.
     middles = [(node.start + node.stop) / 2 for node in graph.nodes]
     nodes = range(len(middles))
     for edge in graph.edges:

@@ -45,8 +45,10 @@ def jumps(
     """Return the best jump of every pair of nodes that has one below the threshold."""
     rate = POSES.working_fps
     slow = [resample(motion, rate) for motion in motions]
+    # Sources are laid end to end: their first frames, and the end of the last.
     firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
     points = np.concatenate([motion.positions[:, motion.skeleton.body] for motion in slow])
+    # Features are at the working rate already, as `slow` is.
     features = np.concatenate([compute_motion_features(motion, POSES) for motion in motions])
     half = round(window * rate / 2)
     ratio = motions[0].fps / rate
@@ -54,7 +56,9 @@ def jumps(
     if not (len(ends.frames) and len(starts.frames)):
         return []
     near = neighbor_graph(features[ends.frames], features[starts.frames], radius=RADIUS)
+    # Row of each neighbour pair, from the counts of the sparse search.
     rows = np.repeat(np.arange(len(near)), near.counts)
+    # One number for each pair of nodes.
     pairs = _nearest(
         ends.nodes[rows] * len(nodes) + starts.nodes[near.indices], near.distances, CANDIDATES
     )
@@ -62,12 +66,14 @@ def jumps(
     distances, angles, shifts = fit_clouds(
         points, ends.frames[leave], starts.frames[enter], half=half
     )
+    # Of the measured pairs below the threshold, the best of each pair of nodes becomes an edge.
     below = np.flatnonzero(distances <= threshold)
     key = ends.nodes[leave[below]] * len(nodes) + starts.nodes[enter[below]]
     edges = []
     for i in below[_nearest(key, distances[below], 1)].tolist():
         tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
         at = (
+            # Frames are counted within their own recording again, at its own rate.
             _convert_to_source(ends.frames[leave[i]] - firsts[nodes[tail].source], ratio),
             _convert_to_source(starts.frames[enter[i]] - firsts[nodes[head].source], ratio),
         )
@@ -86,8 +92,11 @@ def _ends_of(
     """
     frames, owners = [], []
     for number, node in enumerate(nodes):
+        # In frames of the working rate; may lie between two of them.
         border = (node.start, node.stop)[side] / ratio
+        # A quarter of the node: an entry at its start lies before any exit at its end.
         reach = min((node.stop - node.start) / ratio / 4, widest)
+        # The cloud needs half a window on both sides.
         low, high = half, firsts[node.source + 1] - firsts[node.source] - half
         frames_of_node = np.arange(
             max(low, int(np.ceil(border - reach))), min(high, int(border + reach) + 1)
@@ -99,9 +108,12 @@ def _ends_of(
 
 def _nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
     """Return the indices of the ``count`` smallest distances of each group."""
+    # Sorted by group, and by distance within each group: the last key counts first.
     order = np.lexsort((distances, groups))
     sizes = np.unique(groups[order], return_counts=True)[1]
+    # Place at which the group of each entry begins.
     starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
+    # The rank within the group.
     kept: Ints = order[np.arange(len(order)) - starts < count]
     return kept
 

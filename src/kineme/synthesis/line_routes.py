@@ -114,6 +114,7 @@ def line_route(
     """
     if not tolerance > 0:
         raise ParameterError(f"the tolerance must be metres above 0, not {tolerance}")
+    # Points of the line as complex numbers x + iz.
     points = space_evenly(line)
     hips = [motion.positions[:, motion.skeleton.carrier] for motion in motions]
     floors = [path[:, 0] + 1j * path[:, 2] for path in hips]
@@ -146,7 +147,9 @@ def _search(
     number = count()  # of equal candidates the one found first goes first
 
     def push(candidate: _Candidate) -> None:
+        # Equal progress means the same bucket, so candidates compete by cost only.
         bucket = candidate.progress.point // round(FAR / SPACING)
+        # The running number decides ties before candidates would be compared.
         heappush(heap, (bucket, candidate.progress.cost, next(number), candidate))
 
     for node in sorted(nodes):
@@ -154,12 +157,14 @@ def _search(
         push(_Candidate(node, graph.nodes[node].start, at, _Progress()))
     while heap:
         bucket, _, _, candidate = heappop(heap)
+        # Directions are counted round the circle.
         direction = round(candidate.at.angle / TURN) % round(2 * np.pi / TURN)
         if counts[bucket] == WIDTH or (bucket, candidate.node, direction) in visited:
             continue
         visited.add((bucket, candidate.node, direction))
         counts[bucket] += 1
         reached, onward = _expand(graph, floors, points, nodes, candidate)
+        # The end of the line is reached within the last node.
         if reached.point == len(points) - 1:
             done.append((candidate, reached))
         else:
@@ -181,11 +186,14 @@ def _expand(
     edges = [graph.edges[number] for number in graph.leaving[candidate.node]]
     edges = [edge for edge in edges if edge.head in nodes]
     stop = max([node.stop, *(edge.leave for edge in edges)])
+    # Positions of the hips in the node, one for each step.
     floor = floors[node.source][candidate.enter : stop : step]
     reached = _measure_progress(candidate, floor, points, step / graph.fps)
     onward = []
     for edge in edges:
+        # The recording's own successor stays where it is placed.
         at = candidate.at.after(edge.angle, edge.shift) if edge.jump else candidate.at
+        # Progress up to the frame at which the edge leaves the node.
         travel = reached[_steps(candidate.enter, edge.leave, step)]
         onward.append(_Candidate(edge.head, edge.enter, at, travel, candidate))
     return reached[_steps(candidate.enter, node.stop, step)], onward
@@ -193,6 +201,7 @@ def _expand(
 
 def _steps(start: int, stop: int, step: int) -> int:
     """Return how many poses lie in frames [start, stop)."""
+    # Division rounded up.
     return -(-(stop - start) // step)
 
 
@@ -205,12 +214,15 @@ def _measure_progress(
     ahead = round(AHEAD / SPACING)
     for place in np.exp(-1j * candidate.at.angle) * floor + candidate.at.shift:
         if now.point < len(points) - 1:
+            # Only points of the line ahead are looked at, so that progress never goes back.
             apart = np.abs(points[now.point : now.point + ahead] - place)
             near = int(apart.argmin())
             off = float(apart[near])
+            # Integral of the squared distance plus the price of time.
             now = _Progress(
                 now.point + near,
                 now.cost + (off**2 + TIME) * seconds,
+                # Tuples compare by distance first, and keep the place of the worst one.
                 *max((now.worst, now.worst_at), (off, now.point + near)),
             )
         reached.append(now)
@@ -232,6 +244,7 @@ def _placement(
     span = graph.nodes[node]
     floor = floors[span.source]
     travel = floor[min(span.stop, len(floor) - 1)] - floor[span.start]
+    # The direction of the line over as much length as the node travels.
     ahead = points[min(round(max(abs(travel), FAR) / SPACING), len(points) - 1)] - points[0]
     # Placements turn by exp(-i angle).
     angle = float(np.angle(travel) - np.angle(ahead)) if abs(travel) > 0 else 0.0

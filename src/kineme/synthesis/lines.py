@@ -61,6 +61,7 @@ def space_evenly(line: Sequence[tuple[float, float]]) -> Complex:
         raise ParameterError(
             f"the line is {total:g} m long: it must have a length from {FAR} m to 10 km"
         )
+    # Length of the line up to each corner.
     at = np.concatenate([[0], np.cumsum(lengths)])
     places = np.linspace(0, total, round(total / SPACING) + 1)
     x, z = (np.interp(places, at, part) for part in (corners.real, corners.imag))

@@ -88,11 +88,13 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
     names = [name for name, count in actions for _ in range(count)]
     if not names:
         raise ParameterError("no actions: give names with counts, as in walk,run*3")
+    # One layer for each action to play, with all nodes of that name.
     layers = [graph.nodes_of(name) for name in names]
     cost, before = _cheapest_paths(graph)
     total = np.zeros(len(layers[0]))
     chosen = []
     for i in range(1, len(layers)):
+        # (nodes before, nodes after): total cost through each of the nodes before.
         through = total[:, None] + cost[np.ix_(layers[i - 1], layers[i])]
         chosen.append(through.argmin(axis=0))
         total = through.min(axis=0)
@@ -100,6 +102,7 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
             raise ParameterError(_no_route(graph, names[: i + 1], cost))
     at = int(total.argmin())
     route = [layers[-1][at]]
+    # From the last action back to the first.
     for i in range(len(chosen) - 1, -1, -1):
         at = int(chosen[i][at])
         route = [*_path(before, layers[i][at], route[0]), *route]
@@ -147,7 +150,9 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
     frames = float(graph.nodes[route[0]].stop - graph.nodes[route[0]].start)
     while frames < duration * graph.fps:
         edges = [graph.edges[i] for i in graph.leaving[route[-1]]]
+        # Only edges that stay in the component, from which there is always a way on.
         edge = edges[int(rng.choice([i for i, e in enumerate(edges) if e.head in inside]))]
+        # A jump may leave before the end of a node and enter after the start of the next.
         frames += edge.leave - graph.nodes[edge.tail].stop
         frames += graph.nodes[edge.head].stop - edge.enter
         route.append(edge.head)
@@ -195,27 +200,33 @@ def _cheapest_paths(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
     n = len(graph.nodes)
     rows, columns, costs = [], [], []
     for edge in graph.edges:
+        # A nameless node may also be passed through: the edge leaves its second copy, too.
         for tail in (edge.tail, *([] if graph.nodes[edge.tail].name else [n + edge.tail])):
             rows.append(tail)
+            # An edge leads to the second copy, where a path may end.
             columns.append(n + edge.head)
             costs.append(edge.distance + EDGE_COST)
     matrix: Any = csr_array((costs, (rows, columns)), shape=(2 * n, 2 * n))
     cost, before = dijkstra(matrix, indices=np.arange(n), return_predecessors=True)
+    # Costs of reaching: columns of the second copies.
     return cost[:, n:], before
 
 
 def _path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
     """Return the nodes from start to stop, without stop."""
     n = len(before)
+    # Backwards from the second copy of the last node.
     path = [int(before[start, n + stop])]
     while path[0] != start:
         path.insert(0, int(before[start, path[0]]))
+    # Both copies are the same node.
     return [node % n for node in path]
 
 
 def _no_route(graph: MotionGraph, names: Sequence[str], cost: Floats) -> str:
     shown = ", ".join(f"{name}*{len(list(same))}" for name, same in groupby(names))
     tail, head = names[-2:]
+    # Nodes from which any node of that name can be reached.
     back = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
     return (
         f"no route leads through {shown}: from {tail!r} one can go on to "

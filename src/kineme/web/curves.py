@@ -77,9 +77,11 @@ class Curves:
                 levels = self._recent[curve] = levels_of(self._drawn[curve].with_gaps(source))
             self._recent.move_to_end(curve)
             while len(self._recent) > MOST_IN_MEMORY:
+                # Drop the curve that was looked at longest ago.
                 self._recent.popitem(last=False)
         if not 0 <= level < len(levels) or not 0 <= number * TILE < len(levels[level]):
             return None
+        # Pairs of 4-byte floats, little end first.
         return levels[level][number * TILE : (number + 1) * TILE].tobytes()
 
 
@@ -101,9 +103,11 @@ def curves_of(
     signals = as_recording(recording, fps)
     curves, tiles = Curves(signals), dict[str, bytes]()
     head, left = curves.head(), most_bytes
+    # Coarse levels first: they cover the whole recording in little room.
     for level in reversed(range(head.levels)):
         bins = level_sizes(signals.n_frames)[level]
         places = [(c, level, n) for c in range(len(head.curves)) for n in range(ceil(bins / TILE))]
+        # Two floats of 4 bytes a bin.
         left -= 8 * bins * len(head.curves)
         if left < 0 and tiles:
             break
@@ -125,7 +129,9 @@ def levels_of(values: Floats) -> list[Pairs]:
     pairs = values if values.ndim == 2 else np.repeat(values[:, None], 2, axis=1)
     levels = [pairs.astype("<f4")]
     for size in level_sizes(len(values))[1:]:
+        # The first bin of each group; the last group may be shorter.
         at = np.arange(size) * FACTOR
+        # `fmin` and `fmax` ignore nan unless all are nan.
         least = np.fmin.reduceat(levels[-1][:, 0], at)
         greatest = np.fmax.reduceat(levels[-1][:, 1], at)
         levels.append(np.stack([least, greatest], axis=1).astype("<f4"))

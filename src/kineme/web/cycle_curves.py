@@ -91,6 +91,7 @@ class CycleCurves:
                 self._usual = [each.name for each in channels_of(recording)[:MOST_USUAL]]
                 pairs = sides_of(tuple(each.name for each in every))
                 opposite = dict(pairs) | {right: left for left, right in pairs}
+                # Those measured by default first; the sort is stable and keeps the rest in order.
                 for each in sorted(every, key=lambda one: one.name not in self._usual):
                     self._heads[each.name] = CycleChannel(
                         name=each.name,
@@ -141,10 +142,12 @@ class CycleCurves:
         others = other_cycles.select(other_cycles.columns["group"] == group.columns["group"][0])
         if not len(others):
             return alone
+        # If either side has no inner cycle, ends count for both.
         name, ends = alone.channel, _only_ends(group) or _only_ends(others)
         first, second = self._measured(group, [name]), other._measured(others, [name])
         compared = compare_curves(first, second, ends=ends)
         drawn = _make_message(first, name, MOST, _means(first, ends=ends)[name], ends=ends)
+        # One digit more than for single curves.
         digits = _digits(_extent(first.curves)) + 1
         return structs.replace(
             drawn,
@@ -173,10 +176,13 @@ class CycleCurves:
                 cycles = shown if each is table else self._of_table(each)
                 groups = {k: cycles.select(_rows_of(cycles, k)) for k in _clusters(cycles)}
                 for group in groups.values():
+                    # Groups with equal spans at several details are sent once.
                     found.setdefault(_spans(group), group)
+                # Numbers of groups in the order in which they were found.
                 numbers = {spans: number for number, spans in enumerate(found)}
                 tables.append({str(k): numbers[_spans(group)] for k, group in groups.items()})
             names = self._report_channels(shown, len(found))
+            # How many curves fit, divided among the channels.
             room = MOST_NUMBERS // (shown.curves.shape[2] * len(names))
             most = _most([len(group) for group in found.values()], room)
             return ReportCurves(
@@ -191,10 +197,12 @@ class CycleCurves:
                   for cluster in _clusters(cycles)]  # fmt: skip
         sides = [
             side
+            # Both sides of each channel, the liveliest first; duplicates go below.
             for name in [*lively, *self._usual]
             for side in (name, self._heads[name].opposite)
             if side in self._usual
         ]
+        # Numbers that each channel needs at least: mean, deviation and a few cycles of each group.
         least = max(n_groups, 1) * cycles.curves.shape[2] * (2 + FEWEST)
         return list(dict.fromkeys(sides))[: max(MOST_NUMBERS // least, FEWEST_CHANNELS)]
 
@@ -234,6 +242,7 @@ class CycleCurves:
                 timed = [_rescale_table(*each) for each in zip(tables, recordings, strict=True)]
                 self._both = tables, cycles(recordings, timed, channels=[])
             found = drop_left_out(self._both[1], tables)
+        # The first recording's name; rows of the other one have another.
         first = found.columns["recording"] == found.columns["recording"][0]
         return _add_frames(found.select(first), table), found.select(~first)
 
@@ -249,6 +258,7 @@ class CycleCurves:
         missing = [name for name in names if name not in self._values]
         if missing:
             recording = self._read()
+            # Only channels beside a motion need the other file.
             needed = isinstance(recording, Motion) and any(
                 self._heads[name].group == "channel" for name in missing
             )
@@ -259,6 +269,7 @@ class CycleCurves:
         channels = [self._values[name] for name in names]
         for name in names:
             self._values.move_to_end(name)
+        # Drop the channel that was used longest ago.
         while len(self._values) > MOST_KEPT:
             self._values.popitem(last=False)
         return measured_anew(cycles, channels)
@@ -285,6 +296,7 @@ def _same_segments(before: Sequence[Segmentation | None], now: Sequence[Segmenta
 
 def _add_frames(cycles: Cycles, table: Segmentation) -> Cycles:
     """Return the cycles of a table with the first frames of their segments."""
+    # In the order of the cycles, which is that of the primitives.
     frames = [row.start_frame for row in table.primitives if row.kind == "primitive"]
     columns = {**cycles.columns, "segment_frame": np.array(frames, np.int64)}
     return replace(cycles, columns=columns)
@@ -303,6 +315,7 @@ def _spans(cycles: Cycles) -> tuple[object, ...]:
 def _most(sizes: Sequence[int], room: int) -> int:
     """How many cycles of each group can be drawn, if there is room for so many curves in all."""
     most = FAR
+    # Mean and deviation take two curves; one more cycle is added while all still fits.
     while most < MOST and sum(2 + min(size, most + 1) for size in sizes) <= room:
         most += 1
     return most
@@ -343,6 +356,7 @@ def _extent(values: Floats) -> float:
 
 def _means(group: Cycles, *, ends: bool) -> dict[str, Columns]:
     """By channel the mean curve."""
+    # Curves of a group follow each other, channel by channel.
     tidy, points = group.mean_curves(ends=ends), group.curves.shape[2]
     return {
         channel: {name: tidy[name][place * points : (place + 1) * points] for name in tidy}
@@ -365,12 +379,15 @@ def _make_message(
     curves, columns = group.curves[:, place], group.columns
     complete = np.isfinite(curves).all(axis=1)
     counts = group.used(ends=ends) & complete
+    # Squared differences from the mean curve, nan where either is missing.
     apart = np.square(curves - mean["mean"])
     finite = np.isfinite(apart)
+    # Root mean square over the points that were recorded; nan where none was.
     distance = np.sqrt(np.divide(
         np.where(finite, apart, 0).sum(axis=1), finite.sum(axis=1),
         out=np.full(len(group), np.nan), where=finite.any(axis=1),
     ))  # fmt: skip
+    # Cycles that count first, the farthest from the mean first.
     order = sorted(range(len(group)), key=lambda i: (not counts[i], -np.nan_to_num(distance[i])))
     by_hand = set(np.flatnonzero(columns["excluded"] == BY_HAND).tolist())
     digits = _digits(_extent(curves))
@@ -413,6 +430,7 @@ def _round_values(values: Floats, digits: int) -> list[float | None]:
 
 def _digits(extent: float) -> int:
     """Return how many digits after the point numbers of this extent are told with."""
+    # Counted from the first digit of the extent.
     return DIGITS - 1 - floor(log10(extent)) if extent > 0 else DIGITS
 
 
@@ -422,6 +440,7 @@ def _some(order: Sequence[int], most: int, kept: set[int]) -> list[int]:
         return list(order)
     first = [i for place, i in enumerate(order) if place < FAR or i in kept][:most]
     rest, n = [i for i in order if i not in first], most - len(first)
+    # Evenly spread over the rest, which is in the order of distance.
     others = {rest[i * len(rest) // n] for i in range(n)}
     return [i for i in order if i in first or i in others]
 

@@ -83,15 +83,19 @@ def display_motion(
 def sample_poses(motion: Motion, fps: float) -> Floats:
     """Poses (samples, joints, 3) at another rate, on straight lines between frames; nan in gaps."""
     ratio = motion.fps / fps
+    # The small number keeps a last pose that rounding would lose.
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
     at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
+    # It also keeps a frame that rounding puts just before itself.
     before = np.floor(at + 1e-9).astype(np.intp)
     share = np.maximum(at - before, 0)[:, None, None]
     positions: Floats = motion.positions[before]
+    # Where all samples are frames there is nothing to interpolate.
     if share.max() > 1e-6:
         after = np.minimum(before + 1, motion.n_frames - 1)
         positions += share * (motion.positions[after] - positions)
     for start, stop in motion.gaps:
+        # A sample between a seen frame and one in a gap is not seen either.
         positions[(at > start - 1) & (at < stop)] = np.nan
     return positions
 
@@ -110,15 +114,19 @@ def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float],
         points = np.zeros((1, 3))
     low, high = points.min(axis=0), points.max(axis=0)
     origin = (low + high) / 2
+    # A step so large that 16 bits reach both ends of the recording; 1 if nothing moves.
     step = max(share * _extent(positions, visible), float((high - low).max()) / 65000) or 1.0
     numbers = np.full(positions.shape, MISSING, np.int16)
     if everywhere:
+        # In blocks that stay in the cache, without a copy of the whole.
         for first in range(0, len(positions), BLOCK):
             span = slice(first, first + BLOCK)
             numbers[span] = np.rint((positions[span] - origin) / step)
     else:
         numbers[visible] = np.rint((points[: visible.sum()] - origin) / step)
+    # One row for each coordinate of each joint.
     columns = np.ascontiguousarray(numbers.reshape(len(numbers), -1).T)
+    # Differences compress better; 16-bit integers wrap around, and so do their sums when decoded.
     columns[:, 1:] -= columns[:, :-1].copy()
     x, y, z = origin.tolist()
     return (x, y, z), step, zlib.compress(columns.astype("<i2").tobytes(), 6)
@@ -149,6 +157,7 @@ def _extent(positions: Floats, visible: NDArray[np.bool_]) -> float:
     complete = np.flatnonzero(visible.all(axis=1))
     if not len(complete):
         return 0.0
+    # Some thousand poses are enough for a median.
     few = positions[complete[:: max(1, len(complete) // 1000)]]
     return float(np.median(np.ptp(few, axis=1).max(axis=1)))
 
@@ -166,6 +175,7 @@ def _facing(
         pelvis, angles = heading(motion, effectors=found)
     except MotionError:
         return joints, None
+    # Nearest frame of each sample: angles cannot be interpolated across ±180°.
     nearest = np.rint(np.arange(n_samples) * (motion.fps / fps)).astype(np.intp)
     shown = angles[np.minimum(nearest, motion.n_frames - 1)].round(3)
     return {**joints, "pelvis": pelvis}, shown.tolist()

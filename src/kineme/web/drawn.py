@@ -54,10 +54,13 @@ def _reduce_to_frames(
     """Least and greatest value of a channel in each frame of a slower recording."""
 
     def pairs(recording: Motion | Signals) -> Floats:
+        # A copy: gaps are set to nan.
         channel = np.array(_values(recording)[:, number])
         for start, stop in recording.gaps:
             channel[start:stop] = np.nan
+        # First sample of each frame; the small number guards against rounding.
         starts = np.floor(np.arange(n_frames) * (recording.fps / fps) + 1e-9).astype(np.intp)
+        # The channel may end before the motion.
         starts = starts[starts < len(channel)]
         found = np.full((n_frames, 2), np.nan)
         if len(starts):
@@ -75,6 +78,7 @@ def draw_motion(motion: Motion) -> list[Drawn]:
     drawn = [Drawn(name, "height", "m", _place(i, 1)) for i, name in enumerate(names)]
     drawn += [Drawn(name, "speed", "m/s", _measure_speed(i)) for i, name in enumerate(names)]
     for joint, name in enumerate(names):
+        # Bones of some length below the joint; a bend needs exactly one.
         ends = [i for i, parent in enumerate(parents) if parent == joint and lengths[i] > 0]
         if parents[joint] >= 0 and lengths[joint] > 0 and len(ends) == 1:
             bend = _flexion(parents[joint], joint, ends[0])

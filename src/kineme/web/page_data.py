@@ -9,14 +9,18 @@ from numpy.typing import ArrayLike
 
 from kineme.errors import ParameterError
 from kineme.features import Names
+from kineme.features.similarity import (
+    SimilarityMatrix,
+    compare_frames,
+    compare_frames_of_signal,
+)
 from kineme.labels.json_table import SCHEMA
 from kineme.recordings import Motion, Signals
 from kineme.segments.editing import cluster_names, comments
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
-from kineme.web.matrix import Matrix
+from kineme.web.matrix import make_head
 from kineme.web.messages import CommentAt, MotionHead, Recording, Segments, TableAtDetail
-from kineme.web.similarity import matrix_of_motion, matrix_of_signal
 
 MOST_ROWS = 12_000
 """Of all details in a report, about a fifth of a kilobyte each."""
@@ -35,7 +39,7 @@ class PageData:
     fps: float
     motion: MotionHead | None
     binary: bytes
-    matrix: Matrix
+    matrix: SimilarityMatrix
     warnings: list[str] = field(default_factory=list)
 
 
@@ -53,18 +57,16 @@ def page_data(
     """
     if isinstance(recording, Motion):
         head, binary = display_motion(recording, effectors=effectors)
-        matrix = matrix_of_motion(recording, effectors=effectors)
+        matrix = compare_frames(recording, effectors=effectors)
         warned = [str(note) for note in recording.provenance.warnings]
         return PageData(recording.n_frames, recording.fps, head, binary, matrix, warned)
     if isinstance(recording, Signals):
-        values, fps = np.array(recording.values), recording.fps
-        for start, stop in recording.gaps:
-            values[start:stop] = np.nan
+        matrix = compare_frames(recording)
         warned = [str(note) for note in recording.provenance.warnings]
-        return PageData(len(values), fps, None, b"", matrix_of_signal(values, fps), warned)
+        return PageData(recording.n_frames, recording.fps, None, b"", matrix, warned)
     if fps is None:
         raise ParameterError("an array does not tell its frame rate: give fps")
-    matrix = matrix_of_signal(recording, fps)
+    matrix = compare_frames_of_signal(recording, fps)
     return PageData(len(np.asarray(recording)), float(fps), None, b"", matrix)
 
 
@@ -93,7 +95,7 @@ def recording_message(
         n_frames=data.n_frames,
         fps=data.fps,
         motion=data.motion,
-        matrix=data.matrix.head(band),
+        matrix=make_head(data.matrix, band),
         segmentation=segments_message(segmentation),
         levels=_levels(segmentation) if levels else [],
         video=None,

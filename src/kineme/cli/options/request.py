@@ -24,7 +24,6 @@ from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.methods.base import Found
     from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
@@ -147,20 +146,20 @@ class Request:
 
         return read_motion(path, **self.reading)
 
-    def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
-        """Return the segments at the detail asked for, and what was found on the way to them."""
+    def segment(self, recording: Motion | Signals, stage: Stage) -> Segmentation:
+        """Return the segments at the detail asked for."""
         from kineme.methods.segmenter import segment_with_options
 
         with announce_compilation(stage):
-            result, found = segment_with_options(recording, self.options, progress=stage)
-        return result.at_detail(self.detail), found
+            result, _ = segment_with_options(recording, self.options, progress=stage)
+        return result.at_detail(self.detail)
 
     def segments(
         self, recording: Motion | Signals, table: Path | None, stage: Stage
     ) -> Segmentation:
         """Return the segments in a table or label file; without one those that are found."""
         if table is None:
-            return self.segment(recording, stage)[0]
+            return self.segment(recording, stage)
         from kineme.labels.collections import labels_for
 
         return labels_for(

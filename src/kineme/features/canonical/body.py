@@ -53,12 +53,14 @@ def canonical_poses(joints: Joints, fps: float) -> Floats:
     pelvis = (joints["left_hip"] + joints["right_hip"]) / 2
     hips = _unit(joints["left_hip"] - joints["right_hip"])
     shoulders, sides = hips, dict(joints)
+    # Without shoulders the chest is put on the line from pelvis to head, at the canonical share.
     chest = pelvis + TRUNK / (TRUNK + NECK) * (joints["head"] - pelvis)
     if {"left_shoulder", "right_shoulder"} <= joints.keys():
         shoulders = _unit(joints["left_shoulder"] - joints["right_shoulder"])
         chest = (joints["left_shoulder"] + joints["right_shoulder"]) / 2
     else:
         sides |= {"left_shoulder": chest, "right_shoulder": chest}
+    # All points are relative to the middle of the hips.
     trunk = TRUNK * _unit(chest - pelvis)
     legs = [
         sign * HIP * hips + _limb(sides, (f"{side}_hip", f"{side}_knee", f"{side}_ankle"), LEG)
@@ -70,11 +72,14 @@ def canonical_poses(joints: Joints, fps: float) -> Floats:
         + _limb(sides, (f"{side}_shoulder", f"{side}_elbow", f"{side}_wrist"), ARM)
         for side, sign in _SIDES
     ]
+    # (frames, 5, 3) in the order of the end effectors: ankles, head, wrists.
     ends = np.stack([*legs, trunk + NECK * _unit(joints["head"] - chest), *arms], axis=1)
     ground = np.minimum(joints["left_ankle"][:, 1], joints["right_ankle"][:, 1])
     leg = _leg_length(joints)
+    # The gradient needs two frames; a single one does not rise.
     rise = RISE * fps * np.gradient(pelvis[:, 1]) if len(pelvis) > 1 else np.zeros(1)
     vertical = np.stack([pelvis[:, 1] - ground, rise], axis=1) / leg
+    # The mean direction of hips and shoulders is the body's left.
     return np.hstack([_facing_ahead(ends, hips + shoulders).reshape(len(ends), -1), vertical])
 
 
@@ -90,6 +95,7 @@ def mirror_poses(poses: Floats) -> Floats:
     >>> bool((mirror_poses(mirror_poses(poses)) == poses).all())
     True
     """
+    # The first 15 numbers are five points; height and rise look the same in a mirror.
     ends = poses[:, :15].reshape(len(poses), len(EXCHANGED), 3)[:, EXCHANGED] * FLIP
     return np.hstack([ends.reshape(len(poses), -1), poses[:, 15:]])
 
@@ -103,7 +109,9 @@ def _limb(joints: Joints, names: tuple[str, str, str], bones: tuple[float, float
     if names[1] in joints:
         middle = joints[names[1]]
         return bones[0] * _unit(middle - top) + bones[1] * _unit(end - middle)
+    # Without a middle joint, bending shows only in how far the end is from the top.
     reach = np.linalg.norm(end - top, axis=1, keepdims=True)
+    # A high quantile instead of the maximum, which may be a tracking error.
     bent = np.minimum(reach / max(float(np.quantile(reach, _STRAIGHT)), _TINY), 1.0)
     straight: Floats = sum(bones) * bent * _unit(end - top)
     return straight
@@ -133,7 +141,9 @@ def _facing_ahead(points: Floats, to_left: Floats) -> Floats:
     sideways = np.flatnonzero(length > _FLAT * np.linalg.norm(to_left, axis=1))
     if len(sideways) == 0:
         return points
+    # The nearest frame with a heading; `searchsorted` takes the earlier one at a tie.
     nearest = sideways[np.searchsorted((sideways[:-1] + sideways[1:]) / 2, np.arange(len(length)))]
+    # Cosine and sine (frames, 1) of the turn about y.
     cos, sin = (to_left[nearest, axis, None] / length[nearest, None] for axis in (0, 2))
     x, y, z = np.moveaxis(points, 2, 0)
     return np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=2)

@@ -91,6 +91,7 @@ def _named(parts: tuple[str, str, str], limbs: Sequence[Sequence[int]]) -> dict[
 def _limbs(skeleton: Skeleton, left: int, right: int) -> list[tuple[int, int, int]]:
     """Top, middle and end of both limbs; -1 where the skeleton has no such joint."""
     chains = [_ancestry(skeleton, end) for end in (left, right)]
+    # Equal joints from the root on: the limbs part below the last of these.
     shared = sum(1 for a, b in zip(*chains, strict=False) if a == b)
     return [(*_top_and_middle(skeleton, chain[shared:]), chain[-1]) for chain in chains]
 
@@ -108,10 +109,12 @@ def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
 
     Not where the limbs part: there left and right are one.
     """
+    # Length of the chain from where the limbs part down to each joint.
     below = np.cumsum(np.linalg.norm(skeleton.offsets[chain], axis=1))
     inner = [
         place
         for place, joint in enumerate(chain[:-1])
+        # Joints with a bone of some length above and below, unless they only turn a bone.
         if 0 < below[place] < below[place + 1]
         and not _TWISTS.intersection(words_of(skeleton.names[joint]))
     ]
@@ -120,6 +123,7 @@ def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
 
     def unlikely(pair: tuple[int, int]) -> float:
         upper, lower = below[pair[1]] - below[pair[0]], below[-1] - below[pair[1]]
+        # Both terms are logarithms, so the choice does not depend on the unit of length.
         return float(abs(np.log(upper / lower)) - np.log(upper + lower))
 
     top, middle = min(combinations(inner, 2), key=unlikely)
@@ -130,6 +134,7 @@ def _named_points(names: Sequence[str]) -> dict[str, Points]:
     """Joints of the limbs that are markers or keypoints, by their names."""
     at: dict[tuple[str, str], int] = {}
     for point, name in enumerate(names):
+        # The first point of a name is kept; later ones of the same name are duplicates.
         at.setdefault(part_and_side(name), point)
     found: dict[str, Points] = {}
     for part, choices in _MARKERS.items():
@@ -137,5 +142,7 @@ def _named_points(names: Sequence[str]) -> dict[str, Points]:
             for choice in choices:
                 keys = [(word, side) for word in choice.split()]
                 if all(key in at for key in keys):
+                    # `setdefault` keeps the preferred choice; a choice of two words is the middle
+                    # of both markers.
                     found.setdefault(f"{side}_{part}", tuple(at[key] for key in keys))
     return found

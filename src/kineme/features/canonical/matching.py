@@ -98,6 +98,7 @@ def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
     >>> matching_poses(motion).shape
     (725, 17)
     """
+    # Every second one: 30 Hz to 15 Hz.
     return poses_of(resample(motion, POSE_FPS), effectors=effectors)[::2]
 
 
@@ -110,6 +111,7 @@ def features_and_poses(
     stacked = stacked_poses(mirror_poses(poses) if mirrored else poses)
     features = directions(stacked, *basis())
     for start, stop in at_rate.gaps:
+        # Gaps are in frames at 30 Hz: half as many, rounded up to the first kept frame inside.
         features[(start + 1) // 2 : (stop + 1) // 2] = 0.0
     return features, poses[::2]
 
@@ -125,6 +127,7 @@ def poses_of(motion: Motion, *, effectors: Names | None = None) -> Floats:
 
 def stacked_poses(poses: Floats) -> Floats:
     """(n, 85): every second one of poses at 30 Hz, stacked with its neighbours."""
+    # Stacked at 30 Hz, where neighbours are 3 and 6 frames away, and thinned afterwards.
     return stack(poses, offsets_in_frames(OFFSETS_S, POSE_FPS))[::2]
 
 
@@ -155,8 +158,11 @@ def mirrored_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
 def _mirror() -> Floats:
     """(40, 40): by least squares, what features along the axes become in a mirror."""
     _, axes = basis()
+    # Numbers in one pose: the rows of the axes are those of five stacked poses.
     poses = len(axes) // len(OFFSETS_S)
+    # The mirror of a pose is linear: its matrix, once on the diagonal for each stacked pose.
     exchange = np.kron(np.eye(len(OFFSETS_S)), mirror_poses(np.eye(poses)))
+    # From features back to poses (pseudoinverse), mirrored, and to features again.
     matrix: Floats = np.linalg.pinv(axes) @ exchange @ axes
     return matrix
 
@@ -175,6 +181,7 @@ def _unit_vectors(values: NDArray[np.floating]) -> NDArray[np.float32]:
 
 def _smoothed(positions: Floats) -> Floats:
     """Return a weighted mean over five frames; at the ends the outermost frame is repeated."""
+    # Two frames more at either end, as the five weights need.
     longer = np.concatenate([positions[:1]] * 2 + [positions] + [positions[-1:]] * 2)
     smoothed = np.zeros_like(positions)
     for k, weight in enumerate(_SMOOTHING):

@@ -77,9 +77,11 @@ def poses_to_motion(
         raise content.error(f"trans has shape {path.shape}, not ({len(poses)}, 3)")
     vectors = poses[:, : 3 * _N_TURNING].reshape(len(poses), _N_TURNING, 3)
     rotations = np.zeros((len(poses), len(_JOINTS), 4))
+    # The crown has no rotation of its own.
     rotations[:, -1] = rot.IDENTITY
     rotations[:, :-1] = rot.exponential(vectors)
     turn = up_rotation(options.up or "z")
+    # Only the root is turned, since all others are relative to their parents.
     rotations[:, 0] = rot.multiply(turn, rotations[:, 0])
     path = rot.rotate(turn, path * metres(options.unit or "m"))
     kind = WIDTHS[poses.shape[1]]

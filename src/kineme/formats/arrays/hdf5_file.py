@@ -78,6 +78,7 @@ class _Reader:
             return self.group(item, depth + 1)
         if not isinstance(item, h5py.Dataset) or item.shape is None:
             return None
+        # Python integers, which do not overflow with absurd shapes.
         self.claim(int(np.prod(item.shape, dtype=object)) * max(1, item.dtype.itemsize))
         if item.attrs.get("MATLAB_empty", 0):
             return np.empty((0, 0))
@@ -89,6 +90,7 @@ class _Reader:
         """Return what the references of a data set point to."""
         if depth > _DEEPEST:
             raise ValueError("cells too deep in one another")
+        # Empty references are left out.
         return [self.value(self.file[ref], depth + 1) for ref in item[()].ravel() if ref]
 
 
@@ -100,10 +102,12 @@ def _plain(item: Any) -> Any:
         lines = np.atleast_1d(item.asstr(errors="replace")[()]).ravel()
         return [str(line) for line in lines]
     array = np.asarray(item[()])
+    # Arrays of other kinds, such as compounds, are passed over.
     if array.dtype.kind not in "iufbS":
         return None
     matlab = item.attrs.get("MATLAB_class", b"")
     if matlab == b"char":
+        # MATLAB stores its columns first, so rows are columns here.
         rows = ["".join(map(chr, row)) for row in np.atleast_2d(array.T).tolist()]
         return rows[0] if len(rows) == 1 else [row.rstrip() for row in rows]
     return array.T if matlab else array

@@ -67,11 +67,13 @@ def mat_variables(content: FileContent) -> dict[str, Any]:
 def arrays_of(variables: Mapping[str, Any]) -> dict[str, Array]:
     """Numbers and texts as arrays; vectors and single numbers without MATLAB's other dimension."""
     inner = [value for value in variables.values() if isinstance(value, Mapping)]
+    # A structure that is alone holds the variables.
     if len(inner) == 1:
         variables = {**inner[0], **variables}
     found: dict[str, Array] = {}
     for name, value in variables.items():
         if isinstance(value, np.ndarray) and value.dtype.kind in "iufb":
+            # MATLAB has no vectors: they are matrices of one row or column.
             single = value.ndim == 2 and 1 in value.shape
             found[name] = value.ravel() if single and value.size > 1 else value
             found[name] = found[name].reshape(()) if value.size == 1 else found[name]
@@ -96,9 +98,11 @@ def channels_of(
         if array.ndim == 1:
             channels[name] = array
         elif array.ndim == 2:
+            # The longer side is time.
             tracks = array.T if len(array) >= array.shape[1] else array
             channels |= {f"{name}_{i}": track for i, track in enumerate(tracks, 1)}
     lengths = Counter(map(len, channels.values()))
+    # The most usual length; of equally usual ones the longest.
     length = max(lengths, key=lambda n: (lengths[n], n), default=0)
     times = {name: name for name in channels if is_timing(name)}
     columns = asked_for(content, list(channels), columns, list(channels), times)
@@ -153,6 +157,7 @@ def _qtm_motion(
     fps = float(rate.ravel()[0]) if isinstance(rate, np.ndarray) and rate.size == 1 else 0.0
     if not options.fps and not (np.isfinite(fps) and fps > 0):
         raise content.error("no FrameRate in it: give fps= (--fps)")
+    # Markers, axes, frames become frames, markers, axes; the fourth number is a residual.
     positions = np.asarray(data[:, :3], np.float64).transpose(2, 0, 1)
     points = Points(
         names,

@@ -70,6 +70,7 @@ def parse_mat(content: FileContent) -> dict[str, Value]:
 
 def _unpack(body: Bytes, budget: int) -> Bytes:
     engine = zlib.decompressobj()
+    # At most as much as there is room for; what is left over shows that there was more.
     unpacked = engine.decompress(body, max(1, budget))
     if engine.unconsumed_tail:
         raise _DamagedError("it claims to unpack to much more than it holds")
@@ -87,6 +88,7 @@ def _elements(data: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
                 raise _DamagedError(f"a small element of {size} bytes")
         else:
             kind, start = first, at + 8
+            # Elements are padded to eight bytes, but compressed ones are not.
             step = 8 + (size if kind == _COMPRESSED else -(-size // 8) * 8)
         if start + size > len(data):
             raise _DamagedError(
@@ -107,6 +109,7 @@ def _matrix(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
     name = bytes(_next(parts)[1]).decode("utf-8", "replace")
     if not flags or not shape or min(shape) < 0 or len(shape) > _MOST_DIMENSIONS:
         raise _DamagedError("an array without flags or dimensions")
+    # The class of the array is in the low byte of its flags.
     kind, is_complex = flags[0] & 0xFF, flags[0] >> 8 & _COMPLEX
     if kind in _NUMERIC and not is_complex:
         return name, _reshape(_numbers(*_next(parts), order), shape)
@@ -146,6 +149,7 @@ def _reshape(flat: Array, shape: list[int]) -> Array:
         count *= n
     if count != len(flat):
         raise _DamagedError(f"{len(flat)} numbers for an array of shape {tuple(shape)}")
+    # MATLAB stores columns first.
     return flat.reshape(shape, order="F")
 
 
@@ -158,6 +162,7 @@ def _text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
         letters = [
             chr(int(code)) if 0 < code < 0xD800 else " " for code in _numbers(kind, data, order)
         ]
+    # Characters are stored column by column: every n-th is of one row.
     rows = shape[0]
     if rows <= 1 or len(letters) % rows:
         return "".join(letters)
@@ -172,6 +177,7 @@ def _fields(parts: Iterator[tuple[int, Bytes]], shape: list[int], order: str, de
         return {}
     step = width[0]
     keys = [
+        # Names have one width, filled with zero bytes.
         names[i : i + step].split(b"\0")[0].decode("utf-8", "replace")
         for i in range(0, len(names), step)
     ]

@@ -39,6 +39,7 @@ def arrays_to_motion(
     if "positions" in arrays:
         return positions_to_motion(content, name, arrays, options)
     columns = {key: array for key, array in arrays.items() if array.ndim == 1}
+    # A single number becomes a column of length 1.
     columns |= {key: array[None] for key, array in arrays.items() if array.ndim == 0}
     for joint, track in _tracks(arrays).items():
         columns |= {f"{joint}_{axis}": track[:, i] for i, axis in enumerate("xyz")}
@@ -71,6 +72,7 @@ def _tracks(arrays: Arrays) -> Arrays:
     """Return the arrays (frames, 3), of the number of frames that most of them have."""
     tracks = {key: a for key, a in arrays.items() if a.ndim == 2 and a.shape[1] == 3}
     lengths = Counter(len(track) for track in tracks.values())
+    # The most usual length; of equally usual ones the longest.
     usual = max(lengths, key=lambda n: (lengths[n], n), default=0)
     return {key: track for key, track in tracks.items() if len(track) == usual}
 
@@ -87,6 +89,7 @@ def _as_written(
     names = tuple(unique(map(str, arrays["names"].ravel())))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
     rotations = _numbers(content, arrays, "rotations") if "rotations" in arrays else None
+    # Start and stop alternate.
     spans = tuple(zip(gaps[::2], gaps[1::2], strict=False))
     return Motion(skeleton, positions, fps, rotations, content.provenance(name, []), spans)
 

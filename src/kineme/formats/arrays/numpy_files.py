@@ -114,6 +114,7 @@ def _array(content: FileContent, data: bytes, name: str) -> Array:
         if len(shape) > _MOST_DIMENSIONS:
             raise content.error(f"{name} has {len(shape)} dimensions, more than any recording")
         count = int(np.prod(shape, dtype=object))
+        # The header may claim more than the file holds.
         if count < 0 or count * kind.itemsize > len(data) - file.tell():
             raise content.error(f"{name} claims shape {shape}, more than the file holds")
         if count == 0 or kind.itemsize == 0:

@@ -100,6 +100,7 @@ def _frames(content: FileContent, images: Any, entries: Sequence[Mapping[str, An
     """Return the frame of each entry."""
     if isinstance(images, list) and images:
         usable = [image for image in images if isinstance(image, Mapping) and "id" in image]
+        # Images in the order of their frames, whatever their ids are.
         order = {str(image["id"]): i for i, image in enumerate(sorted(usable, key=_place))}
         for entry in entries:
             if str(entry.get("image_id")) not in order:

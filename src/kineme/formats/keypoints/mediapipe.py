@@ -103,6 +103,7 @@ def landmarks_to_motion(
     """
     if world is None and people:
         middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])
+        # World landmarks have the middle of the hips at 0 in each frame.
         world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
     notes = list(notes)
     if world:
@@ -124,6 +125,7 @@ def landmarks_to_motion(
                 "landmarks are shares of an image of unknown shape, taken as square: multiply x "
                 "and z by width / height, if it was not"
             )
+        # Shares of the width and height; z is in shares of the width.
         sides = np.array([width, height, width])
         people = [replace(person, points=np.asarray(person.points) * sides) for person in people]
     video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, notes=notes)
@@ -139,6 +141,7 @@ def _are_in_space(people: Sequence[Person]) -> bool:
     poses = np.array([[p.points[end] for end in ends] for p in people])
     if poses.ndim != 3 or poses.shape[2] != 3:
         return False
+    # From the middle of the ankles to the nose.
     lengths = poses[:, 0] - poses[:, 1:].mean(axis=1)
     along = np.nanmedian(lengths / np.linalg.norm(lengths, axis=1, keepdims=True), axis=0)
     return bool(along[2] > 0.7)
@@ -204,6 +207,7 @@ def _landmarks(
             fields = ("visibility", "score", "presence")
             visibility = next((landmark[key] for key in fields if key in landmark), 1.0)
         else:
+            # What is missing of z and visibility is filled in: 0 and 1.
             x, y, z, visibility = [*landmark, *(0.0, 1.0)[len(landmark) - 2 :]][:4]
         try:
             points.append([float(x), float(y), float(z or 0.0)])

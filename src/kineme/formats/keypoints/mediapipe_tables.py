@@ -53,6 +53,7 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
     frame = _column_of(table.names, _FRAME)
     extra = [*timing, *([frame] if frame is not None else [])]
     rows = table.numbers([*at.values(), *extra])
+    # Columns x, y, z and visibility; the last one is 1 where there is none.
     poses = np.zeros((len(rows), len(NAMES), 4))
     poses[..., 3] = 1.0
     for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
@@ -88,10 +89,12 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
     timing = [i for i, name in enumerate(table.names) if is_timing(name)][:1]
     rows = table.numbers([frame or 0, *at.values(), *timing])
     landmarks = _landmark_numbers(table.content, table.texts(landmark_column or 0)[: len(rows)])
+    # Rows of one frame share a place.
     frames, place = np.unique(frame_numbers(table.content, rows[:, 0]), return_inverse=True)
     size = _BYTES_PER_POSE * len(frames)
     table.content.claim(size, f"{len(NAMES)} landmarks in {len(frames)} frames")
     poses = np.full((len(frames), len(NAMES), 4), np.nan)
+    # Without z and visibility in the table, these are 0 and 1.
     poses[..., 2:] = (0.0, 1.0)
     for k, field in enumerate(at, 1):
         poses[place, landmarks, field] = rows[:, k]
@@ -118,6 +121,7 @@ def _landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
             found.setdefault((plain(last[1]), _FIELDS[last[2].lower()]), column)
     by_name = {(_PLACES[name], field): i for (name, field), i in found.items() if name in _PLACES}
     by_number = {(int(m), field): i for (m, field), i in found.items() if m.isdecimal()}
+    # Landmarks counted from 1.
     if by_number and min(landmark for landmark, _ in by_number) == 1:
         by_number = {(landmark - 1, field): i for (landmark, field), i in by_number.items()}
     for table in (by_name, by_number):

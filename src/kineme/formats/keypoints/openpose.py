@@ -118,6 +118,7 @@ def _begins_a_frame(file: Path) -> bool:
         head = read_head(file)
     except OSError:
         return False
+    # Byte order mark and blanks may come before the JSON.
     return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") and b'"people"' in head
 
 

@@ -56,6 +56,7 @@ def rows_of_person(content: FileContent, found: Detections, person: str | None) 
     if not people:
         raise content.error("nobody is found in any frame")
     most = max(map(len, people.values()))
+    # People seen only in passing are no choice, unless somebody asks for them.
     staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * most}
     candidates = staying if person is None else people
     shown = [
@@ -75,6 +76,7 @@ def _people(found: Detections) -> dict[str, Rows]:
     if all(name is not None for name in found.who):
         numbers = [str(name) for name in found.who]
     elif len(np.unique(found.frames)) == len(found.frames):
+        # Nobody is seen twice in a frame: there is only one person.
         numbers = ["0"] * len(found.frames)
     else:
         numbers = _track_numbers(found)
@@ -82,6 +84,7 @@ def _people(found: Detections) -> dict[str, Rows]:
     for row, number in enumerate(numbers):
         rows.setdefault(number, []).append(row)
     return {
+        # Of several rows of a person in one frame the first counts.
         name: np.array(places)[np.unique(found.frames[places], return_index=True)[1]]
         for name, places in rows.items()
     }
@@ -94,6 +97,7 @@ def _track_numbers(found: Detections) -> list[str]:
     numbers = [0] * len(found.frames)
     last: dict[int, int] = {}  # the row of each person last seen
     count = 0
+    # First row of each frame.
     starts = np.flatnonzero(np.diff(found.frames, prepend=-1))
     for start, stop in zip(starts, [*starts[1:], len(found.frames)], strict=True):
         tracks = list(last)
@@ -102,6 +106,7 @@ def _track_numbers(found: Detections) -> list[str]:
         for column, row in enumerate(range(start, stop)):
             if tracks:
                 cost[:, column] = _strides(found, before, row)
+        # The assignment needs finite costs; pairs that are too far are dropped below.
         possible = np.where(np.isfinite(cost), cost, 1e6)
         pairs = zip(*linear_sum_assignment(possible), strict=True)
         matched = {column: tracks[k] for k, column in pairs if cost[k, column] <= 1}
@@ -110,6 +115,7 @@ def _track_numbers(found: Detections) -> list[str]:
                 matched[column] = count
                 count += 1
             numbers[row] = matched[column]
+            # Taken out and put in again: the order tells who was seen last.
             last.pop(matched[column], None)
             last[matched[column]] = row
         for who in list(last)[:-_REMEMBERED]:
@@ -121,11 +127,13 @@ def _strides(found: Detections, before: Rows, row: int) -> Floats:
     """How far a person is from where others were last, in the ways they could have gone; or inf."""
     now = found.points[row]
     with np.errstate(all="ignore"):
+        # (people, keypoints): how far each keypoint moved, nan where one was not seen.
         away = np.linalg.norm(found.points[before] - now, axis=2)
         visible = np.isfinite(away)
         mean = np.where(visible, away, 0).sum(axis=1) / visible.sum(axis=1)
         here = now[np.isfinite(now).all(axis=1)]
         size = np.ptp(here, axis=0).max() if len(here) > 1 else 0.0
+        # Somebody who was out of sight for longer may be farther away.
         passed = found.frames[row] - found.frames[before]
         strides = mean / (size * (_STRIDE + _STRAY * (passed - 1)))
     return np.asarray(np.where(np.isfinite(strides), strides, np.inf))

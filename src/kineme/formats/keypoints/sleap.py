@@ -39,12 +39,14 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
             f"{', '.join(list(found)[:8]) or 'nothing'}; give an analysis file, or a CSV"
         )
     names = texts(found.get("track_names"))
+    # Old files have tracks, axes, nodes, frames; new ones frames, tracks, nodes, axes.
     old = tracks.shape[1:3] == (2, len(nodes)) and len(names) in (0, tracks.shape[0])
     if not old and tracks.shape[2:] != (len(nodes), 2):
         raise content.error(f"tracks of shape {tracks.shape} do not go with {len(nodes)} nodes")
     positions, confidence = _arrange(content, tracks, found.get("point_scores"), old=old)
     if len(names) != len(positions):
         names = [str(i) for i in range(len(positions))]
+    # Frames in which at least one node of the track was found.
     visible = np.any(np.isfinite(positions).all(axis=3), axis=2)
     people = [
         Person(frame, positions[track, frame], confidence[track, frame], names[track])

@@ -70,6 +70,7 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     content.claim(size, f"{len(video.names)} keypoints in {n_frames} frames")
     points, confidence = _stack_people(content, people, len(video.names))
     limit = video.limit if options.confidence is None else options.confidence
+    # Not `<`, so that nan counts as unsure, too.
     unsure = ~(confidence >= limit)
     points[unsure] = np.nan
     points[~np.isfinite(points).all(axis=2)] = np.nan
@@ -127,6 +128,7 @@ def _number_frames(
     content: FileContent, video: Video, found: list[int]
 ) -> tuple[NDArray[np.intp], int]:
     """Frames counted from 0, and how many there are."""
+    # Numbers of all frames, also of those in which nobody was found.
     numbers = {*found, *video.frames}
     first, last = min(numbers), max(numbers)
     if last - first >= MOST_FRAMES_MORE * (len(numbers) + 1):
@@ -150,6 +152,7 @@ def _stack_people(content: FileContent, people: Sequence[Person], k: int) -> tup
             raise content.error(
                 f"frame {person.frame} has keypoints of shape {pose.shape}, where {k} are expected"
             )
+        # Two-dimensional keypoints get a third coordinate of 0.
         points.append(np.pad(pose, ((0, 0), (0, 3 - pose.shape[1]))))
         confidence.append(trust.ravel())
     return np.stack(points), np.stack(confidence)

@@ -146,6 +146,7 @@ def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
     described = file.parameters.strings("ANALOG", "DESCRIPTIONS")
     described = [*described, *[""] * len(names)]
+    # Channels of force plates count from 1.
     muscles = [
         name
         for number, (name, label, text, unit) in enumerate(
@@ -171,6 +172,7 @@ def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
     >>> is_muscle("L Tibialis", unit="V"), is_muscle("L Tibialis: ACC X", unit="g")
     (True, False)
     """
+    # A unit of something else, such as g or N, or a word such as `acc`, rules a muscle out.
     unit = unit.strip().lower()
     words = _words(f"{label} {description}")
     if unit not in _VOLTS | _SMALL_VOLTS | _NO_UNIT or any(map(_OTHER.fullmatch, words)):

@@ -69,6 +69,7 @@ def parse_c3d(content: FileContent) -> C3D:
     """
     parameters = read_parameters(content)
     file = Layout(content, parameters, read_header(content, parameters))
+    # One row for each frame: points first, then analog samples.
     raw = file.frames()
     n = file.n_points
     points, visible = _points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
@@ -94,12 +95,15 @@ def _analog(file: Layout, raw: Stored) -> Floats:
     per_frame = file.header.samples_per_frame or 1
     channels = int(file.parameters.number("ANALOG", "USED", total // per_frame))
     if channels <= 0 or total % channels:
+        # The samples cannot be divided among the channels.
         return np.empty((0, 0))
     values = raw.reshape(-1, channels)
     if "UNSIGNED" in file.parameters.strings("ANALOG", "FORMAT") and values.dtype.kind == "i":
+        # The same bytes, seen as unsigned.
         values = values.view(values.dtype.str.replace("i", "u"))
     scale = _repeat_per_channel(file.parameters, "SCALE", channels, 1.0)
     scale *= file.parameters.number("ANALOG", "GEN_SCALE", 1.0)
+    # Physical value = (stored - offset) * scale * general scale.
     scaled = (values - _repeat_per_channel(file.parameters, "OFFSET", channels, 0.0)) * scale
     return np.asarray(scaled, np.float64)
 
@@ -113,6 +117,7 @@ def _events(file: Layout) -> tuple[tuple[float, str], ...]:
     """Those of the EVENT group, else those of the header; times count from frame 1."""
     if file.rate == 0:
         return ()
+    # Times of events count from frame 1 of the capture, which may be cut off.
     skipped = (file.first_frame - 1) / file.rate
     found = _group_events(file.parameters) or header_events(file)
     return tuple(sorted((round(t - skipped, 6), label) for t, label in found if np.isfinite(t)))
@@ -124,6 +129,7 @@ def _group_events(parameters: Parameters) -> list[tuple[float, str]]:
     labels = parameters.strings("EVENT", "LABELS")
     contexts = _pad(parameters.strings("EVENT", "CONTEXTS"), len(labels))
     names = [f"{who} {label}".strip() for who, label in zip(contexts, labels, strict=False)]
+    # Minutes and seconds alternate.
     minutes = zip(times[::2], times[1::2], strict=False)
     return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
 
@@ -131,9 +137,11 @@ def _group_events(parameters: Parameters) -> list[tuple[float, str]]:
 def header_events(file: Layout) -> list[tuple[float, str]]:
     """Second from frame 1, and label, of the events in the first block."""
     data, kind = file.content.data, file.parameters.processor
+    # Word 150 of the header marks labels of four letters; the next word is their number.
     marker, n = np.frombuffer(data, number_type(kind, real=False), 2, 2 * 149).tolist()
     if marker != _HEADER_EVENTS:
         return []
+    # Times begin at word 153 and labels at word 199, 18 at most.
     words = np.frombuffer(data, number_type(kind, real=True), 18, 2 * 152)
     times = as_float32(words, kind).tolist()
     labels = [string(data[at : at + 4]) for at in range(2 * 198, 2 * 198 + 72, 4)]
@@ -145,6 +153,7 @@ def _points(quads: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
     positions = quads[:, :, :3].astype(np.float64)
     if quads.dtype.kind == "i":
         positions *= scale
+    # A negative residual is a point not seen.
     visible = (quads[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
     return positions, visible & positions.any(axis=2)
 
@@ -181,8 +190,10 @@ def read_header(content: FileContent, parameters: Parameters) -> Header:
     """Return the header, in the numbers of the processor that the parameters name."""
     kind = parameters.processor
     words = np.frombuffer(content.data, number_type(kind, real=False), 12)
+    # Counts are unsigned, or those beyond 32767 would be negative.
     words = words.view(words.dtype.str.replace("i", "u"))
     reals = np.frombuffer(content.data, number_type(kind, real=True), 6)
+    # The scale is the fourth real of the header, the rate the sixth.
     scale, rate = as_float32(reals, kind)[[3, 5]].tolist()
     _, points, analog, first, last, _, _, _, block, per_frame, _, _ = words.tolist()
     return Header(points, analog, first, last, scale, block, per_frame, rate)
@@ -214,12 +225,14 @@ class Layout:
         samples = channels * per_frame if channels >= 0 else header[1]
         if used == header[0] and samples == header[1]:
             return header
+        # All combinations of the two sources.
         pairs = dict.fromkeys((n, m) for n in (used, header[0]) for m in (header[1], samples))
         fitting = [pair for pair in pairs if any(pair) and self._fills(*pair)]
         remark = (
             f"the header counts {header[0]} points and {header[1]} analog samples in a frame, "
             f"the parameters {used} and {samples}"
         )
+        # Numbers of a frame: pairs of equal width are the same layout.
         widths = {4 * n + m for n, m in fitting}
         if len(fitting) == 1 or (fitting and used == header[0] and len(widths) == 1):
             n, m = fitting[0]
@@ -236,6 +249,7 @@ class Layout:
         width = (4 * n_points + per_frame) * self._kind.itemsize
         size = len(self.content.data) - self.start
         ends = (frames * width for frames in self._declared_frames())
+        # The end must lie in the last block; one more block of padding is common.
         return any(end <= size < (end // BLOCK + 2) * BLOCK for end in ends if end)
 
     @cached_property
@@ -271,6 +285,7 @@ class Layout:
             raise self.content.error("the header names no place for the data, or no points in it")
         room = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
         declared = self._declared_frames()
+        # The largest declared count that fits; if none does, all that there is.
         n = max((frames for frames in declared if 0 < frames <= room), default=room)
         if n == 0:
             raise self.content.error(
@@ -294,6 +309,7 @@ class Layout:
     def _long(self, name: str) -> int:
         """Return a count in two words, the low one first; 0 if there is none."""
         low, *high = self.parameters.numbers("TRIAL", name)[:2] or [0.0]
+        # Two words of 16 bits.
         return int(low) + (int(high[0]) << 16 if high else 0)
 
 
@@ -347,6 +363,7 @@ class Parameters:
             data, "i1" if kind == 1 else number_type(self.processor, real=False)
         )
         if not signed:
+            # The same bytes, seen as unsigned.
             integers = integers.view(integers.dtype.str.replace("i", "u"))
         return list(map(float, integers))
 
@@ -369,8 +386,10 @@ class Parameters:
         if at is None or at + 2 > len(data):
             return 0, [], b""
         kind = int.from_bytes(data[at : at + 1], signed=True)
+        # A count of dimensions, then as many dimensions of a byte each.
         shape = list(data[at + 2 : at + 2 + data[at + 1]])
         start = at + 2 + data[at + 1]
+        # The type is the size of a value; -1 is text.
         size = abs(kind) * prod(shape)
         if start + size > len(data):
             return 0, [], b""
@@ -396,6 +415,7 @@ def read_parameters(content: FileContent) -> Parameters:
         length = abs(int.from_bytes(data[at : at + 1], signed=True))
         group = int.from_bytes(data[at + 1 : at + 2], signed=True)
         after = at + 2 + length
+        # The distance to the next record is counted from its own place.
         step = int.from_bytes(data[after : after + 2], order)  # type: ignore[arg-type]
         if length == 0 or group == 0:
             break
@@ -416,6 +436,7 @@ def as_float32(values: NDArray[Any], processor: int) -> NDArray[np.float32]:
     """Return values, with DEC's floats (words exchanged, exponents larger by two) made IEEE's."""
     if processor != DEC:
         return values
+    # The two words of a float are exchanged, and the exponent is larger by two: a factor of 4.
     words = np.ascontiguousarray(values).view("<u2")
     exchanged = words.reshape(-1, 2)[:, ::-1].copy().view("<f4").reshape(values.shape)
     return np.asarray(exchanged / 4, np.float32)

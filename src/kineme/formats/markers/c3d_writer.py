@@ -92,6 +92,7 @@ def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
 
 def _is_kept(before: Parameters, after: Parameters, table: dict[str, list[Any]]) -> bool:
     """Return whether a file has the parameters that it had, and these events."""
+    # `DATA_START` is the one other parameter that may change.
     others = (
         place
         for place in before.places
@@ -143,6 +144,7 @@ def _records_with(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord
     groups = {-number: name for number, name, _ in records if number < 0}
     number = next((each for each, name in groups.items() if name == EVENT), 0)
     kept = [each for each in records if not (each[0] == number > 0 and each[1] in PER_EVENT)]
+    # The first number of a group that is free.
     if not number:
         number = next((n for n in range(1, 128) if n not in groups), 0)
         if not number:
@@ -157,6 +159,7 @@ def _records_with(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord
         ("GENERIC_FLAGS", 1, [n], bytes(each & 255 for each in table["GENERIC_FLAGS"])),
     ]
     for name in ("CONTEXTS", "LABELS", "DESCRIPTIONS", "SUBJECTS"):
+        # Texts of one parameter have one width, padded with blanks.
         width = max(1, *map(len, table[name]))
         made.append((name, -1, [width, n], b"".join(each.ljust(width) for each in table[name])))
     for name, kind, shape, values in sorted(made, key=lambda each: PER_EVENT.index(each[0])):
@@ -173,6 +176,7 @@ def _records(parameters: Parameters) -> list[RawRecord]:
         if stop is None:  # the last one does not tell where it ends
             stop = _end(data, each.number, each.values)
         raw = bytearray(data[each.start : stop])
+        # The distance is set anew: it is 0 in what used to be the last record.
         raw[each.values - 2 - each.start : each.values - each.start] = _step(
             stop - (each.values - 2), parameters.processor
         )
@@ -183,9 +187,11 @@ def _records(parameters: Parameters) -> list[RawRecord]:
 def _end(data: bytes, number: int, values: int) -> int:
     """Where a record ends whose values, or for a group its description, begin at a byte."""
     if number > 0:
+        # Type, number of dimensions, the dimensions, and then the values.
         shape = data[values + 2 : values + 2 + data[values + 1]]
         kind = int.from_bytes(data[values : values + 1], signed=True)
         values += 2 + len(shape) + abs(kind) * prod(shape)
+    # After the values comes a description, its length first.
     return values + 1 + (data[values] if values < len(data) else 0)
 
 
@@ -207,10 +213,13 @@ def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
     if room <= 0:
         raise content.error("has its data before its parameters, which cannot grow there")
     read = max((each.start for each in parameters.records), default=start)
+    # The third byte says how many blocks the section has.
     size = data[start + 2] * BLOCK
     if not read - start < size <= room:  # a count that is not true
         size = room
+    # Two zero bytes end the list of records.
     body = b"".join(raw for _, _, raw in records) + bytes(2)
+    # Rounded up to whole blocks; the section never shrinks.
     blocks = max(size, -(-(len(body) + 4) // BLOCK) * BLOCK) // BLOCK
     if blocks > 255:
         raise WriteError(content.path, "has no room for so many events among its parameters")
@@ -218,6 +227,7 @@ def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
     section = bytearray((head + body).ljust(blocks * BLOCK, b"\0"))
     grown = blocks - size // BLOCK
     header = bytearray(data[:start])
+    # All that follows moves down by so many blocks, so pointers to it grow.
     if grown:
         _move(header, 2 * 8, kind, grown)
         if header[2 * 147 : 2 * 148] == _integers([_LABELS_AND_RANGES], kind):
@@ -226,6 +236,7 @@ def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
         at = 4
         for number, name, raw in records:
             if name == "DATA_START" and number in points:
+                # Length, group and distance stand before the type.
                 length = abs(int.from_bytes(raw[:1], signed=True))
                 _move_value(section, at + 4 + length, kind, grown)
             at += len(raw)

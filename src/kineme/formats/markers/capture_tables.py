@@ -83,10 +83,12 @@ def read_capture(
     names = [name for name in columns if not is_nameless(name)] or [*columns]
     chosen = [columns[name] + axis for name in names for axis in range(3)]
     below = range(capture.below, len(lines))
+    # A blank line ends the chapter.
     end = next((i for i in below if not lines[i].strip(" ,;\t")), None)
     rows = DelimitedText(
         content, lines[:end], capture.cells, capture.below - 1, capture.below, capture.separator
     )
+    # Frames, markers, axes.
     values = rows.numbers(chosen).reshape(-1, len(names), 3)
     if program == "QTM":
         values[(values == 0).all(axis=2)] = np.nan
@@ -133,6 +135,7 @@ def _motive(content: FileContent, lines: Sequence[str]) -> Capture:
     axes = _line_of_axes(content, lines, 0)
     separator = separator_of(lines[axes])
     above = [cells_of(line, separator) for line in lines[:axes] if line.strip()]
+    # Facts are name and value in turn.
     pairs = zip(above[0][::2], above[0][1::2], strict=False)
     facts = {key.lower(): value for key, value in pairs}
     if len(above) < 4:
@@ -177,6 +180,7 @@ def _qtm(content: FileContent, lines: Sequence[str]) -> Capture:
     names = facts["MARKER_NAMES"]
     below = next((i for i, line in enumerate(lines) if is_number(line.split("\t")[0])), len(lines))
     cells = lines[below].split("\t") if below < len(lines) else []
+    # Frame and time take two columns.
     timed = len(cells) >= 3 * len(names) + 2  # frame and time stand first; a row may end in a tab
     columns = {name: 3 * i + 2 * timed for i, name in enumerate(names)}
     if len(cells) < 3 * len(names):

@@ -39,6 +39,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     names = _names(lines[3].split(separator)[2:], len(row.split(separator)) - 2)
     if not names:
         raise content.error("no marker is named after 'Frame#' and 'Time'", 4)
+    # `x y z` of each marker; the first two columns are frame and time.
     columns = ["frame", "seconds", *(f"{name}_{axis}" for name in names for axis in "xyz")]
     text = DelimitedText(content, lines, columns, 3, _HEADER_LINES, separator)
     table = text.numbers()
@@ -68,6 +69,7 @@ def _is_image(content: FileContent, head: dict[str, str], positions: Floats) -> 
 
     Sports2D states metres above pixels, and calls the file ``NAME_px_person00.trc``.
     """
+    # A flat third axis, with pixels in the name.
     is_flat = not np.nanmax(np.abs(positions[..., 2]), initial=0.0)
     words = [head.get("Units", "").lower(), *re.split(r"[\W_]", Path(content.path).stem.lower())]
     return is_flat and not {"px", "pixel", "pixels"}.isdisjoint(words)
@@ -105,6 +107,7 @@ def _names(cells: list[str], width: int) -> list[str]:
     given = [cell.strip() for cell in cells if cell.strip()]
     if given and 0 <= width - 3 * len(given) <= 1:  # a row may end in one more separator
         return given
+    # Every third cell, with blank ones at the end left out.
     triples = [cells[i].strip() for i in range(0, len(cells), 3)]
     while triples and not triples[-1]:
         triples.pop()
@@ -129,6 +132,7 @@ def _rate(
         return Timing(declared)
     timing = timing_of(content, times)
     fps = timing.fps
+    # The declared rate is taken where the times agree up to rounding.
     if abs(fps - declared) <= 0.005 * fps:
         return timing._replace(fps=declared)
     if declared > 0:

@@ -89,6 +89,7 @@ def assemble(
     lengths, ``turn`` the rotation of its axes to those with y up. The content is let go once all
     transforms are known.
     """
+    # Numbers of nodes become numbers of joints; a parent that is no joint is -1.
     number_of = {node: j for j, node in enumerate(joints)}
     parents = [number_of.get(nodes[node].parent, -1) for node in joints]
     above = carriers(nodes, joints[0])[::-1]  # topmost first
@@ -97,6 +98,7 @@ def assemble(
         found = _multiply_matrices(above, joints, parents, transform, n_frames, turn)
     content.let_go()
     rotations, offsets, slides = found
+    # Leaves that never turn and do not slide become end sites, which have no rotation.
     inner = set(parents)
     ends = [
         j
@@ -121,6 +123,7 @@ def _apply_scale(
     turn: Floats,
 ) -> Local | None:
     """Rotations as they are and bones as much longer; None where a scale is not one number."""
+    # Down through the nodes above the root: their transforms become part of the root.
     position, rotation, world, node_scale = np.zeros(3), turn, 1.0, 1.0
     for node in above:
         found = transform(node)
@@ -140,11 +143,13 @@ def _apply_scale(
         if factor is None:
             return None
         if parent < 0:
+            # The root's position in the world, in every frame.
             at = position + world * rot.rotate(rotation, found.translation)
             slides[j] = np.array(np.broadcast_to(at, (n_frames, 3)))
             rotations[:, j] = rot.multiply(rotation, found.rotation)
             scales.append((_multiply_scale(world, node_scale, factor, found.inheritance), factor))
             continue
+        # The bone is as long as the parent's scale in the world makes it.
         scale, parent_factor = scales[parent]
         rotations[:, j] = found.rotation
         scales.append((_multiply_scale(scale, parent_factor, factor, found.inheritance), factor))
@@ -154,12 +159,14 @@ def _apply_scale(
 
 def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
     """Return a node's scale in the world, from that of its parent and its own factor."""
+    # Without the parent's own factor, which is in the scale of the world.
     return world / parent * factor if inheritance == "Rrs" else world * factor
 
 
 def _factor(scale: Floats) -> float | None:
     """Return the one number that a scale is in all axes and frames, or None."""
     least, most = float(scale.min()), float(scale.max())
+    # Positive and the same in all axes and frames, up to rounding.
     if not (least > 0 and most - least <= STILL * most):
         return None
     return (least + most) / 2
@@ -170,6 +177,7 @@ def _carry(j: int, shift: Floats, offsets: Floats, slides: dict[int, Floats]) ->
     if shift.ndim == 1:
         offsets[j] = shift
         return
+    # The median is the usual place; a joint that leaves it slides.
     offsets[j] = np.median(shift, axis=0)
     if np.abs(shift - offsets[j]).max() > STILL * np.abs(offsets[j]).max():
         slides[j] = shift
@@ -184,6 +192,7 @@ def _multiply_matrices(
     turn: Floats,
 ) -> Local:
     """Positions and axes of the products of matrices."""
+    # Carriers have negative numbers, the joints theirs from 0; the ground is one below all.
     carriers = range(-len(above), 0)
     chain = [*zip(carriers, [-len(above) - 1, *carriers], above, strict=False)]
     chain += [
@@ -193,6 +202,7 @@ def _multiply_matrices(
     transforms = {number: transform(node) for number, _, node in chain}
     rotations = np.empty((n_frames, len(joints), 4))
     shifts = np.empty((len(joints), n_frames, 3))
+    # In blocks, as matrices of all frames take much memory.
     for span in blocks(n_frames):
         n = span.stop - span.start
         ground = np.broadcast_to(matrices(turn), (n, 3, 3))
@@ -210,6 +220,7 @@ def _multiply_matrices(
                 rotations[span, number] = turned[number]
                 shifts[number, span] = position
                 continue
+            # Relative to the parent's axes.
             back = rot.conjugate(turned[parent])
             rotations[span, number] = rot.multiply(back, turned[number])
             shifts[number, span] = rot.rotate(back, position - worlds[parent][2])
@@ -232,14 +243,17 @@ def _product(parent: World, found: Transform, before: Transform | None, span: sl
     axes, matrix, position = parent
     turn = matrices(_frames(found.rotation, span))
     scale = _frames(found.scale, span)
+    # The parent's scale and shear, in its own axes.
     inherited = axes.transpose(0, 2, 1) @ matrix
     if found.inheritance == "RSrs":
         product = matrix @ turn
     else:
         if found.inheritance == "Rrs" and before is not None:
+            # Without the scale that the parent itself has.
             scale = _frames(before.scale, span)
             inherited = inherited / np.where(scale == 0, 1, scale)[:, None, :]
         product = axes @ turn @ inherited
+    # Columns of the matrix are the axes: each is scaled.
     product = product * scale[:, None, :]
     place = position + np.einsum("fij,fj->fi", matrix, _frames(found.translation, span))
     return orthogonal(product), product, place
@@ -254,9 +268,11 @@ def _frames(values: Floats, span: slice) -> Floats:
 
 def orthogonal(matrices: Floats) -> Floats:
     """Right-handed orthonormal axes (frames, 3, 3), the first along that of the matrix."""
+    # Gram-Schmidt; where an axis has no length, another one stands in.
     first = _unit(matrices[:, :, 0], np.array([1.0, 0.0, 0.0]))
     second = matrices[:, :, 1]
     second = second - first * np.einsum("fi,fi->f", first, second)[:, None]
+    # Any vector that is not parallel to the first axis.
     spare = np.cross(first, np.roll(first, 1, axis=1) + np.array([0.1, 0.2, 0.4]))
     second = _unit(second, spare)
     return np.stack([first, second, np.cross(first, second)], axis=2)
@@ -272,6 +288,7 @@ def _unit(vectors: Floats, spare: Floats) -> Floats:
 
 def matrices(rotations: Floats) -> Floats:
     """Unit quaternions (..., 4) as matrices (..., 3, 3)."""
+    # The rotated unit vectors are the columns.
     axes = [rot.rotate(rotations, axis) for axis in np.eye(3)]
     return np.stack(axes, axis=-1)
 
@@ -281,9 +298,11 @@ def quaternions(axes: Floats) -> Floats:
 
     Source: S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1, 1978.
     """
+    # Four times the squares of the components follow from trace and diagonal.
     trace = np.trace(axes, axis1=1, axis2=2)
     diagonal = np.diagonal(axes, axis1=1, axis2=2)
     squares = np.column_stack([1 + trace, *(1 + 2 * diagonal - trace[:, None]).T])
+    # The largest component divides best: small ones would lose digits.
     largest = squares.argmax(axis=1)
     x = axes[:, 2, 1] - axes[:, 1, 2], axes[:, 0, 2] - axes[:, 2, 0], axes[:, 1, 0] - axes[:, 0, 1]
     xy, yz, zx = (axes[:, i, j] + axes[:, j, i] for i, j in ((0, 1), (1, 2), (2, 0)))
@@ -296,5 +315,6 @@ def quaternions(axes: Floats) -> Floats:
             np.column_stack([x[2], zx, yz, z2]),
         ]
     )
+    # The row that belongs to the largest component of each rotation.
     found = rows[largest, np.arange(len(axes))]
     return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True), np.float64)

@@ -78,10 +78,12 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
             "animation"
         )
     largest = max(map(len, skeletons))
+    # Small skeletons are props.
     bodies = [joints for joints in skeletons if len(joints) >= SMALLEST * largest]
     moving = [joints for joints in bodies if any(nodes[j].animated for j in joints)]
     bodies = moving or bodies
     people = dict(zip(_names(nodes, bodies), bodies, strict=True))
+    # A person may also be named by number.
     numbers = {str(number): name for number, name in enumerate(people)}
     name = person if person in people else numbers.get(person or "", person)
     shown = [f"{name} ({len(joints)} joints)" for name, joints in people.items()]
@@ -140,6 +142,7 @@ def _find_take(names: Sequence[str], name: str) -> int | None:
     """Return number of a take, by its name, what follows the armature's in it, or its number."""
     if name in names:
         return names.index(name)
+    # Blender writes armature and action as `armature|action`.
     short = [name.rpartition("|")[2] for name in names]
     if short.count(name) == 1:
         return short.index(name)
@@ -158,6 +161,7 @@ def bones_of(parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]
     for node, parent in enumerate(parents):
         above[node] = parent >= 0 and (above[parent] or bones[parent])
     holds_bone, bare = list(bones), list(free)
+    # Children before parents.
     for node in range(len(parents) - 1, -1, -1):
         joints[node] = bones[node] or (above[node] and (holds_bone[node] or bare[node]))
         if (parent := parents[node]) >= 0:
@@ -210,6 +214,7 @@ def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
     """Return the topmost nodes that are animated or bones, but neither in a body nor above one."""
     body = {joint for joints in bodies for joint in joints}
     body.update(above for joints in bodies for above in carriers(nodes, joints[0]))
+    # Only the topmost node of a prop is named.
     names: list[str] = []
     props: set[int] = set()
     for number, node in enumerate(nodes):

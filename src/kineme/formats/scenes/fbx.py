@@ -95,6 +95,7 @@ def _rate(
             return keys, [f"frame rate {keys:g} Hz: the file tells none, its keys are so far apart"]
         remark = f"the file tells no frame rate: {USUAL_RATE:g} Hz assumed; give fps= (--fps)"
         return USUAL_RATE, [Note(remark, "warning")]
+    # Keys closer together than frames: sampling at the file's rate drops some of them.
     if keys > 1.5 * fps:
         return fps, [f"{keys:g} keys a second are sampled at the file's {fps:g} Hz: fps= asks more"]
     return fps, []
@@ -107,6 +108,7 @@ def _rate_of_keys(scene: FBXScene, take: Take, joints: list[int]) -> float:
         if len(steps) < _EVEN_KEYS:
             continue
         usual = float(np.median(steps))
+        # Evenly spaced, up to the rounding of ticks or a thousandth of the step.
         even = np.abs(steps - usual) <= max(2 * SLACK, 1e-3 * usual)
         fps = TICKS / usual
         if even.mean() > 0.9 and SLOWEST <= fps <= FASTEST:
@@ -120,11 +122,13 @@ def _frames(scene: FBXScene, take: Take, joints: list[int], fps: float) -> Float
     start, stop = take.start, take.stop
     count = (stop - start) / TICKS * fps + 1
     room = max(MOST_SAMPLED, scene.content.room)
+    # The span of the take is missing, or absurdly long: the keys tell it.
     if stop <= start or count * BYTES_PER_JOINT * len(joints) > room:
         ends = [(times[0], times[-1]) for times in scene.key_times(take, joints)]
         start = min((first for first, _ in ends), default=0.0)
         stop = max((last for _, last in ends), default=0.0)
         count = (stop - start) / TICKS * fps + 1
+    # The end of the take may miss its last frame by rounding.
     n_frames = int(min(count + _ROUNDED, _MOST_FRAMES))
     claim_frames(scene.content, len(joints), n_frames)
     return np.asarray(start + np.arange(n_frames) * (TICKS / fps), np.float64)
@@ -143,6 +147,7 @@ def _turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]]:
     """
     if options.up is not None:
         return up_rotation(options.up), []
+    # Rows are the file's axes to the right, up and to the front.
     rows = np.zeros((3, 3))
     for row, (name, usual) in enumerate((("Coord", 0), ("Up", 1), ("Front", 2))):
         axis = int(scene.setting(f"{name}Axis", usual))
@@ -152,6 +157,7 @@ def _turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]]:
     up = int(np.abs(rows[1]).argmax())
     name = ("-" if rows[1, up] < 0 else "") + "xyz"[up]
     notes: list[str] = [] if name == "y" else [f"turned: {name} is up in the file"]
+    # A proper rotation has determinant 1; -1 is left-handed, 0 is no set of axes.
     if np.linalg.det(rows) > 0.5:
         return quaternions(rows[None]).reshape(4), notes
     remark = (

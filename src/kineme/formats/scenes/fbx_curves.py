@@ -88,6 +88,7 @@ class CurveReader:
             raise self.content.error("a curve has values that are not finite: damaged")
         flags, details = _attributes(self.content, node, len(times))
         kinds = int(np.bitwise_or.reduce(flags))
+        # Sorted, and of keys at one time only one.
         if not self._ordered:  # as editors leave keys that were moved
             times, order = np.unique(times, return_index=True)
             values, flags, details = values[order], flags[order], details[order]
@@ -98,6 +99,7 @@ class CurveReader:
         if stored is None:
             return np.empty(0)
         packed = stored.raw(self.content)
+        # Most curves have the same times, byte for byte.
         if packed != self._packed or not packed:
             self._packed, self._times = packed, stored.read(self.content).astype(np.float64)
             self._ordered = bool((np.diff(self._times) > 0).all())
@@ -115,6 +117,7 @@ def _attributes(
         flags, counts, details = np.array([LINEAR]), np.array([n_keys]), None
     with np.errstate(invalid="ignore"):
         wide = flags.astype(np.int64)
+        # Where each run of equal attributes ends.
         ends = np.cumsum(np.clip(counts, 0, n_keys).astype(np.int64))
     if details is None or len(details) != 4 * len(flags):
         table = np.zeros((len(flags), 4), np.float32)
@@ -124,6 +127,7 @@ def _attributes(
         table = details.astype("<f4").reshape(-1, 4)
     if len(flags) == 1:
         return np.broadcast_to(wide, n_keys), np.broadcast_to(table, (n_keys, 4))
+    # The run that each key is in.
     rows = np.minimum(np.searchsorted(ends, np.arange(n_keys), "right"), len(flags) - 1)
     return wide[rows], table[rows]
 
@@ -132,6 +136,7 @@ def _from_text(details: Floats) -> NDArray[np.float32]:
     """Texts have the bits of the packed weights as a whole number."""
     table = details.reshape(-1, 4).astype(np.float32)
     third = details.reshape(-1, 4)[:, 2]
+    # Whole numbers are bits of two packed weights; others are weights as they are.
     packed = (third >= 1) & (third < 2**32) & (third == np.floor(third))
     bits = np.where(packed, third, 0).astype(np.uint32).view(np.float32)
     table[:, 2] = np.where(packed, bits, table[:, 2])
@@ -155,10 +160,12 @@ class Sampler:
     def values(self, curve: Curve) -> Floats:
         """(frames,), or () where the curve is constant."""
         times, values = curve.times, curve.values
+        # A constant cubic curve may still bulge between keys, by its tangents.
         still = bool((values == values[0]).all())
         if still and not curve.kinds & CUBIC:
             return values[:1].reshape(())
         if self._are_frames(times):
+            # A key in every frame: nothing to interpolate.
             return values[:1].reshape(()) if still else values
         if len(times) == 1:
             return values.reshape(())
@@ -167,6 +174,7 @@ class Sampler:
         sampled = values[i] + share * (values[i + 1] - values[i])
         flags = curve.flags[i]
         if curve.kinds & CONSTANT:
+            # Held until the next key; with NEXT already the next value.
             constant = (flags & CONSTANT) > 0
             after = (share >= 1) | ((flags & NEXT > 0) & (share > 0))
             sampled[constant] = np.where(after, values[i + 1], values[i])[constant]
@@ -195,11 +203,14 @@ class Sampler:
 def _bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:
     """Values between the keys i and i + 1, of which so large a share has passed."""
     right, left, right_weight, left_weight = _tangents(curve)
+    # Seconds of each interval.
     step = np.diff(curve.times)[i] / TICKS
     start, stop = curve.values[i], curve.values[i + 1]
     first, last = right_weight[i], left_weight[i]
+    # Time is a Bézier curve of its own, if the inner points are not at the thirds.
     share_after = _parameter(share, first, 1 - last)
     rest = 1 - share_after
+    # Inner points of the Bézier curve: along the slopes, weight times the interval away.
     out, into = start + right[i] * first * step, stop - left[i] * last * step
     value = rest**3 * start + 3 * rest**2 * share_after * out + 3 * rest * share_after**2 * into
     return np.asarray(value + share_after**3 * stop, np.float64)
@@ -207,8 +218,10 @@ def _bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:
 
 def _parameter(share: Floats, first: Floats, second: Floats) -> Floats:
     """Where on the curve so large a share of the time has passed: halving, as it only grows."""
+    # At the thirds time is even.
     if (np.abs(first - THIRD) < 1e-3).all() and (np.abs(second - 2 * THIRD) < 1e-3).all():
         return share
+    # Bisection: time grows along the curve.
     low, high = np.zeros_like(share), np.ones_like(share)
     for _ in range(_STEPS):
         middle = (low + high) / 2
@@ -223,8 +236,10 @@ def _tangents(curve: Curve) -> tuple[Floats, Floats, Floats, Floats]:
     times, values = curve.times / TICKS, curve.values
     step = np.diff(times)
     secant = np.diff(values) / step
+    # Slopes of damaged files may be nan.
     with np.errstate(invalid="ignore", over="ignore"):
         slopes = np.nan_to_num(curve.details[:, :2].astype(np.float64))
+    # Two weights of 16 bits share the bits of one float.
     packed = np.ascontiguousarray(curve.details[:, 2]).view(np.uint32)
     flags = curve.flags
     weighted = (flags & RIGHT_WEIGHT) > 0
@@ -232,12 +247,14 @@ def _tangents(curve: Curve) -> tuple[Floats, Floats, Floats, Floats]:
     weighted = (flags & LEFT_WEIGHT) > 0
     left_weight = np.where(weighted, (packed >> 16) * _WEIGHT_UNIT, THIRD)[:-1]
     right_weight, left_weight = np.clip(right_weight, 0, 1), np.clip(left_weight, 0, 1)
+    # Slope after each key and before the next one: both are stored with the first key.
     right, left = slopes[:-1, 0], slopes[:-1, 1]
     cubic = (flags & (CONSTANT | CUBIC)) == CUBIC
     tcb = cubic & ((flags & TCB) > 0)
     automatic = cubic & ((flags & (TCB | USER)) == 0)
     left = np.where(tcb[:-1], 0.0, left)  # its details are no slopes
     if automatic.any():
+        # Slopes of automatic keys hold for both sides.
         made = _automatic(times, values, flags, right_weight, left_weight)
         right = np.where(automatic[:-1], made[:-1], right)
         left = np.where(automatic[1:], made[1:], left)
@@ -257,15 +274,18 @@ def _automatic(
     near = np.abs(rise) <= _NEAR
     clamped, progressive = (flags & CLAMPED) > 0, (flags & PROGRESSIVE) > 0
     slope = np.zeros(len(times))
+    # At the ends the slope is that of the only interval.
     ends = [0, -1]
     flat = progressive[ends] | (clamped[ends] & near[ends])
     slope[ends] = np.where(flat, 0.0, secant[ends])
     if len(times) < 3:
         return slope
     across = (values[2:] - values[:-2]) / (times[2:] - times[:-2])
+    # Secants count more, the shorter their interval is.
     share = step[:-1] / (step[:-1] + step[1:])
     blended = (across + secant[:-1] * (1 - share) + secant[1:] * share) / 2
     inner = np.where(flags[1:-1] & TIMELESS, across, blended)
+    # Towards each neighbour the tangent's end must not lie beyond the neighbour's value.
     sign = np.where(inner < 0, -1.0, 1.0)
     limit = np.full(len(inner), np.inf)
     for weight, side in ((left[:-1], slice(None, -1)), (right[1:], slice(1, None))):
@@ -273,6 +293,7 @@ def _automatic(
         most = sign * rise[side] / np.where(reach > 0, reach, np.inf)
         limit = np.minimum(limit, np.maximum(most, 0.0))
     inner = np.where(progressive[1:-1], sign * np.minimum(np.abs(inner), limit), inner)
+    # Next to a nearly equal value a clamped tangent is flat.
     slope[1:-1] = np.where(clamped[1:-1] & (near[:-1] | near[1:]), 0.0, inner)
     return slope
 
@@ -281,6 +302,7 @@ def _kochanek_bartels(curve: Curve, secant: Floats) -> tuple[Floats, Floats]:
     """(keys,) each: slopes after and before the keys, from tension, continuity and bias."""
     with np.errstate(invalid="ignore", over="ignore"):
         tension, continuity, bias = np.nan_to_num(curve.details[:, :3].astype(np.float64)).T
+    # Slope of the interval before each key, and of the one after it.
     before, after = np.r_[0.0, secant], np.r_[secant, 0.0]
     tight = (1 - tension) / 2
     tight[[0, -1]] *= 2  # there is one neighbour only

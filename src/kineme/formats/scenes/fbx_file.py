@@ -52,6 +52,7 @@ def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
     if content.data.startswith(MAGIC):
         if len(content.data) < _START:
             raise content.error("the file ends in its header: it is truncated")
+        # The version is in the four bytes before the first node.
         version = int.from_bytes(content.data[_START - 4 : _START], "little")
         _refuse_old(content, version)
         return version, _binary(content, wide=version >= WIDE)
@@ -77,6 +78,7 @@ def _binary(content: FileContent, *, wide: bool) -> FBXNode:
     data = content.data
     head = struct.Struct("<QQQB" if wide else "<IIIB")
     root = FBXNode("")
+    # A stack instead of recursion: files may be nested deeply.
     open_nodes: list[tuple[FBXNode, int]] = [(root, len(data))]
     at, nodes = _START, 0
     while open_nodes:
@@ -88,6 +90,7 @@ def _binary(content: FileContent, *, wide: bool) -> FBXNode:
             raise content.error("breaks off between two nodes: the file is truncated or damaged")
         end, count, size, length = head.unpack_from(data, at)
         at += head.size
+        # An empty node ends the list of its parent's nodes.
         if end == 0:
             if node is not root and at != stop:
                 raise content.error(f"node {node.name!r:.40} is not as long as it says: damaged")
@@ -102,6 +105,7 @@ def _binary(content: FileContent, *, wide: bool) -> FBXNode:
         child = FBXNode(name, _values(content, start, start + size, count))
         node.children.append(child)
         at = start + size
+        # What is left of the node are its own nodes.
         if at < end:
             open_nodes.append((child, end))
     return root
@@ -159,6 +163,7 @@ class _Array:
         if self.packed:
             content.claim(size, f"an array of {self.count} numbers")
             try:
+                # One byte more shows that an array is longer than it says.
                 raw = zlib.decompressobj().decompress(raw, size + 1)
             except zlib.error as error:
                 raise content.error(f"an array cannot be unpacked: {error}") from None

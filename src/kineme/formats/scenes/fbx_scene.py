@@ -117,6 +117,7 @@ class FBXScene:
             if node.name == "Model" and node.text(2) in BONES:
                 bones.add(number)
             elif node.name == "Deformer" and node.text(2) == "Cluster":
+                # Cluster deformers belong to skins; the models connected to them are bones.
                 bones |= {part for part in self._parts.get(number, ()) if self._is(part, "Model")}
         return bones
 
@@ -125,7 +126,9 @@ class FBXScene:
         found: list[Model] = []
         carried = {part for parent in self.objects for part in self._parts.get(parent, ())}
         tops = dict.fromkeys(self._parts.get(0, []))
+        # Models that nothing carries stand at the top, whether connected to the scene or not.
         tops |= dict.fromkeys(number for number in self.objects if number not in carried)
+        # Reversed, since the last one is taken first.
         waiting = [(number, -1) for number in reversed(tops)]
         visited: set[int] = set()
         while waiting:
@@ -151,6 +154,7 @@ class FBXScene:
             layers = [p for p in self._parts.get(number, ()) if self._is(p, "AnimationLayer")]
             properties = _properties(node)
             span = None
+            # The local span counts; the reference span replaces one that is missing.
             for kind in ("Local", "Reference"):
                 start, stop = (_number(properties, f"{kind}{end}", 0) for end in ("Start", "Stop"))
                 if span is None and stop > start:
@@ -256,9 +260,11 @@ class Pose:
         angles = _vector(model.properties, ROTATION)
         turn: Floats | None = None  # in place of the angles, once layers were multiplied
         for value, weight, properties in self._layers(model, ROTATION, angles):
+            # A weight of None replaces all layers before it.
             if weight is None:
                 angles, turn = value, None
             elif _choice(properties, "RotationAccumulationMode", 2) == 1:
+                # Added axis by axis, so a product is turned into angles again.
                 angles = angles if turn is None else _angles(turn, order)
                 angles = angles * (1 - weight if _replaces(properties) else 1) + value * weight
                 turn = None
@@ -266,7 +272,9 @@ class Pose:
                 turn = _euler(angles, order) if turn is None else turn
                 layer = _euler(value, order)
                 if _replaces(properties):
+                    # What is missing from the turn so far to that of the layer.
                     layer = rot.multiply(rot.conjugate(turn), layer)
+                # The weight shortens the rotation along its arc.
                 turn = rot.multiply(turn, rot.exponential(weight * rot.logarithm(layer)))
         return _euler(angles, order) if turn is None else turn
 
@@ -278,6 +286,7 @@ class Pose:
                 result = value
             elif what == SCALING and _choice(properties, "ScaleAccumulationMode", 2) == 0:
                 rest = 1 - weight if _replaces(properties) else 1
+                # Multiplied scales: shares are exponents.
                 result = np.abs(result) ** rest * np.abs(value) ** weight
             else:
                 result = result * (1 - weight if _replaces(properties) else 1) + value * weight
@@ -293,6 +302,7 @@ class Pose:
             if layer == base:
                 yield self._sample_curve(part, usual), None, table
             elif not _number(table, "Mute", 0):
+                # A layer adds nothing where it has no curve: 0, or a scale of 1.
                 rest = np.full(3, 1.0 if what == SCALING else 0.0)
                 overrides = _choice(table, "BlendMode", 3) == _OVERRIDE
                 yield (
@@ -306,6 +316,7 @@ class Pose:
         table = self.layers[layer]
         for _, part in self.tracks.get((layer, "Weight"), ()):
             for curve in self.scene.curves(part).values():
+                # Weights are per cent.
                 sampled = np.clip(np.asarray(self.sampler.values(curve)) / 100, 0, 1)
                 return sampled[:, None] if sampled.ndim else float(sampled)
         return min(max(_number(table, "Weight", 100.0) / 100, 0.0), 1.0)
@@ -332,6 +343,7 @@ def _euler(angles: Floats, axes: str) -> Floats:
     """Return rotation (..., 4) by angles about x, y and z in degrees, multiplied in this order."""
     order = ["xyz".index(axis) for axis in axes]
     if angles.ndim == 1:
+        # The angles in the order of the axes in the product.
         return rot.from_euler(np.radians(angles[None, order]), axes).reshape(4)
     turned = np.empty((4, len(angles)))
     for span in blocks(len(angles)):
@@ -343,6 +355,7 @@ def _angles(turn: Floats, axes: str) -> Floats:
     """Angles about x, y and z in degrees whose rotations, multiplied in this order, are these."""
     from scipy.spatial.transform import Rotation  # heavy, and seldom needed
 
+    # SciPy puts w last.
     columns = Rotation.from_quat(np.roll(turn, -1, axis=-1)).as_euler(axes.upper(), degrees=True)
     return np.asarray(columns[..., [axes.index(axis) for axis in "xyz"]], np.float64)
 
@@ -351,6 +364,7 @@ def _add_pivots(properties: Properties, shift: Floats, turn: Floats, scale: Floa
     """Return the translation with what pivots and their offsets add to it."""
     shift = shift + _vector(properties, "RotationOffset")
     pivot, center = _vector(properties, "RotationPivot"), _vector(properties, "ScalingPivot")
+    # Everything that the rotation carries, as seen from its pivot.
     carried = _vector(properties, "ScalingOffset") - pivot
     if center.any():
         carried = carried + center - scale * center
@@ -386,6 +400,7 @@ def _properties(node: FBXNode | None) -> Properties:
     table = node.child("Properties70") if node else None
     if table is None:
         return {}
+    # Name, two types and flags come before the values.
     return {entry.text(0): entry.values[4:] for entry in table.all("P")}
 
 
@@ -411,6 +426,7 @@ def _vector(properties: Properties, name: str, usual: float = 0.0) -> Floats:
 
 def _plain(name: str) -> str:
     """An object's name without its class, which binary files have behind it, texts before it."""
+    # Binary files write `name\0\1class`, texts `class::name`.
     name = name.partition("\0\1")[0]
     head, mark, tail = name.partition("::")
     return tail if mark and head.isidentifier() else name

@@ -40,6 +40,7 @@ class _Text:
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
+        # In bytes throughout: places in the file are bytes.
         self.data = content.text.encode("utf-8") if content.is_utf16 else content.data
         self.root = FBXNode("")
         self.open_nodes = [self.root]
@@ -55,6 +56,7 @@ class _Text:
             raise content.error(f"the '}}' of {self.open_nodes[-1].name!r:.40} is missing")
 
     def _error(self, reason: str, at: int) -> ReadError:
+        # Lines are counted only for messages.
         return self.content.error(reason, self.data.count(b"\n", 0, at) + 1)
 
     def _take(self, match: re.Match[bytes]) -> None:
@@ -103,6 +105,7 @@ def _unquote(quoted: bytes) -> str:
 def _word(word: bytes) -> int | float | str:
     for number in (int, float):
         try:
+            # Cut to some digits: a text of millions of digits takes long to convert.
             return number(word[:_LONGEST])
         except ValueError:
             continue

@@ -76,6 +76,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
     bones = {joint for skin in file.tree.skins for joint in skin.joints}
     moved = [
         {
+            # Only translations, rotations and scales move joints; weights of meshes do not.
             target.node
             for target in (channel.target for channel in animation.channels)
             if target.path in _WIDTHS and target.node is not None
@@ -136,12 +137,14 @@ def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
     """Return numbers of the nodes, parents first, and the place of each one's parent among them."""
     nodes = file.tree.nodes
     carried = {child for node in nodes for child in node.children}
+    # Nodes that nobody has as a child are tops; reversed, since the last one is taken first.
     waiting = [(number, -1) for number in reversed(range(len(nodes))) if number not in carried]
     order: list[int] = []
     parents: list[int] = []
     visited: set[int] = set()
     while waiting:
         number, parent = waiting.pop()
+        # Circles and numbers beyond the list occur in damaged files.
         if number in visited or not 0 <= number < len(nodes):
             continue
         visited.add(number)
@@ -165,11 +168,13 @@ def _keys(file: GLTFFile, animation: Animation, nodes: set[int]) -> dict[tuple[i
         if node is None or node not in nodes or what not in _WIDTHS:
             continue
         sampler = file.part(animation.samplers, channel.sampler, "sampler")
+        # Samplers share their times.
         if sampler.input not in times:
             times[sampler.input] = file.array(sampler.input)[:, 0]
             if (np.diff(times[sampler.input]) <= 0).any():
                 raise file.content.error("the times of keys are in no order: damaged")
         values = file.array(sampler.output)
+        # A cubic key has a value and two tangents.
         count = len(times[sampler.input]) * (3 if sampler.interpolation == "CUBICSPLINE" else 1)
         if values.shape != (count, _WIDTHS[what]):
             raise file.content.error(f"{what} of node {node} has other keys than times: damaged")
@@ -188,10 +193,12 @@ def _rate(
     fps = settings.get("fps") if isinstance(settings, dict) else None
     if isinstance(fps, int | float) and SLOWEST <= fps <= FASTEST:
         return float(fps), []
+    # The longest list of times, in which an uneven spacing would show.
     times = max((each.times for each in keys.values()), key=len, default=np.empty(0))
     steps = np.diff(times)
     if len(steps) > 1 and np.abs(steps / steps.mean() - 1).max() <= _EVEN:
         fps = len(steps) / float(times[-1] - times[0])
+        # A whole rate, if it does not miss the last key by more than the slack.
         near = abs(fps / max(round(fps), 1) - 1) * len(steps) <= SLACK  # at the last key, too
         fps = float(round(fps)) if near else round(fps, 3)
         if SLOWEST <= fps <= FASTEST:
@@ -222,6 +229,7 @@ def _rest(node: SceneObject) -> dict[str, Floats]:
     if node.matrix is not None and len(node.matrix) == 16:
         matrix = np.array(node.matrix).reshape(4, 4).T  # columns are stored one after another
         scale = np.linalg.norm(matrix[:3, :3], axis=0)
+        # A reflection: it belongs to the scale, so that the axes are a rotation.
         if np.linalg.det(matrix[:3, :3]) < 0:
             scale = -scale
         axes = orthogonal((matrix[:3, :3] / np.where(scale == 0, 1, scale))[None])
@@ -244,6 +252,7 @@ def _sample_channel(keys: Keys, at: Floats, *, turns: bool) -> Floats:
     """Values at these seconds, (frames, 3); rotations as (frames, 4), w first."""
     times, values = keys.times, keys.values
     cubic = keys.interpolation == "CUBICSPLINE"
+    # (keys, 3, width): tangent into the key, value, tangent out of it.
     tangents = values.reshape(len(times), 3, -1) if cubic else values[:, None]
     if turns:
         tangents = np.roll(tangents, 1, axis=-1)  # w first
@@ -262,6 +271,7 @@ def _sample_channel(keys: Keys, at: Floats, *, turns: bool) -> Floats:
             found = np.where(share[:, None] >= 1, stop, start)
         elif cubic:
             step = np.diff(times)[index]
+            # Out of the key before, into the key after.
             out, into = tangents[index, 2], tangents[index + 1, 0]
             found = _hermite(start, stop, out, into, share[:, None], step[:, None])
         elif turns:
@@ -276,6 +286,7 @@ def _hermite(
 ) -> Floats:
     """Cubic values between keys with slopes at both ends."""
     square, cube = share**2, share**3
+    # Hermite's basis: both values, and both slopes times the interval.
     first, last = 2 * cube - 3 * square + 1, 3 * square - 2 * cube
     slopes = (cube - 2 * square + share) * out + (cube - square) * into
     return np.asarray(first * start + last * stop + step * slopes, np.float64)

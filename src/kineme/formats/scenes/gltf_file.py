@@ -197,6 +197,7 @@ class GLTFFile:
             place = accessor.buffer_view, accessor.byte_offset
             stored = self._stored_array(number, *place, shape, code)
         if (sparse := accessor.sparse) is not None:
+            # The array is a view of the file's bytes, which must not change.
             stored = stored.copy()
             kind = COMPONENTS.get(sparse.indices.component_type, "<f4")
             where, what = sparse.indices, sparse.values
@@ -210,6 +211,7 @@ class GLTFFile:
             )
         values = stored.astype(np.float64)
         if accessor.normalized and stored.dtype.kind in "iu":
+            # Normalized integers: the largest is 1, the least is cut to -1 (section 3.6.2.2).
             values = np.maximum(values / np.iinfo(stored.dtype).max, -1.0)
         if not np.isfinite(values).all():
             raise self.content.error(f"accessor {number} has values that are not finite: damaged")
@@ -224,13 +226,16 @@ class GLTFFile:
             raise self.content.error("its keys are packed by meshopt: export them unpacked")
         data = self._buffer(view.buffer)
         size, (count, width) = np.dtype(code).itemsize, shape
+        # Without a stride the elements follow each other.
         step = view.byte_stride or size * width
         start = view.byte_offset + offset
         stop = min(view.byte_offset + view.byte_length, len(data))
         if min(view.byte_offset, offset) < 0 or count < 1 or step < size:
             raise self.content.error(f"accessor {number} is nowhere in its buffer: damaged")
+        # The last element needs its size only, not a whole stride.
         if start + (count - 1) * step + size * width > stop:
             raise self.content.error(f"accessor {number} is longer than its buffer: truncated")
+        # A view with strides: interleaved attributes are read without a copy.
         return np.ndarray(shape, code, data, start, (step, size))
 
     def _buffer(self, number: int) -> bytes:
@@ -247,6 +252,7 @@ class GLTFFile:
             except (binascii.Error, ValueError):
                 raise self.content.error("a buffer is no base64: damaged") from None
         name = unquote(place)
+        # Only files in the folder of the glTF or below: others are none of its business.
         if Path(name).is_absolute() or ".." in Path(name).parts or ":" in name:
             raise self.content.error(f"has a buffer in {name!r:.60}: put that file beside it")
         data = load(find_beside(self.content, name)).data

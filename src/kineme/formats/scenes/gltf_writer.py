@@ -134,11 +134,14 @@ class _Writer:
         skeleton = self.skeleton
         places = place_at_rest(skeleton)
         vertices, faces, joints = _bones(skeleton, places)
+        # As small an integer as holds the numbers of all joints.
         kind = np.uint8 if skeleton.n_joints <= 256 else np.uint16
         bound = np.zeros((len(vertices), 4), kind)
+        # Up to four joints may carry a vertex; one is enough here, with all of the weight.
         bound[:, 0] = joints
         weights = np.zeros((len(vertices), 4))
         weights[:, 0] = 1.0
+        # Inverse matrices of the pose without rotations: only the places are taken off.
         inverse = np.tile(np.eye(4), (skeleton.n_joints, 1, 1))
         inverse[:, 3, :3] = -places  # its columns one after another
         code = _BYTE if kind is np.uint8 else _SHORT
@@ -164,6 +167,7 @@ class _Writer:
         """Add a motion of the same skeleton, and its rotations."""
         skeleton, n = self.skeleton, motion.n_frames
         shifts = local_translations(skeleton, motion.positions, turns)
+        # Joints whose translation changes, or differs from their offset.
         slides = np.abs(shifts - skeleton.offsets).max(axis=(0, 2)) > RIGID
         seconds = self._accessor(np.arange(n)[:, None] / motion.fps, _KEYS, bounds=True)
         channels: list[dict[str, Any]] = []
@@ -177,6 +181,7 @@ class _Writer:
             if slides[j] or skeleton.parents[j] < 0:
                 add(j, "translation", shifts[:, j])
             if j not in skeleton.end_sites:
+                # The format has w last.
                 add(j, "rotation", np.roll(_steady(turns[:, j]), -1, axis=1))
         self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
 
@@ -190,6 +195,7 @@ class _Writer:
         if target is not None:
             view["target"] = target
         self.data += stored.tobytes()
+        # Accessors must begin at multiples of four bytes.
         self.data += bytes(-len(self.data) % 4)
         self.tree["bufferViews"].append(view)
         accessor: dict[str, Any] = {
@@ -198,6 +204,7 @@ class _Writer:
             "count": len(stored),
             "type": _TYPES[stored.shape[1]],
         }
+        # The format demands the extent of times and positions.
         if bounds:
             accessor |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
         self.tree["accessors"].append(accessor)
@@ -206,7 +213,9 @@ class _Writer:
 
 def _steady(turns: Floats) -> Floats:
     """Rotations with the signs that keep successive quaternions near each other."""
+    # A negative product: the next quaternion is nearer with its sign turned.
     flips = np.einsum("fc,fc->f", turns[1:], turns[:-1]) < 0
+    # An odd number of turns so far turns the sign.
     signs = np.r_[1.0, np.where(np.cumsum(flips) % 2, -1.0, 1.0)]
     return np.asarray(turns * signs[:, None], np.float64)
 
@@ -220,6 +229,7 @@ def _bones(
     joints: list[int] = []
     for j in range(skeleton.n_joints):
         tips = [places[child] for child in skeleton.children[j]]
+        # A bone without a child gets a short one, so that it can be seen.
         if not tips and j not in skeleton.end_sites:
             tips = [places[j] + [0.0, SHORT, 0.0]]
         for tip in tips:
@@ -227,13 +237,16 @@ def _bones(
             length = float(np.linalg.norm(bone))
             if length < RIGID:
                 continue
+            # At right angles to the bone, from the axis that is least along it.
             side = np.cross(bone, np.eye(3)[np.abs(bone).argmin()])
             side *= THICK * length / np.linalg.norm(side)
             other = np.cross(bone, side) / length
+            # The widest part lies at a fifth of the bone, as in Blender.
             ring = [places[j] + 0.2 * bone + x * side + y * other for x, y in _RING]
             start = len(vertices)
             vertices += [places[j], *ring, tip]
             joints += [j] * 6
+            # Triangles from the joint to the ring, and from the ring to the tip.
             for k in range(4):
                 here, after = start + 1 + k, start + 1 + (k + 1) % 4
                 faces += [(start, after, here), (start + 5, here, after)]

@@ -97,6 +97,7 @@ def read_usd(content: FileContent, options: ReadOptions) -> Motion:
 
 def serve() -> None:
     """Answer `read_usd`, from standard input to standard output: a motion or an error."""
+    # The answer goes to the real standard output, and what the library prints to standard error.
     answer = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what the library prints
     path, options = pickle.load(sys.stdin.buffer)  # noqa: S301 (written by `read_usd`)
@@ -195,6 +196,7 @@ class _Skeleton:
         """Return the animations that move joints of it, the one bound to it first."""
         joints = set(self.joints)
         found = [each for each in animations if joints & set(map(str, _joints(each)))]
+        # False sorts before True: the bound animation first; the others keep their order.
         return sorted(found, key=lambda each: each.GetPrim() != self.bound)
 
     def pose(self, animation: Any, codes: Floats) -> list[Transform]:
@@ -210,6 +212,7 @@ class _Skeleton:
             shift, turn, scale = (part[0] for part in rest[:3])
             if (at := places.get(joint)) is not None:
                 shift = shift if shifts is None else shifts[:, at]
+                # Parts that the animation does not have are as at rest.
                 turn = turn if turns is None else rot.normalize(turns[:, at])
                 scale = scale if scales is None else scales[:, at]
             found.append(Transform(shift, turn, scale))
@@ -231,6 +234,7 @@ def _nodes(
         nodes.append(SceneNode(name, -1, bone=False, geometry=False, animated=False))
         for j, (joint, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
             homes[len(nodes)] = skeleton, carrier + 1
+            # Joints without a parent hang on the carrier; others are counted from the first joint.
             place = carrier if parent < 0 else carrier + 1 + parent
             bound = bool(skeleton.bound)
             nodes.append(SceneNode(joint, place, True, False, bound, skeleton.is_end(j)))
@@ -244,10 +248,12 @@ def _frames(
     attributes = (
         animation.GetTranslationsAttr(), animation.GetRotationsAttr(), animation.GetScalesAttr(),
     )  # fmt: skip
+    # The property with most samples tells when these are.
     samples = max((each.GetTimeSamples() for each in attributes), key=len)
     a_second = stage.GetTimeCodesPerSecond()
     times = np.array(samples or [0.0], np.float64)
     steps = np.diff(times)
+    # Time codes between two samples.
     usual = float(np.median(steps)) if len(steps) else 1.0
     notes: list[str] = []
     if options.fps is not None:
@@ -282,6 +288,7 @@ def _values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | 
         if found is None or len(found) != joints:
             return None
         values[frame] = np.asarray(found)
+    # NumPy views of USD's quaternions have w last.
     return np.roll(values, 1, axis=-1) if width == 4 else values
 
 
@@ -296,8 +303,10 @@ def _carrier(xformable: Any, codes: Floats) -> Transform:
 
 def _transform(matrices: Floats) -> Transform:
     """Of matrices (frames, 4, 4) that multiply rows, as USD's do."""
+    # Rows become columns, as all other code has them.
     axes = matrices[:, :3, :3].transpose(0, 2, 1)
     scale = np.linalg.norm(axes, axis=1)
+    # A reflection: it belongs to the scale, so that the axes are a rotation.
     scale = np.where(np.linalg.det(axes)[:, None] < 0, -scale, scale)
     turns = quaternions(orthogonal(axes / np.where(scale == 0, 1, scale)[:, None, :]))
     return Transform(matrices[:, 3, :3], turns, scale)

@@ -77,6 +77,7 @@ def _check_sublayers(content: FileContent, layers: list[Any]) -> None:
 
     for layer in layers:
         stack = [layer]
+        # The list grows while it is gone through.
         for each in stack:
             stack += [Sdf.Layer.FindRelativeToLayer(each, name) for name in each.subLayerPaths]
             if len(stack) > MOST_SUBLAYERS:

@@ -35,6 +35,7 @@ def write_usd(motion: Motion, path: Path) -> None:
     warn_of_gaps([motion], path)
     skeleton = motion.skeleton
     names = spell_names(path, skeleton.names, str.strip)
+    # Names in paths are identifiers, and unique.
     words = unique(Tf.MakeValidIdentifier(name) for name in names)
     joints: list[str] = []
     for word, parent in zip(words, skeleton.parents, strict=True):

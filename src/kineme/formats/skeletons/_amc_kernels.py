@@ -50,6 +50,7 @@ def after_number(text, at, value):
             mantissa = 10 * mantissa + (sign - ZERO)
             digits += 1
             decimals += point
+            # Beyond these a quotient of exact numbers may round differently from `float`.
             if mantissa >= EXACT or digits == len(TENS):
                 return NOT_HERE
         elif sign == POINT and not point:
@@ -88,6 +89,7 @@ def read_rows(text, names, ends, counts, rows):
                 at = after_name(text, at, names[first : ends[bone]])
             first = ends[bone]
             for _ in range(counts[bone]):
+                # Once something is missing, the rest of the bone is passed over.
                 if at != NOT_HERE:
                     at = word_at(text, at)
                 if at != NOT_HERE:

@@ -99,6 +99,7 @@ def find_skeleton(path: Path) -> Path:
     or beside it.
     """
     parts = path.stem.split("_")
+    # The whole name first, then without its last part, and so on.
     stems = ["_".join(parts[:n]).lower() for n in range(len(parts), 0, -1)]
     candidates: list[Path] = []
     for folder in (path.parent, path.parent / "asf", path.parent.parent / "asf"):
@@ -137,16 +138,20 @@ def _local(
     skeleton = figure.skeleton
     n = len(next(iter(values.values())))
     rotations = np.empty((n, skeleton.n_joints, 4))
+    # In blocks that stay in the cache.
     for span in blocks(n):
         turned = np.zeros((skeleton.n_joints, 4, span.stop - span.start))
         turned[:, 0] = 1.0
         for name, bone in figure.bones.items():
+            # The axis named first acts first, so it is the last factor of the product.
             turns = [i for i, dof in enumerate(bone.dof) if dof[0] == "r"][::-1]
             axes = "".join(bone.dof[i][1] for i in turns)
             local = rot.from_euler(turn * values[name][span][:, turns], axes)
+            # The preset orientation acts first.
             if name == ROOT:
                 local = rot.multiply(local, bone.frame)
             else:
+                # C R C^-1, with C the frame of the bone.
                 local = rot.multiply(rot.multiply(bone.frame, local), rot.conjugate(bone.frame))
             turned[skeleton.joint(name)] = local.T
         rotations[span] = turned.transpose(2, 0, 1)
@@ -160,6 +165,7 @@ def _local(
         if name == ROOT:
             slides[j] = figure.scale * (bone.position + slid)
         elif slid.any():
+            # Translations are along the axes of the bone's frame.
             slides[j] = skeleton.offsets[j] + figure.scale * rot.rotate(bone.frame, slid)
     return rotations, slides
 
@@ -192,6 +198,7 @@ def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floa
         labels = rows[:, 0]
         first = following if blocks else labels[0]
         following = first + len(labels)
+        # Frames must be numbered without a gap, over all chunks.
         if not np.array_equal(labels, np.arange(first, following)):
             return None
         blocks.append(rows)
@@ -201,6 +208,7 @@ def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floa
 def _chunks(data: bytes, start: int) -> Iterator[bytes]:
     """Yield the text from ``start`` on, in chunks of whole frames."""
     while start < len(data):
+        # Cut before a line that is a frame's number.
         after = _FRAME.search(data, start + CHUNK)
         stop = after.start() if after else len(data)
         yield data[start:stop]
@@ -235,14 +243,17 @@ def _rows(text: bytes, layout: Layout) -> Floats | None:
         if rows is not None:
             return rows
     words = text.split()
+    # Words of a frame: its number, and a name and values for each bone.
     n_words = 1 + sum(1 + count for count in layout.values())
     if len(words) % n_words:
         return None
     rows = np.empty((len(words) // n_words, 1 + sum(layout.values())))
     try:
+        # Every n-th word is a frame's number.
         rows[:, 0] = list(map(int, words[::n_words]))
         at, column = 1, 1
         for name, count in layout.items():
+            # The name of the bone must be in its place in every frame.
             if words[at::n_words].count(name.encode()) != len(rows):
                 return None
             for i in range(count):
@@ -261,6 +272,7 @@ def _compiled_rows(text: bytes, layout: Layout) -> Floats | None:
     names = [name.encode() for name in layout]
     shortest = 2 * (1 + len(names) + int(counts.sum()))  # a word is a sign and a space at least
     rows = np.empty((len(text) // shortest + 1, 1 + int(counts.sum())))
+    # Spaces at both ends, as the kernel expects.
     found = read_rows(
         np.frombuffer(bytearray(b"\n" + text + b"\n"), np.uint8),
         np.frombuffer(bytearray(b"".join(names)), np.uint8),
@@ -273,6 +285,7 @@ def _compiled_rows(text: bytes, layout: Layout) -> Floats | None:
 
 def _split_by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict[str, Floats]:
     """Return the values of each bone, none where it is not named."""
+    # Column 0 is the number of the frame.
     ends = np.cumsum([1, *layout.values()])
     columns = dict(zip(layout, starmap(slice, pairwise(ends.tolist())), strict=True))
     return {
@@ -311,6 +324,7 @@ def _line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str,
             _add_bone(frames[-1], words, figure)
         except ValueError as error:
             fault = content.error(str(error), number)
+            # Only a fault in the last line is what a cut file looks like.
             if number < last:
                 raise fault from None
     try:

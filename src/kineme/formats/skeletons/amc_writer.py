@@ -54,11 +54,13 @@ def write_amc(motion: Motion, path: Path) -> None:
     if moving:
         raise WriteError(path, f"end site {motion.skeleton.names[moving[0]]!r} moves on its bone")
     bones = _bones(motion.skeleton, slides, path)
+    # Values of translations are what is added to the offsets, but the root has none.
     shift = (translations - motion.skeleton.offsets) / UNIT
     shift[:, 0] = translations[:, 0] / UNIT
     blocks = []
     for bone in bones:
         if bone.joint is not None:
+            # `rx ry rz`: the columns z, y, x in reverse.
             parts = [shift[:, bone.joint]] * bone.slides + [angles[:, bone.joint, ::-1]]
             rows = table(np.concatenate(parts, axis=1))
             blocks.append([f"{bone.name} {row}" for row in rows])
@@ -77,6 +79,7 @@ def _bones(skeleton: Skeleton, slides: NDArray[np.bool_], path: Path) -> list[Bo
     hangs_on = {0: ROOT}
     for j in inner:
         offsets = skeleton.offsets[list(skeleton.children[j])].reshape(-1, 3)
+        # A bone has one tip: it can carry children only if all are at the same place.
         shared = j > 0 and len(offsets) > 0 and bool((offsets == offsets[0]).all())
         tip = offsets[0] if shared else np.zeros(3)
         parent = "" if j == 0 else hangs_on[j]

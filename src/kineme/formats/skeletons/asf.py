@@ -92,6 +92,7 @@ def _skeleton(
         offsets.append(np.zeros(3) if parent is None else bones[parent].tip)
         at[name] = len(names)
         names.append(name)
+        # A leaf of some length ends in an end site.
         if name not in inner and bones[name].tip.any():
             above.append(len(names) - 1)
             offsets.append(bones[name].tip)
@@ -160,6 +161,7 @@ def _from_root(content: FileContent, parents: dict[str, str], bones: dict[str, B
     order, waiting = [], [ROOT]
     while waiting:
         order.append(waiting.pop())
+        # Reversed, since the last one is taken first.
         waiting.extend(reversed(children[order[-1]]))
     reached = set(order)
     lost = [name for name in bones if name not in reached]
@@ -228,6 +230,7 @@ def _frame(content: FileContent, line: int, words: list[str], turn: float) -> Fl
     if sorted(letters) != ["x", "y", "z"]:
         raise content.error(f"axis order {letters!r} is not made of X, Y and Z", line)
     angles = dict(zip("xyz", read_values(content, line, words[:3], 3), strict=True))
+    # The first letter acts first, so it is the last factor of the product.
     inner_first = letters[::-1]
     turns = np.array([[turn * angles[letter] for letter in inner_first]])
     frame: Floats = rot.from_euler(turns, inner_first)[0]

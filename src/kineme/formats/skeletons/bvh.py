@@ -71,6 +71,7 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
 def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch | None:
     """So many frames of a BVH file at most, evenly apart; None where it has no more than those."""
     head = _head(content, options)
+    # Division rounded up.
     every = -(-head.declared // most)
     values = read_some(content.data, head.start, head.width, every) if every > 1 else None
     if values is None or len(values) != -(-head.declared // every):
@@ -135,15 +136,18 @@ def _local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Float
     """Rotations (frames, joints, 4); where joints slide, (frames, 3) each, file units."""
     rotations = np.empty((len(values), len(joints), 4))
     slides = {
+        # Channels of positions replace the offset, axis by axis.
         j: np.tile(joint.offset, (len(values), 1))
         for j, joint in enumerate(joints)
         if any(kind == "position" for _, kind in joint.channels)
     }
     for span in blocks(len(values)):
+        # One contiguous row for each channel.
         columns = np.ascontiguousarray(values[span].T)
         turned = np.zeros((len(joints), 4, columns.shape[1]))
         turned[:, 0] = 1.0
         at = 0
+        # Columns of the values follow the joints in order.
         for j, joint in enumerate(joints):
             turns, axes = [], ""
             for axis, kind in joint.channels:
@@ -256,6 +260,7 @@ class _Hierarchy:
         if not declared.isdecimal() or len(declared) > 18:
             raise self.content.error(f"CHANNELS needs a number, found {declared[:40]!r}", line)
         channels = []
+        # A joint has as many channels as it declares.
         for _ in range(int(declared)):
             word = self._next()[0]
             match = _CHANNEL.fullmatch(word)
@@ -311,12 +316,15 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         joined += apart
         values.extend(row)
         if row and len(row) != width:
+            # Lines of another width are only right if all numbers together make the declared
+            # frames.
             odd.append((number, len(row)))
     if odd and (fault or len(values) != width * declared):
         number, found = odd[0]
         fault = content.error(f"{found} values, but the hierarchy has {width} channels", number)
         if number < last or found > width:
             raise fault
+        # The last line broke off: its values are taken out again.
         del values[-found:]
     if not values:
         raise fault or content.error("the file ends before its first frame: there is no motion")
@@ -343,6 +351,7 @@ def _lines(data: bytes, start: int) -> Iterator[bytes]:
     """Yield the lines from ``start`` on, without the blank ones at the end; a chunk at a time."""
     stop = _end(data, start)
     while start < stop:
+        # Cut after a line break, so that no line is parted.
         cut = min(data.find(b"\n", start + CHUNK) + 1 or stop, stop)
         yield from data[start:cut].splitlines()
         start = cut
@@ -350,6 +359,7 @@ def _lines(data: bytes, start: int) -> Iterator[bytes]:
 
 def _end(data: bytes, start: int) -> int:
     """Where blanks and empty lines follow only."""
+    # From the end in chunks, since most files end in few blanks.
     for at in range(len(data), start, -CHUNK):
         first = max(start, at - CHUNK)
         if kept := data[first:at].rstrip():

@@ -78,6 +78,7 @@ def _hierarchy(
     open_joints: list[int] = []
     yield "HIERARCHY"
     for j in order:
+        # Close joints until the one that is open is the parent.
         while open_joints and open_joints[-1] != skeleton.parents[j]:
             yield "\t" * depths[open_joints.pop()] + "}"
         depths[j] = depth = depths[skeleton.parents[j]] + 1
@@ -96,6 +97,7 @@ def _hierarchy(
 
 def _depth_first(motion: Motion) -> Iterator[int]:
     children = motion.skeleton.children
+    # Reversed, since the last one is taken first.
     waiting = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0][::-1]
     while waiting:
         joint = waiting.pop()

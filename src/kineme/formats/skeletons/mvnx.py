@@ -81,6 +81,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         provenance = provenance.of_person(who, called)
     if not subject.values["orientation"]:
         positions = metres(options.unit or "m") * upright(positions, options.up or "z")
+        # The frame in which the body is highest.
         tallest = positions[np.ptp(positions[:, :, 1], axis=1).argmax()]  # bones at full length
         offsets = tallest - np.where(np.array(parents)[:, None] < 0, tallest, tallest[parents])
         skeleton = Skeleton(tuple(names), tuple(parents), offsets)
@@ -93,11 +94,13 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         raise content.error("orientations are not all numbers")
     world = world / lengths
     local, offsets = world.copy(), np.zeros((len(names), 3))
+    # From the world's rotations to those relative to the parent.
     for joint, parent in enumerate(parents):
         if parent >= 0:
             back = rot.conjugate(world[:, parent])
             local[:, joint] = rot.multiply(back, world[:, joint])
             apart = rot.rotate(back, positions[:, joint] - positions[:, parent])
+            # Bones of a suit change a little: the median is the usual offset.
             offsets[joint] = np.median(apart, axis=0)
     return place(
         Skeleton(tuple(names), tuple(parents), offsets),

@@ -70,6 +70,7 @@ def place(
         turn = up_rotation(up)
         skeleton = replace(skeleton, offsets=rot.rotate(turn, skeleton.offsets))
         for span in blocks(len(rotations)):
+            # The turn changes the axes of the world and of the joints alike: conjugation.
             rotations[span] = rot.multiply(rot.multiply(turn, rotations[span]), rot.conjugate(turn))
             positions[span] = rot.rotate(turn, positions[span])
     return Motion(skeleton, positions, fps, rotations, provenance)

@@ -32,6 +32,7 @@ def pair_scores(samples, costs, i, start, scale, worst, found):
             found[j] += difference * difference
     cost, others = costs[i], costs[start : start + len(found)]
     for j in range(len(found)):
+        # Far pairs have a limited loss, so a single bad sample does not end a path.
         found[j] = max(1 - found[j] / (scale * scale) - (cost + others[j]) / 2, worst)
 
 
@@ -59,6 +60,7 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
     records = np.full((3, n), -1, np.int64)
     passes = np.full((3, n), -1, np.int64)
     since = np.zeros((3, n), np.int64)  # the first sample, or that of the latest pair passed
+    # The first entries only give the lists their types.
     found = [(0, 0, 0, 0, np.int64(-1), 0.0)]
     passed = [(0, 0, np.int64(-1))]
     for i in range(n):
@@ -66,12 +68,14 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
         # Pairs nearer than the gap hold scores of an earlier row.
         for j in range(max(i + gap - 3, 0), min(i + gap, n)):
             scores[row, j] = 0
+        # A step must not lead into the start of a span; nor may a passed sample be one.
         go, skip = i > 0 and not begins[i], i > 1 and not (begins[i] or begins[i - 1])
         near, far = min(i + gap, n), min(i + width + 1, n)
         pair_scores(samples, costs, i, near, scale, worst, line[near:far])
         for j in range(near, far):
             # The best way here: a new path, or one of three steps.
             score = line[j]
+            # A new path starts with its first pair.
             best, source, column = score, -1, -1
             if go and not begins[j]:
                 before = scores[one, j - 1]
@@ -79,6 +83,7 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
                     best, source, column = before + score, one, j - 1
                 before = scores[one, j - 2]
                 if not begins[j - 1] and before > 0 and before + 1.5 * score > best:
+                    # The passed sample's pair counts half as much again.
                     best, source, column = before + 1.5 * score, one, j - 2
                 before = scores[two, j - 1]
                 if skip and before > 0 and before + 1.5 * score > best:
@@ -100,6 +105,7 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
                 elif best > found[record][5]:
                     found[record] = (first // n, first % n, i, j, latest, best)
             # Every leg leaves a pair behind, so that the path can be followed in legs.
+            # A leg is measured in samples of the first side.
             if i - start >= leg:
                 passed.append((i, j, latest))
                 latest, start = np.int64(len(passed) - 2), i
@@ -158,6 +164,7 @@ def follow(samples, costs, ends, scale, worst):
         if steps[i, j] == 1:
             i, j = i - 1, j - 1
         elif steps[i, j] == 2:
+            # The passed sample lies between the pairs: half a sample before this one.
             other_partners[j - 1] = i0 + i - 0.5
             other_sums[j - 1] = (scores[i, j] + scores[i - 1, j - 2]) / 2
             i, j = i - 1, j - 2
@@ -198,7 +205,9 @@ def recurrences(
     # All that paths through the middle give, in order of their gain.
     for path in row_paths[row_ptr[middle] : row_ptr[middle + 1]]:
         first = starts[path]
+        # `sums[base + sample]` belongs to a sample of the path.
         base = ptr[path] - first
+        # The part of the span that the path covers.
         low, high = max(start, first), min(stop, first + ptr[path + 1] - ptr[path])
         if high - low < cover * length:
             continue
@@ -209,8 +218,10 @@ def recurrences(
             high -= 1
         if high - low < cover * length:
             continue
+        # Sums up to a sample: their difference is the gain of the part.
         score = sums[base + high - 1] - (sums[base + low - 1] if low > first else 0.0)
         begin, end = round(partners[base + low]), round(partners[base + high - 1]) + 1
+        # The partner lies outside the span, and has half of its length at least.
         if score > 0 and (end <= start or begin >= stop) and 2 * (end - begin) >= length:
             place = n  # among those found before, the strongest first
             while place > 0 and gains[place - 1] < score:
@@ -228,7 +239,9 @@ def recurrences(
         clear = True
         for other in range(count):
             clear = clear and (end <= spans[other, 0] or begin >= spans[other, 1])
+        # In whole numbers: at least 4/5 of the samples are free.
         if clear and 5 * set_in(free, begin, end) >= 4 * (end - begin):
+            # `spans` is compacted in place; `count` never passes k.
             for column in range(4):
                 spans[count, column] = spans[k, column]
             gains[count] = gains[k]
@@ -250,6 +263,7 @@ def largest(values, count):
 @njit("void(float64[::1], float64[::1], int64, int64)", **OPTIONS)
 def renew(tops, values, start, stop):
     """Set the largest value of each block that holds some of these places."""
+    # All blocks that the places touch; the last one may be incomplete.
     for block in range(start // BLOCK, (stop + BLOCK - 1) // BLOCK):
         first = block * BLOCK
         tops[block] = values[first + largest(values[first:], min(BLOCK, len(values) - first))]
@@ -271,6 +285,7 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
     """
     n, sizes = len(free), len(lengths)
     most = 0
+    # No sample has more paths than this: room for all recurrences of a span.
     for i in range(n):
         most = max(most, row_ptr[i + 1] - row_ptr[i])
     spans, gains = np.empty((most, 4), np.int64), np.empty(most)
@@ -283,6 +298,7 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
     for start in range(n):
         for k in range(sizes):
             stop = start + lengths[k]
+            # Spans with taken samples keep a gain of 0.
             if stop <= n and set_in(free, start, stop) == lengths[k]:
                 totals[start, k] = recurrences(
                     start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover,
@@ -306,11 +322,14 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
             covered, stop = stop, start  # of the span, the part that any partner matches
             for other in range(count):
                 covered, stop = min(covered, spans[other, 2]), max(stop, spans[other, 3])
+            # The span itself gets the gain of its best recurrence.
             found.append((covered, stop, gains[largest(gains, count)], rank))
             for other in range(count):
                 found.append((spans[other, 0], spans[other, 1], gains[other], rank))  # noqa: PERF401
+            # The span and its recurrences, which were appended last.
             for covered, stop, _, _ in found[-1 - count :]:
                 free[covered:stop] = False
+                # Spans that begin up to the longest length before it can reach into it.
                 for begin in range(max(covered - lengths[sizes - 1] + 1, 0), stop):
                     for k in range(sizes):  # spans that reach into it gain nothing
                         totals[begin, k] *= begin + lengths[k] <= covered

@@ -47,15 +47,18 @@ def explain_variance(poses, path, visits, centered):
         product = mean_square = 0.0
         for p in range(places):
             for d in range(dims):
+                # The sum of all, less itself, is that of the others.
                 mean[p, d] = (total[p, d] - centered[k, p, d]) / (count - 1)
                 product += centered[k, p, d] * mean[p, d]
                 mean_square += mean[p, d] * mean[p, d]
+        # A negative factor would turn the mean round: 0 is the least.
         size = max(product, 0.0) / max(mean_square, 1e-12)
         # What is left of each frame: the mean is interpolated at the place that it has reached.
         first, last = visits[k], visits[k + 1]
         length = max(path[last] - path[first], 1e-12)
         residuals = np.empty((last - first, dims))
         for f in range(first, last):
+            # Places are at the middles of their parts, hence half a place less.
             phase = (path[f] - path[first]) / length * places - 0.5
             low = min(max(int(np.floor(phase)), 0), places - 1)
             high = min(low + 1, places - 1)
@@ -64,6 +67,7 @@ def explain_variance(poses, path, visits, centered):
                 fitted = mean[low, d] * (1 - share) + mean[high, d] * share
                 residuals[f - first, d] = poses[f, d] - size * fitted
         # Variances of what is left and of the poses, each about its mean.
+        # The variance begins just above 0, so that it can divide.
         residual, variance = 0.0, 1e-12
         for d in range(dims):
             expected[d] = rest[d] = 0.0
@@ -74,6 +78,7 @@ def explain_variance(poses, path, visits, centered):
                 residual += (residuals[f - first, d] - rest[d]) ** 2
                 variance += (poses[f, d] - expected[d]) ** 2
         noise = (count - 1) / count  # the mean of few others has noise of its own
+        # A repetition that the mean makes worse counts as unexplained; frames weigh the same.
         left += min(residual * noise / variance, 1.0) * (last - first)
     return 1 - left / (visits[-1] - visits[0])
 
@@ -93,6 +98,7 @@ def _left(rows, total, start, stop):
             product += mean * rows[k, e]
             mean_square += mean * mean
             square += rows[k, e] * rows[k, e]
+        # Squares left by the best multiple, corrected for the noise of the mean of few others.
         left += (square - max(product, 0.0) ** 2 / max(mean_square, 1e-12)) * (count - 1) / count
     return left
 
@@ -118,6 +124,7 @@ def best_parting(centered):
     one_mean = _left(rows, sums[count], 0, count)
     best = 1.0
     for cut in range(LEAST, count - LEAST + 1):
+        # Both parts have as many repetitions as a movement needs.
         two_means = _left(rows, sums[cut], 0, cut)
         two_means += _left(rows, sums[count] - sums[cut], cut, count)
         best = min(best, (two_means + rough) / (one_mean + rough))
@@ -135,12 +142,14 @@ def spread(view, start, stop, most):
     total = 0.0
     for i in range(count):
         for j in range(i):
+            # Evenly spread samples of the span.
             a, b = start + i * (stop - start) // count, start + j * (stop - start) // count
             square = 0.0
             for d in range(view.shape[1]):
                 difference = view[a, d] - view[b, d]
                 square += difference * difference
             total += np.sqrt(square)
+    # The mean over all ordered pairs is twice the sum over count²; half of it is left.
     return (stop - start) * total / max(count * count, 1)
 
 
@@ -168,6 +177,7 @@ def similarities(movements):
                 apart = 0.0
                 for p in range(places):
                     for d in range(dims):
+                        # Phases go round: beyond the end is the beginning.
                         difference = movements[k, (p + by) % places, d] - movements[other, p, d]
                         apart += difference * difference
                 least = min(least, apart)

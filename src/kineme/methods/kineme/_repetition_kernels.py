@@ -40,6 +40,7 @@ def turning_points(row, least):
     count = low = high = 0  # columns of the lowest and highest value since the last turn
     rising = falling = False
     for c in range(len(row)):
+        # Lowest and highest columns since the last turn follow the row.
         low = c if row[c] < row[low] else low
         high = c if row[c] > row[high] else high
         if not rising and row[c] - row[low] >= least:
@@ -51,6 +52,7 @@ def turning_points(row, least):
                 turns[count] = high
                 count += 1
             rising, falling, low = False, True, c
+    # A row that still falls ends with a lowest.
     if falling or count == 0:
         turns[count] = low
         count += 1
@@ -66,6 +68,7 @@ def dips(distances, least):
     ``least``, and those lowest at either end of the row, do not count.
     """
     rows, columns = distances.shape
+    # Between two dips lies a higher column, so at most about half of the columns are dips.
     depths = np.zeros((rows, columns // 2 + 1), np.float32)
     lowest = np.zeros((rows, columns // 2 + 1), np.int64)
     for r in range(rows):
@@ -82,9 +85,11 @@ def dips(distances, least):
             for t in range(n - 1):
                 if abs(row[turns[t + 1]] - row[turns[t]]) < climb:
                     at, climb = t, abs(row[turns[t + 1]] - row[turns[t]])
+            # An even turn is a low; of a high (odd) its following low goes.
             found[count], where[count] = climb, turns[at + at % 2]
             count += 1
             n -= 2
+            # Later turns move up by two.
             for t in range(at, n):
                 turns[t] = turns[t + 2]
         # The last low is the deepest dip: it is as deep as the row is high.
@@ -101,6 +106,7 @@ def dips(distances, least):
             if found[i] >= least[r] and 0 < where[i] < columns - 1:
                 depths[r, place], lowest[r, place] = found[i], where[i]
                 place += 1
+            # Not to be taken again.
             found[i] = -FAR
     return depths, lowest
 
@@ -116,6 +122,7 @@ def smooth_rows(rows, smoothing):
             sums[f + 1, d] = sums[f, d] + rows[f, d]
     poses, speeds = np.empty((n, dims)), np.empty(n)
     for f in range(n):
+        # Fewer rows at the ends, where neighbours are missing.
         before, after = max(f - smoothing, 0), min(f + smoothing, n - 1)
         for d in range(dims):
             poses[f, d] = (sums[after + 1, d] - sums[before, d]) / (after + 1 - before)
@@ -133,6 +140,7 @@ def smooth_rows(rows, smoothing):
 def poses_at(poses, path, lengths):
     """Return the poses at these lengths along the path."""
     found = np.empty((len(lengths), poses.shape[1]))
+    # Binary search for the frame before this length.
     for i in range(len(lengths)):
         low, high = 0, len(path)  # the first frame that is farther
         while low < high:
@@ -166,6 +174,7 @@ def measure_unexplained(repetitions, centering):
                 mean[d] += repetitions[k, p, d]
         for p in range(places):
             for d in range(dims):
+                # `mean` holds sums, hence the division by places.
                 value = repetitions[k, p, d] - mean[d] * (centering / places)
                 rows[k, p * dims + d] = value
                 total[p * dims + d] += value
@@ -178,6 +187,7 @@ def measure_unexplained(repetitions, centering):
             product += rows[k, each] * rest
             square += rows[k, each] * rows[k, each]
             other += rest * rest
+        # The square of a correlation that is not positive counts as 0; the floor avoids 0 / 0.
         found[k] = 1 - max(product, 0.0) ** 2 / max(square * other, 1e-24)
     return found
 
@@ -190,6 +200,7 @@ def repetitions_between(poses, path, visits, places):
     for k in range(len(found)):
         first, last = path[visits[k]], path[visits[k + 1]]
         for p in range(places):
+            # Middles of equal parts of the path.
             lengths[p] = first + (last - first) * ((p + 0.5) / places)
         reached = poses_at(poses, path, lengths)
         for p in range(places):
@@ -202,6 +213,7 @@ def repetitions_between(poses, path, visits, places):
 def upper_median(values):
     """Return the middle value, the upper one of two."""
     ordered = np.empty(len(values))
+    # Insertion sort: a division has few repetitions.
     for k in range(len(values)):
         place = k
         while place > 0 and ordered[place - 1] > values[k]:
@@ -236,6 +248,7 @@ def scatter(repetitions, mean):
             for d in range(dims):
                 difference = repetitions[k, p, d] - mean[p, d]
                 total += difference * difference
+    # One degree of freedom less, since the mean is of the same repetitions.
     return total / (places * max(count - 1, 1))
 
 
@@ -264,11 +277,13 @@ def match_columns(gains, full):
     while row >= 0:
         share = min(max(gains[row, column] / full, 0.0), 1.0)
         bent = max(sums[row, column + 1], sums[row + 1, column])
+        # The same comparison as forward: which step gave the largest sum here.
         if 2 * gains[row, column] + sums[row + 1, column + 1] >= 3 * gains[row, column] + bent:
             count, row, column = count + share, row - 1, column - 1
         elif sums[row, column + 1] >= sums[row + 1, column]:
             count, row, column = count + share, row - 2, column - 1
         else:
+            # A step of two columns counts the column that it passes over, too.
             count, row, column = count + 2 * share, row - 1, column - 2
     return length, count
 
@@ -279,6 +294,7 @@ def steps_inside(begin, step, places, number, path_length):
     lengths = np.empty(number)
     count = 0
     for i in range(number):
+        # A negative step goes backwards from `begin`.
         length = begin + (i + 0.5) / places * step
         if 0 <= length <= path_length:
             lengths[count] = length
@@ -298,6 +314,7 @@ def follow_end(poses, path, lengths, mean, near, full):
     ``near``, and counts in full up to ``full``.
     """
     reached = poses_at(poses, path, lengths)
+    # Gains begin at `near`, from which the squared distance is subtracted.
     gains = np.full((len(reached), len(mean)), near)
     for i in range(len(reached)):
         for j in range(len(mean)):
@@ -328,6 +345,7 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
     lengths = np.empty(count)
     for k in range(count):
         lengths[k] = path[visits[k + 1]] - path[visits[k]]
+    # The floor avoids a division by 0 where the path stands still.
     length = max(upper_median(lengths), 1e-12)
     inner = repetitions_between(poses, path, visits, places)
     mean = mean_repetition(inner)
@@ -339,6 +357,7 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
     full = FARTHEST * near
     if count > 1:
         full = min(scattered * scatter(inner, mean), full)
+    # Backwards, so the mean is reversed as well.
     to_head, in_head = follow_end(poses, path, before, np.ascontiguousarray(mean[::-1]), near, full)
     to_tail, in_tail = follow_end(poses, path, after, mean, near, full)
     head, tail = to_head / places, to_tail / places
@@ -346,6 +365,7 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
     outside = max(first - head * length, 0.0) + max(total_length - last - tail * length, 0.0)
     number = count + head + tail
     if count == 1:  # one repetition is compared with the rest, which goes on at the beginning
+        # Evenly from the last visit on; beyond the end of the path it goes on at its beginning.
         ahead = np.empty(places)
         for p in range(places):
             ahead[p] = last + (total_length - length) * ((p + 0.5) / places)
@@ -357,7 +377,9 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
             for d in range(poses.shape[1]):
                 both[0, p, d], both[1, p, d] = inner[0, p, d], reached[p, d]
         inner = both
+    # Of both only the repetition itself counts.
     shares = measure_unexplained(inner, centering)[:count]
+    # Path in the two ends: neither between visits nor outside of all repetitions.
     inside = max(total_length - outside - lengths.sum(), 0.0)
     total = (shares.sum() / count * inside + outside) / total_length
     for k in range(count):  # a short repetition counts as much as one of mean length
@@ -368,6 +390,7 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
 @njit("void(float32[:, ::1], float64, float64[::1])", **OPTIONS)
 def pose_at(rows, at, found):
     """Return the row at a time between two rows, in frames; the first or last one beyond them."""
+    # Beyond the ends the first or last row.
     before = min(max(int(np.floor(at)), 0), len(rows) - 1)
     after = min(before + 1, len(rows) - 1)
     share = min(max(at - before, 0.0), 1.0)
@@ -381,6 +404,7 @@ def evenly_in_time(rows, starts, lengths, places):
     found = np.empty((len(starts), places, rows.shape[1]))
     for k in range(len(starts)):
         for p in range(places):
+            # Frames are centred on their middles, hence half a frame less.
             at = starts[k] + lengths[k] * ((p + 0.5) / places) - 0.5
             pose_at(rows, at, found[k, p])
     return found
@@ -395,6 +419,7 @@ def best_length(rows, stop, shortest, longest, mean):
     for length in range(shortest, longest + 1):
         misfit = 0.0
         for p in range(places):
+            # From the start of the span, which is its stop less its length.
             pose_at(rows, stop - length + length * ((p + 0.5) / places) - 0.5, pose)
             for d in range(dims):
                 difference = pose[d] - mean[p, d]

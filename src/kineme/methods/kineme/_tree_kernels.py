@@ -22,6 +22,7 @@ def similarity_band(features, unit, start, stop, similarity):
         for lag in range(width):
             j = i + lag
             if j >= n:
+                # Beyond the last sample there is nothing to be similar to.
                 similarity[i, lag] = 0.0
                 continue
             square = np.float32(0.0)
@@ -122,6 +123,7 @@ def _distance(sums, lengths, g, h, spread_share):
 
     ``sums`` are summed distances of the samples of each two clusters, ``lengths`` their numbers.
     """
+    # `sums[g, g]` has all n² ordered pairs, those of a sample with itself included.
     within = sums[g, g] / lengths[g] ** 2 + sums[h, h] / lengths[h] ** 2
     return sums[g, h] / (lengths[g] * lengths[h]) - spread_share * within / 2
 
@@ -133,6 +135,7 @@ def _distance(sums, lengths, g, h, spread_share):
 def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
     """Return the cluster whose distance to cluster g is least, and that distance."""
     apart[g] = np.inf
+    # A cluster is alive if it is named after itself.
     for h in range(len(lengths)):
         if h != g and owner[h] == h:
             distance = _distance(sums, lengths, g, h, spread_share)
@@ -169,6 +172,7 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_sh
             for g in range(k):
                 if owner[g] == g:
                     cost += sums[g, g] / (2 * lengths[g])
+                # Neighbours of one cluster are one segment.
                 if g == 0 or owner[g] != owner[g - 1]:
                     cost += segment_cost
             if cost < cheapest:
@@ -180,9 +184,11 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_sh
         # Join the two nearest clusters: h becomes part of g.
         g = int(np.argmin(apart))
         h = nearest[g]
+        # The smaller number stays the owner.
         if h < g:
             g, h = h, g
         lengths[g] += lengths[h]
+        # Never the nearest any more: h is a part of g.
         apart[h] = np.inf
         for other in range(k):
             sums[g, other] += sums[h, other]

@@ -21,7 +21,6 @@ from kineme.methods.segments import make_columns
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
-    from kineme.methods.region_growing.neighbors import NeighborGraph
 
 Frames = NDArray[np.int64]
 
@@ -121,13 +120,6 @@ class KinemeFound:
         parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
         sums = tree.sum_between_segments(self.features, borders, self.unit) / 2
         return FineSegments(borders, np.arange(len(parents)), parents, sums), frames
-
-    @cached_property
-    def graph(self) -> NeighborGraph:
-        """Neighbours of every sample, for pictures: within half the median distance."""
-        from kineme.methods.region_growing.neighbors import neighbor_graph
-
-        return neighbor_graph(self.features, radius=0.5 * self.unit, k=PICTURED)
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
         """Return a sentence for each cluster, count or border of low confidence, at most five.

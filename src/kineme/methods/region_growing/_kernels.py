@@ -15,11 +15,13 @@ from kineme._util.parallel import OPTIONS
 def group_pairs(indptr, indices, by_later):
     """Stored pairs grouped by their later frame, or by their earlier one; holds the other."""
     n = len(indptr) - 1
+    # Counting sort: how many pairs each frame has, then where its pairs begin.
     grouped = np.zeros(n + 1, np.int64)
     for i in range(n):
         for e in range(indptr[i], indptr[i + 1]):
             key = max(i, indices[e]) if by_later else min(i, indices[e])
             grouped[key + 1] += 1
+    # Next free place of each frame's pairs.
     position = np.empty(n, np.int64)
     for i in range(n):
         position[i] = grouped[i]
@@ -55,6 +57,7 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
     start = last = still = found = 0
     for i in range(1, n):
         for e in range(indptr[i], indptr[i + 1]):
+            # Pairs with both frames in the square from `start` to i.
             found += earlier[e] >= start
         counts[i] = found
         if counts[i] != counts[i - 1]:
@@ -62,9 +65,11 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
             continue
         still += 1
         if still == min_gap:
+            # A region that holds too little goes on instead of being cut.
             if most(counts, last, i) > min_count:
                 last = i - still
                 start = i
+                # The new square begins with the pairs of frame i alone.
                 found = 0
                 for e in range(indptr[i], indptr[i + 1]):
                     found += earlier[e] >= start
@@ -83,10 +88,12 @@ def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
     counts = np.full(n, -1, np.int64)
     end = last = n - 1
     still = found = 0
+    # From the last frame but one back: there is no later frame to pair the last with.
     for i in range(n - 2, -1, -1):
         for e in range(indptr[i], indptr[i + 1]):
             found += later[e] <= end
         counts[i] = found
+        # At a forward cut another activity ends: the region begins anew there.
         restart = forward_cuts[i]
         if not restart:
             if counts[i] != counts[i + 1]:
@@ -138,9 +145,11 @@ def scan_lines_backward(indptr, indices, forward_cuts, min_gap, min_count):
             end = i
             region = still = 0
         elif still >= min_gap and region > min_count:
+            # The last frame (seen backward) that had a neighbour.
             end = i + still
             cuts.append(end)
             region = still = 0
+    # Found from the end, returned in order of time.
     return np.array(cuts[::-1], dtype=np.int64)
 
 
@@ -161,6 +170,7 @@ def coherent_paths(ptr, rows, columns, share):
     n = len(ptr) - 1
     coherent = np.zeros(n, np.bool_)
     for p in range(n):
+        # A path may be its own mirror image, so q runs over all paths.
         p_rows, p_columns = rows[ptr[p] : ptr[p + 1]], columns[ptr[p] : ptr[p + 1]]
         needed = share * len(p_rows)
         for q in range(n):
@@ -199,13 +209,16 @@ def linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
     for p in range(len(ptr) - 1):
         path_rows, path_columns = rows[ptr[p] : ptr[p + 1]], columns[ptr[p] : ptr[p + 1]]
         low, high = path_columns[0], path_columns[-1]
+        # Segments share their border frame, so the one that ends at `low` counts as well.
         h = max(np.searchsorted(borders, low, side="right") - 2, 0)
         while h < len(borders) - 1 and borders[h] <= high:
             first, last = borders[h], borders[h + 1]
+            # 2014: all rows of the path. 2017: only those between the borders of h.
             row_low, row_high = path_rows[0], path_rows[-1]
             if interpolate:
                 row_low = row_of_column(path_rows, path_columns, first)
                 row_high = row_of_column(path_rows, path_columns, last)
+            # Frames of h that the path passes, both ends included, as a share of h.
             of_h = (min(last, high) - max(first, low) + 1) / (last - first + 1)
             of_g = (min(g_last, row_high) - max(g_first, row_low) + 1) / (g_last - g_first + 1)
             if min(of_h, of_g) >= coverage:

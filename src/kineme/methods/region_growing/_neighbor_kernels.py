@@ -56,13 +56,16 @@ def screen_columns(product, row_limits, column_norms, starts, stops, columns, co
     A column j passes if ``column_norms[j] - 2 product[i, j] <= row_limits[i]``,
     in float32.
     """
+    # Single precision throughout: a literal 2 would make the expression double.
     two = np.float32(2)
     for i in range(product.shape[0]):
         limit = row_limits[i]
         count = 0
+        # Most runs hold no near column: they are left after one vectorised count.
         for first in range(starts[i], stops[i], RUN):
             last = min(first + RUN, stops[i])
             hits = 0
+            # The sides are |y|² - 2 x·y, and r² - |x|² with its margin.
             for j in range(first, last):
                 hits += column_norms[j] - two * product[i, j] <= limit
             if hits:
@@ -97,6 +100,7 @@ def measure_columns(rows, others, radius, first_column, columns, counts):
                 square += difference * difference
             distance = np.sqrt(square)
             if distance <= radius:
+                # Columns of the block become columns of the graph.
                 indices[kept] = first_column + j
                 distances[kept] = distance
                 kept += 1
@@ -122,7 +126,9 @@ def nearest_mask(indptr, distances, k):
             continue
         for e in range(count):
             values[e] = distances[first + e]
+        # The k-th smallest distance of the row.
         limit = smallest(values, count, k - 1) if k > 0 else np.float32(-1)
+        # How many entries at exactly that distance are still to be kept.
         ties = k
         for e in range(first, first + count):
             ties -= distances[e] < limit
@@ -145,6 +151,7 @@ def copy_restricted(
     kept = 0
     for i in range(indptr.shape[0] - 1):
         for e in range(indptr[i], indptr[i + 1]):
+            # Every entry is written, and the place only moves on if it is kept: no branch.
             out_indices[kept] = indices[e]
             out_distances[kept] = distances[e]
             kept += distances[e] <= radius and abs(indices[e] - i) >= min_lag

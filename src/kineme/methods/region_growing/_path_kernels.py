@@ -27,6 +27,7 @@ def box_rows(indptr, indices, row_start, row_stop, column_start, column_stop):
     node = np.zeros(rows + 1, np.int64)
     for r in range(rows):
         row = indices[indptr[row_start + r] : indptr[row_start + r + 1]]
+        # Rows are sorted, so the nodes inside the box are one slice.
         low = np.searchsorted(row, column_start)
         first[r] = indptr[row_start + r] + low
         node[r + 1] = node[r] + np.searchsorted(row, column_stop) - low
@@ -36,6 +37,7 @@ def box_rows(indptr, indices, row_start, row_stop, column_start, column_stop):
 @njit("Tuple((int64, int64))(int32[::1], int64[::1], int64[::1])", **OPTIONS)
 def used_columns(indices, first, node):
     """First column with a node, and how many from there hold all: what a ring must span."""
+    # The largest number of an index stands for no column yet.
     low, high = np.int64(np.iinfo(np.int32).max), np.int64(-1)
     for r in range(len(first)):
         nodes = node[r + 1] - node[r]
@@ -48,10 +50,12 @@ def used_columns(indices, first, node):
 @njit("Tuple((int32[::1], int64, int64))(int64[:, ::1], int64)", **OPTIONS)
 def empty_ring(steps, width):
     """Return the ring, the length of its rows, and how far steps reach to the left."""
+    # As many rows as the longest step goes back, plus the current one.
     depth, reach = 1, 0
     for s in range(len(steps)):
         depth = max(depth, steps[s, 0] + 1)
         reach = max(reach, steps[s, 1])
+    # Room to the left, so that a step never leaves its row.
     return np.full(depth * (width + reach), -1, np.int32), width + reach, reach
 
 
@@ -67,8 +71,10 @@ def enter_row(ring, line, slots, r, indices, first, node, steps, offset):
     ``ring[looks[s] + j]``, or -1.
     """
     depth = len(ring) // line
+    # The row's place in the ring; column j is at `here + j`.
     here = (r % depth) * line + offset
     if r >= depth:
+        # Only entries that were set are cleared: cheaper than a whole row.
         old = r - depth
         for e in range(first[old], first[old] + node[old + 1] - node[old]):
             ring[here + indices[e]] = -1
@@ -76,6 +82,7 @@ def enter_row(ring, line, slots, r, indices, first, node, steps, offset):
     for v in range(node[r], node[r + 1]):
         ring[here + indices[v + shift]] = v
     for s in range(len(steps)):
+        # Place of column j of the row from which step s comes, less the columns that it goes.
         slots[s] = ((r - steps[s, 0]) % depth) * line + offset - steps[s, 1]
 
 
@@ -83,6 +90,7 @@ def enter_row(ring, line, slots, r, indices, first, node, steps, offset):
 def component_roots(indices, first, node, steps, column_start, width):
     """``roots[v]``: the first node of the weakly connected component of v."""
     n = node[-1]
+    # Union-find over nodes; a root has the smallest number of its component.
     parents = np.empty(n, np.int32)
     ring, line, reach = empty_ring(steps, width)
     slots = np.empty(len(steps), np.int64)
@@ -94,15 +102,18 @@ def component_roots(indices, first, node, steps, column_start, width):
             root = np.int32(v)
             for slot in slots:
                 u = ring[slot + j]
+                # A step of (0, b) looks into the same row, where later nodes are not yet known.
                 if u < 0 or u >= v:
                     continue
                 up = parents[u]
                 if up == root:
                     continue
+                # Path halving: nodes on the way to the root are attached to their grandparents.
                 while up != u:
                     parents[u] = parents[up]
                     u = parents[u]
                     up = parents[u]
+                # The smaller root wins, so a root is the first node of its component.
                 if u < root:
                     if root < v:
                         parents[root] = u
@@ -110,6 +121,7 @@ def component_roots(indices, first, node, steps, column_start, width):
                 else:
                     parents[u] = root
             parents[v] = root
+    # Parents come first, so one pass leaves the root everywhere.
     for v in range(n):
         parents[v] = parents[parents[v]]
     return parents
@@ -139,10 +151,12 @@ def cheapest_arrivals(
         enter_row(ring, line, slots, r, indices, first, node, steps, reach - column_start)
         shift = first[r] - node[r]
         for v in range(node[r], node[r + 1]):
+            # Too small components are not worth a path.
             if not valid[roots[v]]:
                 continue
             j = indices[v + shift]
             best = np.inf
+            # The component begins in this row: a path may begin here at no cost.
             if roots[v] >= node[r]:
                 best = 0.0
                 origins[v] = j
@@ -151,8 +165,10 @@ def cheapest_arrivals(
                 if u >= 0 and costs[u] + penalties[s] < best:
                     best = costs[u] + penalties[s]
                     before[v] = u
+            # The path keeps the column of its first node.
             if before[v] >= 0:
                 origins[v] = origins[before[v]]
+            # Equal poses have a cost as well, so that a longer path is never free.
             distance = np.float64(distances[v + shift])
             costs[v] = best + (distance if distance > 0 else zero_cost)
     return costs, before, origins
@@ -170,6 +186,7 @@ def survey_components(roots, node, min_nodes):
             root = roots[v]
             counts[root] += 1
             last_rows[root] = r
+            # The root is the first node, so an earlier row means two rows or more.
             valid[root] = root < node[r] and counts[root] >= min_nodes
     return valid, last_rows
 
@@ -197,6 +214,7 @@ def choose_ends(roots, valid, last_rows, costs, origins, node, separation):
                 if roots[v] == roots[end] and costs[v] < costs[end]:
                     end = v
             ends.append(end)
+            # Ends of other components, and of this one those whose paths begin far enough away.
             rest = [
                 v
                 for v in rest
@@ -226,6 +244,7 @@ def paths_in_box(
         zero_cost,
     )  # fmt: skip
     ends = choose_ends(roots, valid, last_rows, costs, origins, node, separation)
+    # Lengths of the paths, found by going back, become pointers.
     ptr = np.zeros(len(ends) + 1, np.int64)
     for p in range(len(ends)):
         v = ends[p]
@@ -237,7 +256,9 @@ def paths_in_box(
     columns = np.empty(ptr[-1], np.int32)
     for p in range(len(ends)):
         v = ends[p]
+        # Filled from the end, since predecessors lead backwards.
         for position in range(ptr[p + 1] - 1, ptr[p] - 1, -1):
+            # Row of a node: the last row that begins at or before it.
             r = np.searchsorted(node, v, side="right") - 1
             rows[position] = row_start + r
             columns[position] = indices[v + first[r] - node[r]]

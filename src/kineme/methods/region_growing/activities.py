@@ -64,6 +64,7 @@ def square_cuts(
         Frames; of two peaks no farther apart the higher stays.
     """
     n = len(graph)
+    # Grouped by their later frame (True), at which the square takes them in.
     indptr, earlier = _kernels.group_pairs(graph.indptr, graph.indices, True)
     counts = _kernels.grow_squares_forward(indptr, earlier, min_gap, min_count)
     forward = _peaks(counts, min_count, min_distance)
@@ -71,6 +72,7 @@ def square_cuts(
     mask[forward] = True
     indptr, later = _kernels.group_pairs(graph.indptr, graph.indices, False)
     counts = _kernels.grow_squares_backward(indptr, later, mask, min_gap, min_count)
+    # The peak is where the region was given up; it stopped growing `min_gap` frames later in time.
     backward = np.minimum(_peaks(counts, min_count, min_distance) + min_gap, n - 1)
     return ActivityCuts(forward, backward)
 
@@ -105,10 +107,13 @@ def _peaks(counts: Cuts, min_height: int, min_distance: int) -> Cuts:
     In descending height a peak kept removes those within ``min_distance``.
     """
     changes = np.flatnonzero(np.diff(counts))
+    # Rises that are followed by a fall; equal counts between them are a plateau.
     rises = np.diff(counts)[changes] > 0
+    # The frame after the rise, where the plateau begins.
     peaks = changes[:-1][rises[:-1] & ~rises[1:]] + 1
     peaks = peaks[counts[peaks] > min_height]
     kept: list[int] = []
+    # Highest first; stable, so of equal peaks the earlier one is kept.
     for peak in peaks[np.argsort(-counts[peaks], kind="stable")]:
         if all(abs(peak - other) > min_distance for other in kept):
             kept.append(int(peak))

@@ -84,8 +84,11 @@ def analyze_regions(
         off_diagonal = _growth_graph(graph, preset)
         cuts = _activity_cuts(off_diagonal, preset)
         borders = _borders(cuts.all, len(graph))
+        # Neighbours of each frame within its own segment; their sum tells whether a segment
+        # repeats.
         inner = _kernels.inner_neighbors(off_diagonal.indptr, off_diagonal.indices, borders)
         repeats = _repeats(borders, cuts, np.add.reduceat(inner, borders[:-1]), preset)
+        # Share of the frames of each segment that have a neighbour in it.
         repetition = np.add.reduceat(inner > 0, borders[:-1]) / np.diff(borders)
     with stage("primitives"):
         divided = _primitives(graph, borders, preset)
@@ -93,11 +96,13 @@ def analyze_regions(
     symmetry = None
     if preset.mirror and mirror is not None:
         with stage("mirroring"):
+            # Mirrored frames are compared with the original ones.
             graph_across = _neighbors(mirror(compared), compared, preset)
             mirrored = _primitives(graph_across, borders, preset)
             cuts_inside = _merge_cuts(divided, mirrored, preset)
             symmetry = _symmetry(borders, repeats, divided, mirrored, preset)
     with stage("clusters"):
+        # Borders of activities are borders of primitives, too.
         primitives = _borders(np.concatenate([borders, *cuts_inside]), len(graph))
         clustering = _clusters(graph, primitives, preset)
     return RegionsFound(
@@ -132,6 +137,7 @@ def _growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> Neigh
         graph = graph.nearest(preset.growth_neighbors)
     if preset.diagonal == "component":
         labels = component_labels(graph)
+        # The first stored pair is (0, 0), so its label is that of the main diagonal.
         graph = graph.select(labels != labels[0])
         return graph.restrict(radius=preset.growth_radius)
     return graph.restrict(radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width))
@@ -159,6 +165,7 @@ def _repeats(
     borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingConstants
 ) -> NDArray[np.bool_]:
     """Segments that repeat themselves; those from an end to the next start do not."""
+    # Between an end and the next start lies a transition.
     ends_only = np.isin(borders[:-1], cuts.forward) & ~np.isin(borders[:-1], cuts.backward)
     return (pairs > preset.growth_count) & ~(ends_only & np.isin(borders[1:], cuts.backward))
 
@@ -166,6 +173,7 @@ def _repeats(
 def _primitives(
     graph: NeighborGraph, borders: Frames, preset: RegionGrowingConstants
 ) -> list[PrimitiveCuts]:
+    # Both ends are included, so the last border is the last frame.
     frames = np.minimum(borders, len(graph) - 1).tolist()
 
     def cuts_of(segment: int) -> PrimitiveCuts:
@@ -173,6 +181,7 @@ def _primitives(
             graph,
             (frames[segment], frames[segment + 1]),
             steps=preset.steps,
+            # Penalties are given in radii.
             skip_penalty=preset.skip_penalty * preset.radius,
             zero_cost=preset.zero_cost,
             min_nodes=ceil(preset.min_path * preset.working_fps),
@@ -201,6 +210,7 @@ def _symmetry(
 ) -> NDArray[np.str_]:
     """How left and right go together in each segment that repeats; empty in the others."""
     gap = preset.min_primitive * preset.working_fps
+    # Last frames, included.
     last = (borders[1:] - 1).tolist()
     types = map(
         symmetry_type, zip(borders.tolist(), last, strict=False), main, mirrored, repeat(gap)
@@ -213,6 +223,7 @@ def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionGrowingConst
         graph = graph.nearest(preset.cluster_neighbors)
     return cluster_segments(
         graph,
+        # Both ends are included, so the last border is the last frame.
         np.minimum(segments, len(graph) - 1),
         steps=preset.steps,
         skip_penalty=preset.skip_penalty * preset.radius,

@@ -88,6 +88,7 @@ def cluster_segments(
         )
         return linked
 
+    # In parallel: the paths of each segment are independent.
     targets, shares = zip(*map_threads(links_of, range(n)), strict=True)
     links = _link_matrix(targets, shares)
     _, components = connected_components(links, directed=True, connection=connection)
@@ -99,11 +100,14 @@ def _link_matrix(
 ) -> csr_array:
     """Largest share per ordered pair of different segments."""
     n = len(targets)
+    # Row of each link: the segment from which it was found.
     g = np.repeat(np.arange(n), [len(linked) for linked in targets])
     h, share = np.concatenate(targets), np.concatenate(shares)
+    # Sorted by pair, the largest share first.
     order = np.lexsort((-share, h, g))
     g, h, share = g[order], h[order], share[order]
     keep = g != h
+    # The first of each pair, which is the largest.
     keep[1:] &= (np.diff(g) != 0) | (np.diff(h) != 0)
     return csr_array((share[keep], (g[keep], h[keep])), shape=(n, n))
 
@@ -111,6 +115,7 @@ def _link_matrix(
 def _best_shares(links: csr_array, components: NDArray[np.int32]) -> NDArray[np.float64]:
     coo = links.tocoo()
     same = components[coo.row] == components[coo.col]
+    # Both ends of a link within a cluster get its share.
     scores = np.zeros(len(components))
     np.maximum.at(scores, coo.row[same], coo.data[same])
     np.maximum.at(scores, coo.col[same], coo.data[same])

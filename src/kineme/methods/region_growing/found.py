@@ -59,6 +59,7 @@ class RegionsFound:
 
     def columns(self) -> Columns:
         """Activities in the cluster that most of their frames are in, primitives in their own."""
+        # The activity of each primitive: the last that begins at or before it.
         parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
         clusters = _cluster_numbers(self, parents)
         of_activities = _main_clusters(clusters, parents, np.diff(self.primitives))
@@ -78,6 +79,7 @@ class RegionsFound:
 def _cluster_numbers(found: RegionsFound, parents: NDArray[np.intp]) -> Frames:
     """Numbers from 0 by first appearance; -1 for transitions that nothing else is similar to."""
     labels = found.clustering.labels
+    # Clusters of a single primitive.
     lonely = np.bincount(labels)[labels] == 1
     named = ~(lonely & ~found.repeats[parents])
     return number_by_appearance(np.where(named, labels, -1))

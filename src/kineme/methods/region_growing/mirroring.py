@@ -35,6 +35,7 @@ def merged_cuts(
 
     Mirrored cuts are not compared with each other.
     """
+    # (mirrored, main): no main cut within the gap.
     apart = ~(np.abs(mirrored[:, None] - main) <= gap).any(axis=1)
     return np.union1d(main, mirrored[apart])
 
@@ -53,7 +54,9 @@ def symmetry_type(
     gap : float
         Frames; a mirrored path this far from every main one lies between them.
     """
+    # Both ends are included here.
     first, last = activity
+    # Paths through less than half of the frames: the mirrored movement is not in the activity.
     if len(np.unique(mirrored.paths.rows)) <= HALF * (last - first + 1):
         return "one-sided"
     between = _distances(mirrored.paths, main.paths) > gap
@@ -63,6 +66,7 @@ def symmetry_type(
 def _distances(paths: WarpingPaths, others: WarpingPaths) -> NDArray[np.float64]:
     """For each node of the paths, how many columns the nearest node of the others is away."""
     order = np.lexsort((others.columns, others.rows))
+    # Rows are put one after the other on a line, so that one sorted search serves all of them.
     stride = max(paths.columns.max(), others.columns.max(initial=0)) + 1
     # Nodes of one row lie within ``stride`` of each other, those of two rows do not.
     places = np.concatenate(

@@ -68,7 +68,9 @@ class NeighborGraph:
         (i,) = as_indices([i], "frames")
         if not -len(self) <= i < len(self):
             raise IndexError(f"frame {i} of a graph of {len(self)}")
+        # The row's bounds: two neighbouring pointers.
         row = slice(*self.indptr[i % len(self) :][:2])
+        # Stable: ties stay in the order of frames.
         order = np.argsort(self.distances[row], kind="stable")
         return self.indices[row][order], self.distances[row][order]
 
@@ -98,10 +100,12 @@ class NeighborGraph:
         """
         if not (is_number(k) and k >= 1):
             raise ParameterError(f"the number of neighbours must be at least 1, not {k!r}")
+        # Nothing to leave out.
         if self.n_entries == 0 or k >= self.counts.max():
             return self
 
         def mask(rows: slice) -> NDArray[np.bool_]:
+            # Pointers of these rows; the kernel counts from the first of them.
             indptr = self.indptr[rows.start : rows.stop + 1]
             kept: NDArray[np.bool_] = _kernels.nearest_mask(
                 indptr, self.distances[indptr[0] : indptr[-1]], k
@@ -112,6 +116,7 @@ class NeighborGraph:
 
     def select(self, mask: NDArray[np.bool_]) -> NeighborGraph:
         """Return the same graph with the stored entries where the mask is true."""
+        # Number of kept entries before each row: the new pointers.
         indptr = np.concatenate([[0], np.cumsum(mask)])[self.indptr]
         return NeighborGraph(
             indptr, self.indices[mask], self.distances[mask], self.n_columns, self.radius
@@ -120,6 +125,7 @@ class NeighborGraph:
     def restrict(self, *, radius: float | None = None, min_lag: int = 0) -> NeighborGraph:
         """Return same graph with the entries within a smaller radius and with |j − i| ≥ min_lag."""
         radius = self.radius if radius is None else min(radius, self.radius)
+        # Filled by the kernel, which returns how many entries it kept.
         indptr = np.zeros_like(self.indptr)
         indices = np.empty_like(self.indices)
         distances = np.empty_like(self.distances)
@@ -184,9 +190,11 @@ def neighbor_graph(
     for name, value in (("k", k), ("max_lag", max_lag)):
         if value is not None and not (is_number(value) and value >= 1):
             raise ParameterError(f"{name} must be at least 1, not {value!r}")
+    # Without a limit all frames are within reach.
     lag = max(len(rows), len(columns)) if max_lag is None else max_lag
 
     blocks = all_neighbors(rows, columns, radius=float(radius), k=k, lag=lag)
+    # Blocks consist of parts that threads made, in order.
     parts = [part for block in blocks for part in block]
     counts, indices, distances = (np.concatenate(part) for part in zip(*parts, strict=True))
     indptr = np.concatenate([[0], np.cumsum(counts)])
@@ -208,21 +216,27 @@ def all_neighbors(
     The estimate ``|x|² + |y|² - 2 x·y`` errs in float32 by no more than
     ``margin``; what it lets through is measured in float64.
     """
+    # Distances do not change by a shift, but float32 is finest near 0.
     center = columns.mean(axis=0)
     spread = max(np.abs(columns - center).max(), np.abs(rows - center).max())
     scale = max(spread, 1e-6 * radius) or 1.0  # so that radius / scale stays within float32
     rows32 = ((rows - center) / scale).astype(np.float32)
     columns32 = rows32 if columns is rows else ((columns - center) / scale).astype(np.float32)
+    # Squared lengths of the rows.
     row_norms = np.einsum("ij,ij->i", rows32, rows32)
     column_norms = np.einsum("ij,ij->i", columns32, columns32)
+    # Bound of the rounding errors of float32, which grow with the number of terms.
     margin = 4 * (rows.shape[1] + 4) * 2.0**-24 * (row_norms + column_norms.max())
+    # The condition |y|² - 2 x·y <= r² - |x|² is the same as a distance within r.
     limits = ((radius / scale) ** 2 - row_norms + margin).astype(np.float32)
 
     height, width = _block_shape(len(rows), len(columns), lag)
+    # Allocated once and used by all blocks.
     product = np.empty(height * width, np.float32)
     screened = np.empty((height, width), np.int32)
     for start in range(0, len(rows), height):
         stop = min(start + height, len(rows))
+        # Columns that some row of the block may reach.
         low = min(max(0, start - lag), len(columns))
         high = min(stop + lag, len(columns))
         estimate = product[: (stop - start) * (high - low)].reshape(stop - start, high - low)
@@ -233,6 +247,7 @@ def all_neighbors(
             estimate,
             limits[start:stop],
             column_norms[low:high],
+            # Columns that each row may reach, counted within the block.
             np.clip(frames - lag, low, high) - low,
             np.clip(frames + lag + 1, low, high) - low,
             screened,
@@ -270,6 +285,7 @@ def _measure(
     )
     if k is None or counts.max(initial=0) <= k:
         return counts, indices, distances
+    # The counts of the rows as pointers, for the kernel.
     indptr = np.concatenate([[0], np.cumsum(counts)])
     mask = _kernels.nearest_mask(indptr, distances, k)
     return np.minimum(counts, k), indices[mask], distances[mask]
@@ -278,6 +294,7 @@ def _measure(
 def _block_shape(n_rows: int, n_columns: int, lag: int) -> tuple[int, int]:
     """Rows per block and the columns they can reach, within BLOCK_ENTRIES."""
     height = max(1, BLOCK_ENTRIES // n_columns)
+    # In a narrow band a block has 2 lag more columns than rows: low blocks would waste work.
     if 2 * lag < n_columns:
         height = max(height, min(2 * lag, int(BLOCK_ENTRIES**0.5)))
     height = min(height, n_rows)

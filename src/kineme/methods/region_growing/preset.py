@@ -53,6 +53,7 @@ class RegionGrowingPreset(RegionGrowingConstants):
         """
         if self.unit == "standard deviations":
             return self
+        # RMS distance of stacked poses whose numbers each vary by this deviation.
         per_channel = math.sqrt(POSE_CHANNELS * len(self.offsets)) * POSE_DEVIATION
         lengths = {
             name: value / per_channel

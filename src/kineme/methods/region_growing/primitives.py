@@ -65,6 +65,7 @@ def primitive_cuts(
         with the shorter path.
     """
     first, last = activity
+    # The same box for rows and columns: the activity against itself.
     box = (first, last + 1)
     paths = warping_paths(
         graph,
@@ -85,10 +86,12 @@ def _choose(paths: WarpingPaths, low: float, high: float, min_length: float) -> 
     starts = paths.starts[1].astype(np.int64)
     cuts: list[int] = []
     sources: list[int] = []
+    # Longest path first, so of close cuts the one with the longer path is kept.
     for p in np.argsort(-paths.n_nodes, kind="stable"):
         cut = int(starts[p])
         if low <= cut <= high and all(abs(cut - other) >= min_length for other in cuts):
             cuts.append(cut)
             sources.append(int(p))
+    # Cuts in order, and the paths that gave them likewise.
     order = np.argsort(cuts)
     return PrimitiveCuts(np.array(cuts, np.int64)[order], np.array(sources, np.int64)[order], paths)

@@ -90,6 +90,7 @@ class WarpingPaths:
 
     def select(self, mask: NDArray[np.bool_]) -> WarpingPaths:
         """Return the paths where the mask is true, in the same order."""
+        # The mask of each path for all of its nodes.
         nodes = np.repeat(mask, self.n_nodes)
         ptr = np.concatenate([[0], np.cumsum(self.n_nodes[mask])])
         return WarpingPaths(ptr, self.rows[nodes], self.columns[nodes], self.costs[mask])
@@ -149,6 +150,7 @@ def warping_paths(
         if not (is_number(value) and value >= 0):
             raise ParameterError(f"{name} must be a number from 0, not {value!r:.60}")
     moves = _as_steps(steps)
+    # Rows and columns that a step passes over, beyond the next one.
     skipped = np.maximum(moves - 1, 0).sum(axis=1)
     ptr, path_rows, path_columns, costs = _path_kernels.paths_in_box(
         graph.indptr,
@@ -160,6 +162,7 @@ def warping_paths(
         float(skip_penalty) * skipped,
         float(zero_cost),
         min_nodes,
+        # More than any two columns are apart: only the cheapest path is kept.
         graph.n_columns + 1 if separation is None else separation,
     )
     paths = WarpingPaths(ptr, path_rows, path_columns, costs)
@@ -186,6 +189,7 @@ def component_labels(
     [0, 1, 0, 1, 4, 0, 4, 0]
     """
     indptr = graph.indptr
+    # The whole graph as a box: every row begins at its pointer, and nodes are entries.
     labels: NDArray[np.int32] = _path_kernels.component_roots(
         graph.indices, indptr[:-1], indptr, _as_steps(steps), 0, graph.n_columns
     )
@@ -205,6 +209,7 @@ def _as_steps(steps: Sequence[Step]) -> NDArray[np.int64]:
     except ValueError:  # of different lengths
         given = np.empty(0)
     integral = given.dtype.kind in "iu" and given.ndim == 2 and given.shape[1] == 2
+    # Anything but pairs of whole numbers becomes an empty array, which is refused below.
     moves = given.astype(np.int64) if integral else np.empty((0, 2), np.int64)
     if not len(moves) or moves.min() < 0 or (moves.sum(axis=1) == 0).any():
         raise ParameterError(

@@ -123,6 +123,7 @@ def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -
     ['', '', 'by hand']
     """
     rows = [starting(segmentation, "primitive", frame) for frame in frames]
+    # An exclusion is a frame, so it holds for whatever segment covers that frame.
     others = {
         frame
         for frame in segmentation.annotation.excluded
@@ -170,6 +171,7 @@ def mark_edited(before: Segmentation, after: Segmentation) -> Segmentation:
         {*_columns(rows.level, rows.start_frame, rows.stop_frame, rows.kind, rows.cluster)}
         for rows in (before.table, after.table)
     )
+    # Rows that are new or changed; their spans are what people made.
     made = {(level, start, stop) for level, start, stop, *_ in now - earlier}
     return set_marked(after, "by_hand", made | find_marked(after, "by_hand"))
 
@@ -210,6 +212,7 @@ def _make_comment(row: Segment, text: str) -> Comment:
 
 
 def _middle(row: Segment) -> int:
+    # The middle stays inside when borders of the segment move a little.
     return (row.start_frame + row.stop_frame) // 2
 
 

@@ -55,6 +55,7 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
     """
     after = find_row_after(segmentation, level, frame)
     table = segmentation.level(level)
+    # The borders before and after the one that moves are its limits.
     low, high = table[after - 1].start_frame, table[after].stop_frame
     if not low < to < high:
         raise ParameterError(
@@ -62,9 +63,11 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
         )
     if to == frame:
         return segmentation
+    # The activities at both sides of the border, with their primitives.
     part = Part.of(segmentation, frame - 1, frame + 1)
     activities, primitives = part.activities, part.primitives
     if level == "primitive":
+        # A border of activities is one of primitives, too, and both move together.
         if frame in cuts(activities):
             activities = move_border_rows(activities, frame, to)
         return part.replaced(activities, move_border_rows(primitives, frame, to))
@@ -107,6 +110,7 @@ def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
         raise ParameterError(f"{where}: choose a frame between two borders")
     part = Part.of(segmentation, frame, frame + 1)
     activities = cut(part.activities, frame) if level == "activity" else part.activities
+    # Primitives are cut as well, since a border of activities is one of primitives.
     return part.replaced(activities, cut(part.primitives, frame))
 
 
@@ -202,11 +206,13 @@ def _merge_rows(part: Part, level: Level, first: int, last: int, *, like: int) -
             )
         return part.replaced(activities, join_rows(primitives, first, last, like))
     merged = join_rows(activities, first, last, like)
+    # Primitives of all joined activities become those of the union.
     inside = [i for i, row in enumerate(primitives) if first <= row.activity <= last]
     for i in inside:
         primitives[i] = change_parent(
             primitives[i], activities[primitives[i].activity], merged[first]
         )
+    # A transition is one primitive.
     if inside and merged[first].kind == "transition":
         primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
     return part.replaced(merged, primitives)

@@ -90,12 +90,15 @@ def carry_corrections(before: Segmentation, found: Segmentation) -> Carried:
     True
     """
     flags = {mark: find_marked(before, mark) for mark in get_args(Mark)}
+    # Rows that people vouch for in either sense.
     fixed = [row for row in before if span_of(row) in set().union(*flags.values())]
     if not len(found.primitives):
         fixed = [row for row in fixed if row.level == "activity"]
     singles = {span_of(row) for row in _singly_named(before)}
+    # Names of clusters are carried over separately, so only names of their own stay in the rows.
     placed = [row if span_of(row) in singles else replace(row, label="") for row in fixed]
     now = _impose_segments(_numbered_like(before, found), placed)
+    # Marks are set again, since imposing segments made new rows.
     for mark, spans in flags.items():
         now = set_marked(now, mark, spans)
     now = set_comments(now, comments(before))
@@ -113,12 +116,14 @@ def names_of(segmentation: Segmentation) -> int:
 
 def _singly_named(segmentation: Segmentation) -> Rows:
     names = cluster_names(segmentation)
+    # A name of its own is one that the row's cluster does not have.
     return [row for row in segmentation if row.label not in ("", names.get(row.cluster, ""))]
 
 
 def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
     """Return the new segments, with the old numbers of the clusters that match."""
     match = _matching_clusters(before, found)
+    # Numbers of former clusters are never reused for other ones.
     used = set(before.table.cluster.tolist())
     free = (number for number in count() if number not in used)
     number = {}
@@ -131,6 +136,7 @@ def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, i
     """Return the old number of each new cluster that has one."""
     shared: dict[int, Counter[int]] = {}
     for level in get_args(Level):
+        # (2, frames): old and new cluster of each frame.
         pairs = np.stack([_spread_clusters(before, level), _spread_clusters(found, level)])
         for (old, new), frames in zip(*_counts(pairs), strict=True):
             if old >= 0:
@@ -138,10 +144,13 @@ def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, i
     most = []
     for cluster, counts in shared.items():
         new, frames = counts.most_common(1)[0]
+        # More than half of the old cluster's frames.
         if new >= 0 and 2 * frames > counts.total():
+            # Negative, so that sorting puts the largest overlap first.
             most.append((-frames, cluster, new))
     match: dict[int, int] = {}
     for _, cluster, new in sorted(most):
+        # The old cluster with the larger overlap keeps the new one.
         match.setdefault(new, cluster)
     return match
 
@@ -155,6 +164,7 @@ def _spread_clusters(segmentation: Segmentation, level: Level) -> NDArray[np.int
 
 
 def _counts(pairs: NDArray[np.int64]) -> tuple[list[list[int]], list[int]]:
+    # Distinct columns: pairs of clusters, and on how many frames they are.
     values, counts = np.unique(pairs, axis=1, return_counts=True)
     return values.T.tolist(), counts.tolist()
 
@@ -182,6 +192,7 @@ def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> Carried
         else:
             labels[span_of(twin)] = row.label
     rows = [replace(row, label=labels.get(span_of(row), row.label)) for row in now]
+    # Clusters without a name are said to have none, so that none is guessed from labels.
     now = set_cluster_names(replace_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
     return Carried(now, fixed, len(names) + len(singles), lost)
 
@@ -198,6 +209,7 @@ def _twin(segmentation: Segmentation, row: Segment) -> Segment | None:
 def _impose_segments(found: Segmentation, fixed: Rows) -> Segmentation:
     """Return the segmentation with these segments in it as they are."""
     by_level = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
+    # Activities first: their borders must not cut primitives that stay.
     activities = _sparing(list(found.activities), by_level["primitive"])
     activities = _insert_fixed(activities, by_level["activity"])
     if not len(found.primitives):
@@ -221,13 +233,16 @@ def _sparing(activities: Rows, primitives: Rows) -> Rows:
     starts = [row.start_frame for row in primitives]
 
     def moved(border: int) -> int:
+        # The last primitive that starts at or before the border.
         at = bisect_right(starts, border) - 1
         if at < 0 or border >= primitives[at].stop_frame:
             return border
         start, stop = _edges(primitives[at])
+        # To the nearer end; at equal distance to the start.
         return start if border - start <= stop - border else stop
 
     rows = [_spanning(row, moved(row.start_frame), moved(row.stop_frame)) for row in activities]
+    # A row whose borders met has vanished.
     return [row for row in rows if row.start_frame < row.stop_frame]
 
 
@@ -236,8 +251,10 @@ def _insert_fixed(rows: Rows, fixed: Rows) -> Rows:
 
     What is left of less than half of a row is joined on.
     """
+    # Rows that were put in already must not be changed by later ones.
     edges = {_edges(one) for one in fixed}
     for one in fixed:
+        # What lies before and after the new row; rows inside are dropped.
         start, stop = _edges(one)
         before = [row for row in rows if row.start_frame < start]
         after = [row for row in rows if row.stop_frame > stop]
@@ -257,6 +274,7 @@ def _shorten_row(
     rows[at] = _spanning(row, *span)
     few = 2 * length(rows[at]) < length(row) and len(rows) > 1
     if few and _edges(rows[beside]) not in edges:
+        # Indices from the end become indices from the start.
         i, j, k = (k % len(rows) for k in (min(at, beside), max(at, beside), beside))
         return join_rows(rows, min(i, j), max(i, j), k)
     return rows
@@ -276,6 +294,7 @@ def _inside(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
 
 def _find_middle_row(rows: SegmentTable, row: Segment) -> Segment:
     """Return the one of the rows of a level that holds the middle frame of another."""
+    # The last frame is one before the stop.
     middle = (row.start_frame + row.stop_frame - 1) // 2
     return rows[int(np.searchsorted(rows.start_frame, middle, side="right")) - 1]
 

@@ -57,6 +57,7 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     >>> again.activities[-1].label, again.repetitions()[3]
     ('jump', 8)
     """
+    # Numbers have no holes: only the next new one may be named.
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
     if not -1 <= cluster <= following:
         raise ParameterError(f"there is no cluster {cluster}; the next new one is {following}")
@@ -65,6 +66,7 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     if level == "activity":
         inside = segmentation.primitives.select(segmentation.primitives.activity == chosen.activity)
         members += [("primitive", row) for row in inside if row.cluster == chosen.cluster]
+    # Members that have their own name keep it, those called by their cluster's do not.
     moved = _moved_to(segmentation, members, cluster)
     become = as_transition if cluster < 0 and chosen.kind == "transition" else as_movement
     places = {(row.level, row.start_frame) for _, row in members}
@@ -146,6 +148,7 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
             f"{len(leavers)} of {len(members)} segments of cluster {cluster} are chosen: "
             "choose some of them, not all"
         )
+    # An activity moves only if none of its primitives of the cluster stays.
     staying = {row.activity for row in members if row.start_frame not in chosen}
     leaving = {row.activity for row in leavers} - staying
     moved: list[tuple[Level, Segment]] = [(row.level, row) for row in leavers]
@@ -236,6 +239,7 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
         return replace_rows(segmentation, activities, primitives)
     inside = [i for i, row in enumerate(primitives) if row.activity == chosen.activity]
     if inside and kind == "transition":
+        # Its primitives become one, which is a transition.
         primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
         inside = inside[:1]
     for i in inside:
@@ -252,6 +256,7 @@ def _moved_to(
     """Return the members in another cluster, called by its name unless they have their own."""
     names = names_by_cluster(segmentation)
     moved = segmentation
+    # First those called by the cluster's name, then those with a name of their own.
     for inherits in (True, False):
         some = [
             (level, row)
@@ -261,4 +266,5 @@ def _moved_to(
         label = {"label": names.get(cluster, "")} if inherits else {}
         if some:
             moved = change_columns(moved, some, cluster=cluster, confidence=math.nan, **label)
+    # A cluster that was nameless is said to be, so that labels of members do not name it.
     return set_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)

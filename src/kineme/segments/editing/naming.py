@@ -52,6 +52,7 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     row, names = starting(segmentation, level, frame), names_by_cluster(segmentation)
     label = label or names.get(row.cluster, "")
     named = change_columns(segmentation, [(level, row)], label=label)
+    # The cluster is said to have no name unless it has: one label must not name it.
     return named if row.cluster < 0 else set_cluster_names(named, {row.cluster: ""} | names)
 
 
@@ -132,7 +133,9 @@ def names_by_cluster(segmentation: Segmentation) -> dict[int, str]:
     """Return the names of clusters by number; empty for those that are said to have none."""
     clusters, labels = segmentation.table.cluster.tolist(), segmentation.table.label.tolist()
     sizes = Counter(clusters)
+    # How often each label occurs in each cluster.
     called = Counter(zip(clusters, labels, strict=True)).items()
+    # Names that people gave count more than those of most segments.
     names = {
         cluster: label for (cluster, label), count in called if label and 2 * count > sizes[cluster]
     } | segmentation.annotation.cluster_names
@@ -155,6 +158,7 @@ def change_columns(
     rows = [i for i, place in enumerate(places) if place in chosen]
     values: dict[str, Any] = table.columns()
     for name, value in columns.items():
+        # Lists, since texts in a fixed-width array would be cut.
         values[name] = values[name].tolist()
         for row in rows:
             values[name][row] = value

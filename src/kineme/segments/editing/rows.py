@@ -37,9 +37,12 @@ class Part:
     def of(cls, segmentation: Segmentation, start: int, stop: int) -> Part:
         """That of the frames ``[start, stop)``."""
         table = segmentation.table
+        # Activities come before primitives in the table.
         n = len(segmentation.activities)
+        # The activity that holds the first frame, and the end of those that begin before `stop`.
         first = int(np.searchsorted(table.start_frame[:n], start, "right")) - 1
         last = int(np.searchsorted(table.start_frame[:n], stop, "left"))
+        # Primitives of these activities: their parents are in order.
         low, high = (n + np.searchsorted(table.activity[n:], [first, last])).tolist()
         spans = slice(first, last), slice(low, high)
         activities, primitives = (
@@ -53,10 +56,12 @@ class Part:
 
     def replaced(self, activities: Rows, primitives: Rows) -> Segmentation:
         """Return the whole, with these rows in the place of its own."""
+        # The slices of both levels, in the order of the table.
         (before, first), (last, after) = [(span.start, span.stop) for span in self.spans]
         columns = {}
         for name, column in self.segmentation.table.columns().items():
             upper, lower = (
+                # An empty slice keeps the type of the column.
                 np.array([getattr(row, name) for row in rows]) if rows else column[:0]
                 for rows in (activities, primitives)
             )
@@ -77,6 +82,7 @@ def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
 def move_border_rows(rows: Rows, frame: int, to: int) -> Rows:
     """Move the border at ``frame`` to ``to``."""
     return [
+        # The end moved: the span is another one. Where the start moved, so is the border.
         replace(row, stop_frame=to, confidence=math.nan)
         if row.stop_frame == frame
         else replace(row, start_frame=to, confidence=math.nan, border_confidence=math.nan)
@@ -108,6 +114,7 @@ def join_rows(rows: Rows, first: int, last: int, like: int) -> Rows:
         start_frame=rows[first].start_frame,
         stop_frame=rows[last].stop_frame,
         confidence=math.nan,
+        # Only the first border is still one.
         border_confidence=rows[first].border_confidence,
     )
     return [*rows[:first], one, *rows[last + 1 :]]
@@ -115,6 +122,7 @@ def join_rows(rows: Rows, first: int, last: int, like: int) -> Rows:
 
 def change_parent(row: Segment, before: Segment, after: Segment) -> Segment:
     """Return a primitive that lay in one activity and lies in another."""
+    # A primitive that was a transition within an activity stays one, and the other way round.
     same = (row.kind == "transition") == (before.kind == "transition")
     kind = kind_of(row.level, transition=after.kind == "transition")
     new = replace(
@@ -123,6 +131,7 @@ def change_parent(row: Segment, before: Segment, after: Segment) -> Segment:
         cluster=after.cluster if row.cluster == before.cluster >= 0 else row.cluster,
         label=after.label if row.label == before.label != "" else row.label,
     )
+    # The confidence is of kind and cluster.
     unchanged = (new.kind, new.cluster) == (row.kind, row.cluster)
     return new if unchanged else replace(new, confidence=math.nan)
 
@@ -142,16 +151,20 @@ def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, in
     number, frame, to = move
     low, high = min(frame, to), max(frame, to)
     borders = cuts(primitives)
+    # A border of activities must be one of primitives: the nearest one passed moves there.
     if to not in borders:
         passed = [border for border in borders if low <= border <= high]
         primitives = move_border_rows(
             primitives, min(passed, key=lambda border: abs(border - to)), to
         )
+    # The activity that lost frames, and the one that got them.
     gave, took = (number - 1, number) if to < frame else (number, number - 1)
+    # Primitives that lie wholly in what changed hands.
     inside = [i for i, row in enumerate(primitives) if low <= row.start_frame < high]
     inside = [i for i in inside if primitives[i].stop_frame <= high]
     for i in inside:
         primitives[i] = change_parent(primitives[i], before[gave], after[took])
+    # A transition is one primitive: what it took is joined to its own.
     if inside and after[took].kind == "transition":
         host = inside[-1] + 1 if to < frame else inside[0] - 1
         primitives = join_rows(primitives, min(host, inside[0]), max(host, inside[-1]), host)
@@ -191,6 +204,7 @@ def replace_rows(
 def replace_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]) -> Segmentation:
     """Return the same recording with these columns; seconds and parents follow from frames."""
     return Segmentation.from_columns(
+        # Parents follow from the frames.
         {name: values for name, values in columns.items() if name != "activity"},
         n_frames=segmentation.n_frames,
         fps=segmentation.fps,
@@ -204,6 +218,7 @@ def renumber_clusters(segmentation: Segmentation, numbers: Mapping[int, int]) ->
     """Give the clusters these numbers; segments of clusters without one are in none."""
     table = segmentation.table
     clusters = np.array([numbers.get(c, -1) for c in table.cluster.tolist()], np.int64)
+    # Each row's `action` is the cluster of its activity.
     actions = clusters[table.level == "activity"][table.activity]
     changed = table.with_columns(cluster=clusters, action=actions)
     return replace(segmentation, table=changed, hierarchy=None)

@@ -134,6 +134,7 @@ class Upload:
             self._file = self._draft.open("xb")
         except OSError as error:
             raise WriteError(root, f"cannot be written to: {error.strerror}") from error
+        # Held, so that other servers do not take it for abandoned.
         hold(self._file.fileno())
 
     def __enter__(self) -> Self:
@@ -160,6 +161,7 @@ class Upload:
         """Return the path under which the file is there now, or was before."""
         self._file.close()
         for path in _free_names(self._root / self.name):
+            # The same content is there already.
             if path.is_file() and self._is_in(path):
                 return path
             if _take_name(self._draft, path):
@@ -173,9 +175,11 @@ class Upload:
 
 def safe_name(name: str) -> str:
     """Return a file's name without folders, and without what some system does not allow in it."""
+    # Composed letters, so that one name is not two; a path of any system loses its folders.
     last = re.split(r"[/\\]", unicodedata.normalize("NFC", name))[-1]
     plain = "".join(c if c.isprintable() and c not in '<>:"|?*' else "_" for c in last).strip(" .")
     stem, suffix = Path(plain).stem, Path(plain).suffix
+    # Cut by letters, since a limit in bytes could part one.
     while len((stem + suffix).encode(errors="replace")) > LONGEST and stem:
         stem = stem[:-1]
     return ("_" if RESERVED.fullmatch(stem) else "") + stem + suffix
@@ -209,6 +213,7 @@ def _free_names(path: Path) -> list[Path]:
 def _take_name(draft: Path, path: Path) -> bool:
     """Return whether the draft now has this name; not if another file has."""
     try:
+        # A link fails if the name exists, so two uploads cannot take one name.
         os.link(draft, path)
     except FileExistsError:
         return False
@@ -219,6 +224,7 @@ def _take_name(draft: Path, path: Path) -> bool:
         except FileExistsError:
             return False
         except OSError:
+            # A copy that broke off must not keep the name.
             path.unlink(missing_ok=True)
             raise
     return True

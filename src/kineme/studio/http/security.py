@@ -95,6 +95,7 @@ class Guard:
         if scope["type"] != "http":
             return "only plain HTTP is spoken here"
         headers = Headers(scope=scope)
+        # Exactly one host header, with a name of this server.
         if headers.getlist("host") not in [[host] for host in self._hosts]:
             return "this server answers to 127.0.0.1 and localhost only"
         if not {*headers.getlist("origin")} <= self._origins:
@@ -110,6 +111,7 @@ class Guard:
         path = scope["path"]
         if token is None and (path in IN_ADDRESS or path.endswith(VIDEO)):
             token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+        # The comparison takes as long for a wrong token as for one that is nearly right.
         return token is not None and secrets.compare_digest(token.encode(), self._token)
 
 

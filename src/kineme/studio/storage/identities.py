@@ -52,6 +52,7 @@ class Identities:
             made = _identity(self.origin, level[0])
             found += [f"{made}{start}" for start in starts]
             for place, identity in self.others.items():
+                # Starts ascend, so a place is found by bisection.
                 row = bisect_left(starts, int(place[1:]))
                 if place[0] == level[0] and row < len(starts) and starts[row] == int(place[1:]):
                     found[first + row] = identity
@@ -75,12 +76,14 @@ class Identities:
         for level in get_args(Level):
             was, starts = (table.level(level).start_frame.tolist() for table in (before, now))
             moves = descent(was, starts)
+            # Segments that are gone take their identities along.
             for start in {*was}.difference(starts):
                 others.pop(f"{level[0]}{start}", None)
             for start in {*starts}.difference(was):
                 at, former = f"{level[0]}{start}", moves.get(start)
                 moved = None if former is None else self._at(f"{level[0]}{former}")
                 identity = moved or _identity(edit, at)
+                # Identities that follow from the place need not be written down.
                 if identity != _identity(self.origin, at):
                     others[at] = identity
         return Identities(self.origin, others)
@@ -105,11 +108,13 @@ def descent(before: Sequence[int], now: Sequence[int]) -> dict[int, int]:
     moved = [start for start in before if start not in found]
     for start in [each for each in now if each not in found]:
         place = bisect(staying, start)
+        # Between its neighbours that stayed; it cannot have come from beyond them.
         low = staying[place - 1] if place else -1
         high = staying[place] if place < len(staying) else math.inf
         near = [each for each in moved if low < each < high]
         if near:
             found[start] = min(near, key=lambda each: abs(each - start))
+            # In order: the next one comes from further on.
             moved = [each for each in moved if each > found[start]]
     return dict(sorted(found.items()))
 

@@ -96,6 +96,7 @@ class Journal:
         history, steps = self._record.history, self._record.steps
         digest = sha256(content_of(table)).hexdigest()
         if steps and steps[history.present].n_frames == table.n_frames:
+            # The present table, else that before or after the last change, which was cut short.
             for step in (history, _or_none(history.undone), _or_none(history.redone)):
                 if step is not None and self._is(step.present, table, digest):
                     if step is not history:  # the last change was cut short, and has no answer
@@ -107,6 +108,7 @@ class Journal:
             ids = self._ids_of_another(table, digest)
             self._record = self.changed(table, None, replaced=True, ids=ids).record
         else:
+            # A history of a recording of another length is of no use.
             self._record = replace(self._record, history=History(0))
             start = self.changed(table, None).record
             self._record = replace(start, history=History(start.history.present))
@@ -162,7 +164,9 @@ class Journal:
         could have been redone.
         """
         history, steps = self._record.history, self._record.steps
+        # Above every number in the folder, also of files that the history does not name.
         number = max([0, *steps, *self._numbers()]) + 1
+        # A table that could have been redone is about to be lost.
         before = [*history.future[-1:], *([history.present] if replaced else [])]
         at = datetime.now(UTC).isoformat(timespec="seconds")
         content = content_of(table)
@@ -209,6 +213,7 @@ class Journal:
                         place.rmdir()
         forgotten = self._record.steps.keys() - record.steps.keys()
         self._record, self._unsaved = record, {}
+        # Only once the new history is on the disk.
         for number in forgotten:
             delete_file(self._path(number))
 

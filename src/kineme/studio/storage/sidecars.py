@@ -62,6 +62,7 @@ class Reading:
 
     def differs_from(self, other: Reading) -> set[str]:
         """Return the options that are others; another person of several is another recording."""
+        # Another person is another recording, with a table of its own.
         names = {name for name in OPTIONS if name != "person" or not self.people}
         return {name for name in names if self.options.get(name) != other.options.get(name)}
 
@@ -82,6 +83,7 @@ def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
     found: list[ListedRecording] = []
     for path in paths:
         folder = path.parent / FOLDER
+        # One listing per folder is cheaper than a look-up for each recording.
         if folder not in present:
             present[folder] = _names_in(folder)
         is_present = _sidecar(path, READING).name in present[folder]

@@ -1,0 +1,222 @@
+"""The self-similarity matrix of a recording, at every zoom.
+
+A cell of level 0 is the similarity of two samples: ``exp(-d²)`` of the distance
+of their features, from 0 (nothing in common, or not seen) to 1. Features are
+taken 0.2 s before to 0.2 s after. Those of a motion are those of the ``kineme``
+method, the ends of the body in its own frame; two frames are 1 apart at a fifth
+of a body. Motions without a known body are compared by the distances between
+their points, signals by their channels, each divided by its deviation.
+
+A cell of level L merges 2^L samples on either side. It compares how their poses
+are distributed, mean and deviation of each feature (the Fréchet distance of
+normal distributions with independent features), so that from afar an activity
+is a plain square, whatever the phase of its samples.
+
+Nothing of cells × cells is held: cells are computed from two spans of features.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kineme._util.arrays import Float32s, Floats
+from kineme.errors import MotionError, ParameterError
+from kineme.features.distances import SIZE, distance_features
+from kineme.features.effectors import Names, end_effectors
+from kineme.features.pose import pose_features
+from kineme.features.size import body_size
+from kineme.recordings import Motion, Signals
+from kineme.recordings.operations import resample
+
+COARSEST = 256
+"""Cells a side up to which there is no coarser level."""
+RATE = 10.0
+"""Cells per second: what can still be told apart on a screen."""
+MOST_CELLS = 36_000
+"""An hour; longer recordings get fewer cells per second."""
+OFFSETS = (-0.2, -0.1, 0.0, 0.1, 0.2)
+"""Seconds, as in the preset ``kineme``."""
+BODY_SCALE = 0.2
+"""Body sizes; where the activities of subject 86 stand out."""
+SIGNAL_SCALE = 0.5
+"""Share of the distance of two samples drawn at random."""
+MOST_CHANNELS = 16
+
+
+@dataclass(frozen=True, eq=False)
+class SimilarityMatrix:
+    """A recording's self-similarity: ``levels[L]`` holds the features of each cell of level L.
+
+    They are (cells, dims), in units of the scale, nan where nothing was seen; level 0 has ``fps``
+    cells a second.
+    """
+
+    fps: float
+    levels: tuple[Float32s, ...]
+
+    def cells(self, level: int, rows: slice, columns: slice) -> Float32s:
+        """Return the similarities of some cells of a level, (rows, columns) from 0 to 1."""
+        down, across = self.levels[level][rows], self.levels[level][columns]
+        # All squared distances |a|² + |b|² - 2 a·b by one matrix product.
+        squared = (down**2).sum(axis=1)[:, None] + (across**2).sum(axis=1) - 2 * (down @ across.T)
+        # Distances to unseen cells are nan: nothing in common.
+        return np.asarray(np.nan_to_num(np.exp(-np.maximum(squared, 0)), nan=0.0), np.float32)
+
+
+def compare_frames(
+    recording: Motion | Signals, *, effectors: Names | None = None
+) -> SimilarityMatrix:
+    """Return the matrix of a recording; what lies in its gaps is similar to nothing."""
+    if isinstance(recording, Motion):
+        return compare_frames_of_motion(recording, effectors=effectors)
+    values = np.array(recording.values)
+    for start, stop in recording.gaps:
+        values[start:stop] = np.nan
+    return compare_frames_of_signal(values, recording.fps)
+
+
+def compare_frames_of_motion(motion: Motion, *, effectors: Names | None = None) -> SimilarityMatrix:
+    """Return the matrix of a motion.
+
+    Of the distances between its points where it has no known body.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording
+    >>> matrix = compare_frames_of_motion(kineme.read(bundled_recording()))
+    >>> [len(level) for level in matrix.levels]
+    [483, 242]
+    """
+    try:
+        found = end_effectors(motion, names=effectors)
+        values = pose_features(motion, effectors=found)
+        values /= BODY_SCALE * body_size(motion, found)
+    except MotionError:
+        motion = resample(motion, min(motion.fps, 3 * RATE))  # distances are many
+        values = _distances(motion)
+    for start, stop in motion.gaps:
+        values[start:stop] = np.nan
+    return _stack_levels(values, motion.fps, motion.duration)
+
+
+def compare_frames_of_signal(values: ArrayLike, fps: float) -> SimilarityMatrix:
+    """Return the matrix of any signal (frames, channels) or (frames,); nan for what was not seen.
+
+    ParameterError for what is no such signal, or a frame rate that is not positive.
+
+    Examples
+    --------
+    >>> matrix = compare_frames_of_signal([[0.0], [1.0], [0.0], [1.0]], fps=2.0)
+    >>> matrix.cells(0, slice(0, 2), slice(2, 4)).round(2).tolist()
+    [[0.66, 0.03], [0.03, 0.66]]
+    """
+    try:
+        signal = np.asarray(values, np.float64)
+    except (ValueError, TypeError):
+        raise ParameterError(
+            "a signal is frames x channels of numbers: columns of texts?"
+        ) from None
+    signal = signal[:, None] if signal.ndim == 1 else signal
+    if signal.ndim != 2 or 0 in signal.shape:
+        raise ParameterError(f"a signal is frames x channels, not of shape {signal.shape}")
+    if not (np.isfinite(fps) and fps > 0):
+        raise ParameterError(f"the frame rate must be a positive number, not {fps}")
+    averaged = max(1, int(fps / (2 * RATE)))  # frames whose mean is compared: 0.05 s
+    # Means over short spans; the last one may be shorter.
+    starts = np.arange(0, len(signal), averaged)
+    lengths = np.diff(starts, append=len(signal))
+    means = np.add.reduceat(signal, starts, axis=0) / lengths[:, None]
+    return _stack_levels(_standardise(means), fps / averaged, len(signal) / fps)
+
+
+def _distances(motion: Motion) -> Floats:
+    """Return the features of a motion without a body, in units of the scale.
+
+    Any values in its gaps.
+    """
+    visible = np.ones(motion.n_frames, np.bool_)
+    for start, stop in motion.gaps:
+        visible[start:stop] = False
+    if motion.skeleton.n_joints < 2 or not visible.any():
+        return np.zeros((motion.n_frames, 1))
+    # Frames in gaps would distort the scale, and are left out.
+    features, _ = distance_features(motion.positions[visible])
+    values = np.zeros((motion.n_frames, features.shape[1]))
+    values[visible] = features / (BODY_SCALE * SIZE)
+    return values
+
+
+def _standardise(values: Floats) -> Floats:
+    """Return the channels over their deviation, reduced to the main ones if there are many."""
+    visible = np.asarray(np.isfinite(values).all(axis=1))
+    if not visible.any():
+        return np.full((len(values), 1), np.nan)
+    # Centred over what was seen; rows with a gap become nan.
+    out = np.where(visible[:, None], values, np.nan) - values[visible].mean(axis=0)
+    deviation = out[visible].std(axis=0)
+    out = out[:, deviation > 0] / deviation[deviation > 0]
+    if out.shape[1] == 0:
+        return np.where(visible[:, None], 0.0, np.nan)
+    if out.shape[1] > MOST_CHANNELS:
+        from scipy.linalg import eigh
+
+        n = out.shape[1]
+        # The last eigenvectors have the largest eigenvalues.
+        axes = eigh(np.cov(out[visible].T), subset_by_index=(n - MOST_CHANNELS, n - 1))[1]
+        out = out @ axes
+    # Twice the summed variance is the mean squared distance of two samples drawn at random.
+    return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[visible].var(axis=0).sum())))
+
+
+def _stack_levels(values: Floats, fps: float, seconds: float) -> SimilarityMatrix:
+    """Return the matrix of features (samples, dims) at every zoom.
+
+    ``seconds`` is the recording's length.
+
+    They are so scaled that two of them are ``exp(-1)`` similar at a distance of 1; nan where
+    nothing was seen.
+    """
+    rate = min(RATE, fps, MOST_CELLS / seconds)
+    # Middles of the cells; a tiny rest of a cell, which rounding may leave, is none.
+    middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
+    stacked = np.concatenate(
+        [_sample_at(values, middles + offset, fps) for offset in OFFSETS], axis=1
+    )
+    # Five stacked poses shall not make distances larger.
+    stacked /= np.sqrt(len(OFFSETS))
+    # A cell counts only if all of its stacked samples were seen.
+    visible = np.asarray(np.isfinite(stacked).all(axis=1))
+    # Sums instead of means, so that levels can be merged by adding.
+    total = np.where(visible[:, None], stacked, 0.0)
+    squares, counts = total**2, visible.astype(float)[:, None]
+    levels = [np.where(visible[:, None], total, np.nan).astype(np.float32)]
+    while len(total) > COARSEST:
+        total, squares, counts = (_sum_pairs(sums) for sums in (total, squares, counts))
+        # 0 / 0: where nothing was seen there is nothing to compare.
+        with np.errstate(invalid="ignore"):
+            mean = total / counts
+            # Variance as mean of squares less squared mean, which rounding can make negative.
+            deviation = np.sqrt(np.maximum(squares / counts - mean**2, 0))
+        # The squared distance of means and deviations is the Fréchet distance of the distributions.
+        levels.append(np.concatenate([mean, deviation], axis=1).astype(np.float32))
+    return SimilarityMatrix(rate, tuple(levels))
+
+
+def _sample_at(values: Floats, times: Floats, fps: float) -> Floats:
+    """Return the values at seconds, where frame i stands for the time around (i + 0.5) / fps."""
+    # Frame i is at its middle, half a frame later than its number.
+    at = np.clip(times * fps - 0.5, 0, len(values) - 1)
+    before = np.floor(at).astype(np.intp)
+    after = np.minimum(before + 1, len(values) - 1)
+    share = (at - before)[:, None]
+    return np.asarray((1 - share) * values[before] + share * values[after])
+
+
+def _sum_pairs(sums: Floats) -> Floats:
+    """Return sums of two neighbouring rows; the last of an odd number stays alone."""
+    return np.add.reduceat(sums, np.arange(0, len(sums), 2), axis=0)
