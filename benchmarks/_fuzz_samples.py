@@ -235,7 +235,9 @@ def _read_beside(root: Path) -> object:
 
 def _ask_library(root: Path) -> object:
     library = Library(root / "library")
-    tables = [library.table(name) for name in ("segments", "recordings", "words", "embeddings")]
+    tables = [
+        library.table(name) for name in ("segments", "recordings", "local_clusters", "embeddings")
+    ]
     return library.settings, library.failed, repr(library), library.clusters(), tables
 
 

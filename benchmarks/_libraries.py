@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from time import perf_counter
 
@@ -14,13 +15,12 @@ from kineme._version import __version__
 from kineme.library import Settings
 from kineme.library.compiling import compiled
 from kineme.library.descriptions import analysis_of
-from kineme.library.executors import InProcess
-from kineme.library.settings import VOCABULARY
 from kineme.library.storage.analyses import Analysis, has_analysis, write_analysis
 from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import ANALYSES, HEAD, SCHEMA, write_json
 from kineme.library.storage.tables import write_tables
 from kineme.recordings import Motion, Signals
+from kineme.transfer.clusters import CONSTANTS
 
 SHAKEN = 0.05
 """Deviation of what is added to each feature of a copy."""
@@ -44,14 +44,14 @@ def joined(folder: Path, keys: Mapping[str, str]) -> float:
     """Leave head and tables of pieces by the names of their recordings; seconds that it took."""
     start = perf_counter()
     entries = [(name, folder / name, key) for name, key in sorted(keys.items())]
-    tables, following = compiled(folder, entries, {}, 0, InProcess(), lambda _: None)
+    tables, following = compiled(folder, entries, {}, 0, lambda _: None)
     head = {
         "schema": SCHEMA,
         "kineme": __version__,
         "settings": Settings().to_json(),
         "sources": [],
         "recursive": False,
-        "vocabulary": dict(VOCABULARY.parameters()),
+        "clustering": asdict(CONSTANTS),
         "failed": {},
         "following": following,
         "tables": write_tables(folder, tables),

@@ -7,26 +7,19 @@ three people; all of them. Each cluster of a library stands for one action at mo
 its recordings; told is the share of frames that are right then, and how many clusters there are
 for how many actions. Then the mean of five more libraries, of six other sequences each; then takes
 of ten exercises of rehabilitation, done rightly and wrongly (UI-PRMD), on which nothing was chosen.
-``--most`` lets so many words at most be compared each with each, as in larger libraries. ``--keep``
-keeps what was found in each recording alone for the next time.
+``--most`` lets so many local clusters at most be compared pairwise, as in larger libraries.
+``--keep`` keeps what was found in each recording alone for the next time.
 
-``--growth 100 1000 10000`` measures instead what joining so many words takes, those of shaken
-copies of subject 86: processor seconds of the tasks and of what is done between them, how many
-bytes go to the tasks and come back, and seconds by the clock with one thread and in two processes,
-which find the same.
+``--growth 100 1000 10000`` measures instead the processor seconds of joining so many local
+clusters, those of shaken copies of subject 86.
 """
 
 from __future__ import annotations
 
-import os
-import pickle
-from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter, process_time
-from typing import Any
+from time import process_time
 
 import numpy as np
 
@@ -40,11 +33,9 @@ from _sources import of_bodies
 from kineme import Library
 from kineme.evaluation import TRANSITION, Comparison, Labelling, Truth, one_to_one_accuracy
 from kineme.library.compiling import compiled
-from kineme.library.executors import Executor, Outcome, Task, processes
-from kineme.library.settings import VOCABULARY
 from kineme.library.storage.analyses import read_analysis, read_features, write_analysis
 from kineme.library.storage.layout import ANALYSES
-from kineme.library.vocabulary.words import places_in
+from kineme.transfer.clusters import CONSTANTS, find_local_clusters
 
 SEQUENCES, MORE = 6, few(5, 1)
 
@@ -131,67 +122,26 @@ def show_others(folder: Path) -> None:
 
 
 def show_growth(folder: Path, sizes: list[int], most: int) -> None:
-    """What joining so many words takes, in this process and in two."""
-    os.environ["KINEME_THREADS"] = "1"
-    kineme.library.compiling.VOCABULARY = replace(VOCABULARY, most=most)
+    """Processor seconds of joining so many local clusters."""
+    kineme.library.compiling.CONSTANTS = replace(CONSTANTS, most=most)
     cases = subject_86()
     library = library_of(folder / "subject_86", [(case.name, case.motion) for case in cases])
     for size in sizes:
         with TemporaryDirectory() as home:
             entries = many(library, size, Path(home))
             kept = sum(path.stat().st_size for path in (Path(home) / ANALYSES).glob("*.npy"))
-            clocks, made = {}, []
-            for jobs in (1, 2):
-                with processes(jobs) as executor:
-                    counted = Counted(executor)
-                    started, clock = process_time(), perf_counter()
-                    tables, _ = compiled(Path(home), entries, {}, 0, counted, lambda _: None)
-                    clocks[jobs] = perf_counter() - clock
-                    spent = process_time() - started
-                made.append(tables["words"])
-                if jobs == 1:
-                    work, rest, travelled = counted.seconds, spent - counted.seconds, counted.bytes
-            n, clusters = len(made[0]), len(set(made[0].column("cluster").to_pylist()))
-            assert repr(made[0].to_pydict()) == repr(made[1].to_pydict())  # of nan as well
-        print(
-            f"{n} words: {work:.1f} s in {counted.tasks} tasks and {rest:.1f} s between them, "
-            f"{travelled / 1e6:.1f} MB there and back, {clusters} clusters; by the clock "
-            f"{clocks[1]:.1f} s, in two processes {clocks[2]:.1f} s",
-            flush=True,
-        )
-        record(f"vocabulary.growth.{size}.seconds", round(work, 1), unit="s")
-        record(f"vocabulary.growth.{size}.rest", round(rest, 2), unit="s")
+            started = process_time()
+            tables, _ = compiled(Path(home), entries, {}, 0, lambda _: None)
+            seconds = process_time() - started
+        found = tables["local_clusters"]
+        n, clusters = len(found), len(set(found.column("cluster").to_pylist()))
+        print(f"{n} local clusters: {seconds:.1f} s, {clusters} clusters", flush=True)
+        record(f"vocabulary.growth.{size}.seconds", round(seconds, 1), unit="s")
         record(f"vocabulary.growth.{size}.features", round(kept / 1e6), unit="MB")
-        record(f"vocabulary.growth.{size}.travels", round(travelled / 1e6, 1), unit="MB")
-
-
-class Counted:
-    """An executor that counts the processor seconds of tasks, and the bytes of them and back."""
-
-    def __init__(self, executor: Executor):
-        self._executor = executor
-        self.tasks, self.bytes, self.seconds = 0, 0, 0.0
-
-    def completed(
-        self, work: Callable[[Task], Outcome], tasks: Sequence[Task], **options: Any
-    ) -> Iterator[tuple[Task, Outcome | None]]:
-        self.tasks += len(tasks)
-        for task, told in self._executor.completed(partial(timed, work), tasks, **options):
-            outcome, seconds, size = told or (None, 0.0, 0)
-            self.seconds += seconds
-            self.bytes += size
-            yield task, outcome
-
-
-def timed(work: Callable[[Task], Outcome], task: Task) -> tuple[Outcome, float, int]:
-    start = process_time()
-    outcome = work(task)
-    seconds = process_time() - start
-    return outcome, seconds, len(pickle.dumps(task)) + len(pickle.dumps(outcome))
 
 
 def many(library: Library, size: int, home: Path) -> list[tuple[str, Path, str]]:
-    """Shaken copies of recordings with so many words, each of which is shaken in its own way."""
+    """Shaken copies of recordings with so many local clusters, each shaken in its own way."""
     (home / ANALYSES).mkdir()
     keys = library.recordings["piece"]
     own = [(read_analysis(library.folder / ANALYSES, key), key) for key in keys]
@@ -205,18 +155,18 @@ def many(library: Library, size: int, home: Path) -> list[tuple[str, Path, str]]
         name = f"{len(entries):032x}"
         write_analysis(home / ANALYSES, name, piece, features)
         entries.append((name, home / name, name))
-        n += len(places_in(piece, 0))
+        n += len(find_local_clusters(piece.table, 0))
     return entries
 
 
 def main() -> None:
     options = command_line(__doc__)
-    options.add_argument("--most", type=int, default=VOCABULARY.most)
+    options.add_argument("--most", type=int, default=CONSTANTS.most)
     options.add_argument("--keep", type=Path)
     options.add_argument("--growth", type=int, nargs="+", default=[])
     add_option(options)
     given = options.parse_args()
-    kineme.library.compiling.VOCABULARY = replace(VOCABULARY, most=given.most)
+    kineme.library.compiling.CONSTANTS = replace(CONSTANTS, most=given.most)
     with TemporaryDirectory() as folder:
         home = given.keep or Path(folder)
         if given.growth:

@@ -19,7 +19,6 @@ import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Library, Settings, build, gathering
 from kineme.library.gathering import Group
-from kineme.library.vocabulary import signals
 
 
 def test_one_bad_file_costs_itself_only(built: Path, takes: Path) -> None:
@@ -159,9 +158,7 @@ class Backwards:
         return ((task, work(task)) for task in reversed(tasks))
 
 
-def test_channels_have_clusters_in_common_that_keep_number_and_name(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_channels_have_clusters_in_common_that_keep_number_and_name(tmp_path: Path) -> None:
     own, folder = tmp_path / "takes", tmp_path / "library"
     own.mkdir()
     for seed, name in enumerate("abc"):
@@ -183,7 +180,6 @@ def test_channels_have_clusters_in_common_that_keep_number_and_name(
     labels = {row["label"] for row in Library(folder).table("segments").to_pylist()}
     assert labels == {"", "fast"}
     build(own, tmp_path / "once")
-    monkeypatch.setattr(signals, "AT_ONCE", 1)
     build(own, tmp_path / "backwards", client=Backwards())
     assert contents(tmp_path / "backwards") == contents(tmp_path / "once")
 

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from crowds import bytes_of, crowd, joined
 from library_folders import contents
 
 from kineme.errors import ParameterError
@@ -53,13 +52,6 @@ def test_a_task_that_ends_its_workers_costs_itself_only(client: Any) -> None:
     assert list(Cluster(client).completed(os._exit, [1])) == [(1, None)]
     client.run_on_scheduler(_bear_deaths, most=3)
     assert dict(Cluster(client).completed(abs, [-2, -3])) == {-2: 2, -3: 3}
-
-
-def test_clusters_are_joined_by_the_workers_as_they_are_here(client: Any) -> None:
-    from kineme.library.executors import Cluster
-
-    words, _ = crowd()
-    assert bytes_of(joined(words, Cluster(client), most=20)) == bytes_of(joined(words, most=20))
 
 
 def _bear_deaths(dask_scheduler: Any, most: int) -> None:

@@ -49,9 +49,9 @@ def features(change: Callable[[np.ndarray], np.ndarray]) -> Damage:
     return damage
 
 
-def words(change: Callable[[pa.Table], pa.Table]) -> Damage:
+def local(change: Callable[[pa.Table], pa.Table]) -> Damage:
     def damage(folder: Path) -> None:
-        (path,) = (folder / "tables").glob("*/words.parquet")
+        (path,) = (folder / "tables").glob("*/local_clusters.parquet")
         parquet.write_table(change(parquet.ParquetFile(path).read()), path)
 
     return damage
@@ -83,9 +83,9 @@ DAMAGES: dict[str, Damage] = {
     "settings that are none": head(settings={}),
     "settings of another type": head(settings=[1]),
     "a constant of no preset": head(settings={"constants": {"1": 1}, "reading": {}}),
-    "constants that are texts": head(vocabulary={"unsure": "0.1"}),
-    "a constant that is missing": head(vocabulary={}),
-    "words of nobody": words(with_column("recording", lambda n: pa.array(["nobody"] * n))),
+    "constants that are texts": head(clustering={"unsure": "0.1"}),
+    "a constant that is missing": head(clustering={}),
+    "clusters of nobody": local(with_column("recording", lambda n: pa.array(["nobody"] * n))),
     "reasons that are numbers": head(failed={"a": 1}),
     "tables elsewhere": head(tables="../.."),
     "a number no column holds": head(following=1 << 63),
@@ -96,16 +96,16 @@ DAMAGES: dict[str, Damage] = {
     "features too large": features(lambda array: array + np.float32(1e30)),
     "features of another type": features(lambda array: array.astype("f8")),
     "features in a row": features(np.ravel),
-    "a table without a column": words(lambda table: table.drop_columns(["spread"])),
-    "a table with a column twice": words(
+    "a table without a column": local(lambda table: table.drop_columns(["spread"])),
+    "a table with a column twice": local(
         lambda table: table.append_column("spread", table.column("spread"))
     ),
-    "a table of texts": words(with_column("spread", lambda n: pa.array(["x"] * n))),
-    "a table with holes": words(with_column("spread", lambda n: pa.nulls(n, pa.float64()))),
-    "a table of numbers too large": words(
+    "a table of texts": local(with_column("spread", lambda n: pa.array(["x"] * n))),
+    "a table with holes": local(with_column("spread", lambda n: pa.nulls(n, pa.float64()))),
+    "a table of numbers too large": local(
         with_column("spread", lambda n: pa.array(np.full(n, 1e308)))
     ),
-    "texts that are none": words(with_column("recording", not_utf8)),
+    "texts that are none": local(with_column("recording", not_utf8)),
 }
 
 
@@ -121,7 +121,7 @@ def test_damage_is_said_in_a_sentence(folder: Path, kind: str) -> None:
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")
 def test_a_cluster_without_segments_lasts_no_time(folder: Path) -> None:
-    words(with_column("cluster", lambda n: pa.array([99] * n)))(folder)
+    local(with_column("cluster", lambda n: pa.array([99] * n)))(folder)
     assert [cluster.typical_s for cluster in Library(folder).clusters()] == [0.0]
 
 

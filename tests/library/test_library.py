@@ -20,10 +20,10 @@ import kineme
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.descriptions import describe
-from kineme.library.settings import VOCABULARY
 from kineme.library.storage.layout import as_column
 from kineme.library.storage.tables import DESCRIBED
 from kineme.segments.table import COLUMNS
+from kineme.transfer.clusters import CONSTANTS
 from kineme.transfer.subsequences import THRESHOLD
 
 
@@ -280,15 +280,16 @@ def test_each_cluster_has_a_picture(library: Library, tmp_path: Path) -> None:
     assert imread(written[0]).shape[0] > imread(written[1]).shape[0]
 
 
-def test_words_are_joined_as_far_as_a_search_reaches() -> None:
-    assert VOCABULARY.join == THRESHOLD
+def test_clusters_are_joined_as_far_as_a_search_reaches() -> None:
+    assert CONSTANTS.join == THRESHOLD
 
 
 def test_tables_are_made_and_read_without_pandas(folder: Path) -> None:
     # It takes a third of a second to load, in each process of a build.
     code = (
         "import sys, kineme; library = kineme.Library(sys.argv[1]); library.name(0, 'walk');"
-        "[library.table(name) for name in ('segments', 'words', 'embeddings', 'clusters')];"
+        "names = 'segments', 'local_clusters', 'embeddings', 'clusters';"
+        "[library.table(name) for name in names];"
         "print('pandas' in sys.modules)"
     )
     done = subprocess.run(

@@ -120,7 +120,7 @@ def test_the_side_file_of_people_is_read_once_for_a_list(duet: Studio, monkeypat
         read.append(path)
         return _json.load_json(path, shape)
 
-    monkeypatch.setattr(sidecars, "loaded", loaded)
+    monkeypatch.setattr(sidecars, "load_json", loaded)
     assert [each.person for each in sidecars.listed_in([duet.path])] == ["Anna", "Bob"]
     assert len(read) == 1
 

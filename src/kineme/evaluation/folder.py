@@ -24,8 +24,7 @@ from kineme.labels.collections import LabelSource
 from kineme.recordings.motion import Motion
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.sharing import share_clusters
-from kineme.transfer.vocabulary import share_by_samples
+from kineme.transfer.sharing import share_by_samples, share_clusters
 
 Mapped = Literal["recording", "folder"]
 Progress = Callable[[str], None]

@@ -20,10 +20,9 @@ skeleton is one of them), of the version of kineme, and of every constant and op
 that is there is never made again, so a build that was ended goes on where it was, and
 what a library holds depends neither on the number of processes nor on the order of their work.
 
-**One vocabulary.** The clusters of single recordings are joined over all of them by what they
-look like (`kineme.library.vocabulary`), bodies and each set of channels for itself; those of
-channels by what all recordings have together. A cluster that is found again after recordings came
-or went keeps its number (`kineme.library.vocabulary.numbering`); a number is never given twice.
+**Clusters in common.** The clusters of single recordings are joined over all of them, bodies and
+each set of channels for itself (`kineme.transfer.clusters`). A cluster that is found again after
+recordings came or went keeps its number; a number is never given twice.
 
 **Computed and said are apart.** Tables hold what was computed. Names, merges and splits
 (`kineme.library.edits`) are kept in a file of their own, and applied whenever tables are read.

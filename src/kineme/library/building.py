@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from kineme._util.checks import check_type, is_number
 from kineme._util.files import OwnedFolder, is_draft
 from kineme._version import __version__
-from kineme.errors import ParameterError
+from kineme.errors import ParameterError, ReadError
 from kineme.library.edits import read_edits
 from kineme.library.executors import Executor, Progress, connected, processes
 from kineme.library.gathering import gather
 from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, opened, plan_of
-from kineme.library.settings import VOCABULARY, Settings
+from kineme.library.settings import Settings
 from kineme.library.sources import listed, names_of
 from kineme.library.storage.analyses import KEY_LENGTH, has_analysis, is_analysis
 from kineme.library.storage.index import write_index
@@ -24,6 +26,7 @@ from kineme.library.storage.layout import (
     ANALYSES,
     HEAD,
     LOCK_EDITS,
+    MOST_CLUSTERS,
     SCHEMA,
     TABLES,
     arrow,
@@ -33,12 +36,17 @@ from kineme.library.storage.layout import (
 )
 from kineme.library.storage.places import lies_in, place, reaching
 from kineme.library.storage.tables import is_table, is_tables, read_table, write_tables
-from kineme.library.vocabulary.numbering import read_removed, removed_after, write_removed
+from kineme.transfer.clusters import CONSTANTS, Spans
 
 Head = Mapping[str, Any]
 """What ``library.json`` says; nothing where there is none yet."""
 Former = Mapping[Path, tuple[str, str]]
 """Name and analysis of recordings that the library has."""
+REMOVED = "left.json"
+"""Clusters of recordings that were taken out, by the key of the analysis, for when they return."""
+Kept = tuple[list[float], list[float], list[int]]
+"""Starts, stops and clusters of activities."""
+DAMAGED = "is damaged: remove it; clusters of recordings that come back get new numbers then"
 
 NEVER_FOUND = "there is no such file or folder"
 NOT_FOUND = "is not there: its recordings are kept; --remove takes them out"
@@ -167,7 +175,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
     with writer_lock(plan.folder, "build", LOCK_EDITS):
-        tables = _written(plan, head, before, entries, failed, executor, progress)
+        tables = _written(plan, head, before, entries, failed, progress)
     _clean(plan.folder, {key for _, _, key in entries}, tables)
     return Built(
         plan.folder,
@@ -206,7 +214,6 @@ def _written(
     before: Former,
     entries: Sequence[Entry],
     failed: Mapping[Path, str],
-    executor: Executor,
     progress: Progress,
 ) -> str:
     """The name of the tables of these recordings, which the head of the library tells now."""
@@ -216,11 +223,11 @@ def _written(
         "settings": plan.settings.to_json(),
         "sources": [str(source) for source in plan.sources],
         "recursive": plan.recursive,
-        "vocabulary": dict(VOCABULARY.parameters()),
+        "clustering": asdict(CONSTANTS),
         "failed": {str(path): reason for path, reason in sorted(failed.items())},
     }
     same = {path: (name, key) for name, path, key in entries} == before
-    if same and all(head.get(name) == content[name] for name in ("kineme", "vocabulary")):
+    if same and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         following, tables = head["following"], head["tables"]
     else:
         from kineme.library.compiling import activities_in, compiled
@@ -228,22 +235,52 @@ def _written(
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)
         former = activities_in(plan.folder, head.get("tables"))
-        removed = read_removed(plan.folder)
+        removed = _read_removed(plan.folder)
         returned = {
             name: removed[key] for name, _, key in entries if key in removed and name not in former
         }
         made, following = compiled(
-            plan.folder, entries, {**returned, **former}, following, executor, progress
+            plan.folder, entries, {**returned, **former}, following, progress
         )
         keys = dict(before.values())
         by_key = {keys[name]: spans for name, spans in former.items() if name in keys}
-        write_removed(plan.folder, removed_after(removed, by_key, (key for _, _, key in entries)))
+        _write_removed(plan.folder, removed, by_key, (key for _, _, key in entries))
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**content, "following": following, "tables": tables}
     if now != head:
         write_json(plan.folder / HEAD, now)
     return str(tables)
+
+
+def _read_removed(folder: Path) -> dict[str, Spans]:
+    """Return the activities of recordings that were taken out, by key."""
+    try:
+        content = read_json(folder / REMOVED, Kept)
+    except ReadError as error:
+        raise ReadError(folder / REMOVED, DAMAGED) from error
+    for starts, stops, clusters in content.values():
+        is_even = len(starts) == len(stops) == len(clusters)
+        if not (is_even and all(-1 <= cluster < MOST_CLUSTERS for cluster in clusters)):
+            raise ReadError(folder / REMOVED, DAMAGED)
+    return {
+        key: (np.array(starts, float), np.array(stops, float), np.array(clusters, np.int64))
+        for key, (starts, stops, clusters) in content.items()
+    }
+
+
+def _write_removed(
+    folder: Path, removed: Mapping[str, Spans], before: Mapping[str, Spans], keys: Iterable[str]
+) -> None:
+    """Keep activities of recordings, removed earlier or there before, that have no key now."""
+    present = set(keys)
+    content = {
+        key: [column.tolist() for column in spans]
+        for key, spans in {**removed, **before}.items()
+        if key not in present
+    }
+    if content or (folder / REMOVED).exists():
+        write_json(folder / REMOVED, content)
 
 
 def _clean(folder: Path, keys: set[str], tables: str) -> None:

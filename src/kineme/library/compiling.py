@@ -1,9 +1,9 @@
-"""From the analyses of a library to its tables: one vocabulary over all recordings."""
+"""From the analyses of a library to its tables, with clusters in common."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from functools import lru_cache, partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -12,26 +12,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Ints
-from kineme.library.executors import Executor, Progress
+from kineme.library.executors import Progress
 from kineme.library.planning import Entry
-from kineme.library.settings import VOCABULARY
-from kineme.library.storage.analyses import Analysis, read_analysis
+from kineme.library.storage.analyses import (
+    Analysis,
+    read_analysis,
+    read_channel_samples,
+    read_spans,
+)
 from kineme.library.storage.layout import ANALYSES, BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.tables import read_table, table_of
-from kineme.library.vocabulary.joining import Joined, clusters_in
-from kineme.library.vocabulary.numbering import Spans, lasting_numbers
-from kineme.library.vocabulary.words import Place, crowd_of, places_in
 from kineme.segments.table import COLUMNS
+from kineme.transfer.clusters import (
+    CONSTANTS,
+    Assignment,
+    ClusterSet,
+    Features,
+    LocalCluster,
+    Spans,
+    assign_to_centres,
+    find_local_clusters,
+    keep_numbers,
+    link_clusters,
+    spans_with_clusters,
+    to_samples,
+)
 
 Columns = dict[str, Any]
 
-
-@dataclass(frozen=True, eq=False)
-class _Words:
-    """The words of all recordings, and what became of them."""
-
-    places: list[Place]
-    joined: Joined
+CACHED = 500
+"""Local clusters whose features are kept for the next comparison: those of a round."""
 
 
 def compiled(
@@ -39,7 +49,6 @@ def compiled(
     entries: Sequence[Entry],
     before: Mapping[str, Spans],
     following: int,
-    executor: Executor,
     progress: Progress,
 ) -> tuple[dict[str, Any], int]:
     """Return the tables of a library by name, and the first number that no cluster was given.
@@ -48,18 +57,19 @@ def compiled(
     see `activities_in`: clusters that are found again keep their numbers.
     """
     analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
-    words = _joined_words(folder, entries, analyses, executor, progress)
-    shared = _shared(analyses, words)
+    keys = [key for _, _, key in entries]
+    local, found = _join_clusters(analyses, keys, folder / ANALYSES, progress)
+    shared = _cluster_of_segments(analyses, local, found.cluster)
     new = {
-        name: _spans(analysis.table.columns(), clusters)
+        name: spans_with_clusters(analysis.table.columns(), clusters)
         for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
     }
-    numbers = lasting_numbers(before, new, following=following)
+    numbers = keep_numbers(before, new, following=following)
     renumbered = np.array([*numbers.values(), -1], np.int64)  # labels are 0, 1, …
     tables = {
         "recordings": _recordings(entries, analyses),
         "segments": _segments(entries, analyses, [renumbered[each] for each in shared]),
-        "words": _word_table(entries, words, renumbered),
+        "local_clusters": _local_clusters(entries, local, found, renumbered),
         "embeddings": _embeddings(entries, analyses),
     }
     return {name: table_of(name, columns) for name, columns in tables.items()}, max(
@@ -79,53 +89,66 @@ def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
     found = {}
     for start, stop in pairwise(edges):
         rows = {name: column[start:stop] for name, column in columns.items()}
-        found[str(rows["recording"][0])] = _spans(rows, rows["cluster"])
+        found[str(rows["recording"][0])] = spans_with_clusters(rows, rows["cluster"])
     return found
 
 
-def _joined_words(
-    folder: Path,
-    entries: Sequence[Entry],
+def _join_clusters(
     analyses: Sequence[Analysis],
-    executor: Executor,
+    keys: Sequence[str],
+    folder: Path,
     progress: Progress,
-) -> _Words:
-    """Return the words of each vocabulary, joined; clusters are counted on from one to the next."""
-    places: list[Place] = []
-    parts: list[Joined] = []
-    count = 0
-    for vocabulary in sorted({analysis.facts["vocabulary"] for analysis in analyses} - {""}):
-        words = [
-            place
-            for number, analysis in enumerate(analyses)
-            if analysis.facts["vocabulary"] == vocabulary
-            for place in places_in(analysis, number)
-        ]
-        if not words:
+) -> tuple[list[LocalCluster], Assignment]:
+    """Return the local clusters of all recordings, and the cluster in common of each.
+
+    ``keys`` name the analyses in ``folder``.
+    """
+    none = np.empty(0, np.int64)
+    every, parts, count = [], [Assignment(none, none, np.empty(0), np.empty(0))], 0
+    for kind in sorted({analysis.facts["vocabulary"] for analysis in analyses} - {""}):
+        # By key, which tells the content: sums must not depend on what files are called.
+        numbers = [i for i, each in enumerate(analyses) if each.facts["vocabulary"] == kind]
+        numbers.sort(key=keys.__getitem__)
+        groups = [find_local_clusters(analyses[number].table, number) for number in numbers]
+        local = [each for group in groups for each in group]
+        if not local:
             continue
-        keys = [key for _, _, key in entries]
-        if vocabulary == BODIES or len({place.recording for place in words}) == 1:
-            crowd = crowd_of(words, analyses, folder / ANALYSES, keys)
-            found = clusters_in(crowd, VOCABULARY, executor, progress)
+        if kind == BODIES or len(numbers) == 1:
+            clusters = _cluster_set(local, analyses, keys, folder)
+            found = link_clusters(clusters, keys, CONSTANTS, progress=progress)
         else:
-            from kineme.library.vocabulary.signals import clusters_of_signals
-
-            found = clusters_of_signals(words, analyses, folder / ANALYSES, keys, executor)
-        following = np.where(found.following < 0, -1, found.following + count)
-        places += words
-        parts.append(found._replace(labels=found.labels + count, following=following))
-        count += int(found.labels.max()) + 1
-    if not places:
-        none = np.empty(0, np.int64)
-        return _Words([], Joined(none, none, np.empty(0), np.empty(0)))
-    return _Words(places, Joined(*map(np.concatenate, zip(*parts, strict=True))))
+            found = assign_to_centres(
+                [partial(read_channel_samples, folder, keys[number]) for number in numbers],
+                [analyses[number].facts["moments"] for number in numbers],
+                [[each.spans for each in group] for group in groups],
+            )
+        parts.append(found.shift(count))
+        every += local
+        count += int(found.cluster.max()) + 1
+    return every, Assignment(*map(np.concatenate, zip(*parts, strict=True)))
 
 
-def _shared(analyses: Sequence[Analysis], words: _Words) -> list[Ints]:
-    """Return the cluster of each segment of each analysis in the common vocabulary, -1 in none."""
+def _cluster_set(
+    local: Sequence[LocalCluster], analyses: Sequence[Analysis], keys: Sequence[str], folder: Path
+) -> ClusterSet:
+    @lru_cache(CACHED)
+    def load(each: LocalCluster) -> Features:
+        facts = analyses[each.recording].facts
+        size = facts["features_fps"], facts["samples"]
+        spans = to_samples(each.example, *size), to_samples(each.context, *size)
+        return read_spans(folder, keys[each.recording], spans)
+
+    embeddings = np.array([analyses[each.recording].embeddings[each.row] for each in local])
+    return ClusterSet(local, embeddings, load)
+
+
+def _cluster_of_segments(
+    analyses: Sequence[Analysis], local: Sequence[LocalCluster], clusters: Ints
+) -> list[Ints]:
+    """Return the cluster in common of each segment of each analysis, -1 without one."""
     label = {
-        (place.recording, place.cluster): cluster
-        for place, cluster in zip(words.places, words.joined.labels.tolist(), strict=True)
+        (each.recording, each.cluster): cluster
+        for each, cluster in zip(local, clusters.tolist(), strict=True)
     }
     return [
         np.array(
@@ -133,13 +156,6 @@ def _shared(analyses: Sequence[Analysis], words: _Words) -> list[Ints]:
         )
         for i, analysis in enumerate(analyses)
     ]
-
-
-def _spans(columns: Columns, clusters: Ints) -> Spans:
-    """Return the activities of a recording with their clusters, and what only primitives are of."""
-    active, coarse = columns["kind"] != "transition", columns["level"] == "activity"
-    rows = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))
-    return columns["start_s"][rows], columns["stop_s"][rows], clusters[rows]
 
 
 def _recordings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
@@ -173,17 +189,18 @@ def _segments(
     }
 
 
-def _word_table(entries: Sequence[Entry], words: _Words, numbers: Ints) -> Columns:
+def _local_clusters(
+    entries: Sequence[Entry], local: Sequence[LocalCluster], found: Assignment, numbers: Ints
+) -> Columns:
+    names = ("start_s", "stop_s", "seconds")
     return {
-        "recording": [entries[place.recording][0] for place in words.places],
-        "own_cluster": [place.cluster for place in words.places],
-        "cluster": numbers[words.joined.labels],
-        "following": numbers[words.joined.following],
-        "confidence": words.joined.confidence,
-        "spread": words.joined.spread,
-        "start_s": [place.start_s for place in words.places],
-        "stop_s": [place.stop_s for place in words.places],
-        "seconds": [place.seconds for place in words.places],
+        "recording": [entries[each.recording][0] for each in local],
+        "own_cluster": [each.cluster for each in local],
+        "cluster": numbers[found.cluster],
+        "next_cluster": numbers[found.next_cluster],
+        "confidence": found.confidence,
+        "spread": found.spread,
+        **{name: [getattr(each, name) for each in local] for name in names},
     }
 
 

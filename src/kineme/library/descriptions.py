@@ -140,6 +140,7 @@ def analysis_of(
     These are of signals only: a row each of second, means and deviations.
     """
     from kineme.methods.segmenter import segment
+    from kineme.transfer.channel_samples import channel_samples
 
     emg = settings.options().emg
     found = segment(
@@ -154,7 +155,10 @@ def analysis_of(
     for row, each in enumerate(found.table):
         if each.kind != "transition":
             embeddings[row] = described.embedding(each.start_s, each.stop_s)
-    channel_samples = _channel_samples(recording) if isinstance(recording, Signals) else None
+    samples = None
+    if isinstance(recording, Signals):
+        rows = np.clip(channel_samples(recording).rows, -LARGEST_SAMPLE, LARGEST_SAMPLE)
+        samples = rows.astype(np.float32)
     reason = f"not searched: {described.reason}" if described.reason else ""
     facts = {
         "format": recording.provenance.format or "",
@@ -163,18 +167,7 @@ def analysis_of(
         "vocabulary": described.vocabulary,
         "features_fps": described.fps,
         "samples": len(described.features),
-        "moments": 0 if channel_samples is None else len(channel_samples),
+        "moments": 0 if samples is None else len(samples),
         "notes": [*found.provenance["notes"], *filter(None, [reason])],
     }
-    return Analysis(facts, found.table, embeddings), described.features, channel_samples
-
-
-def _channel_samples(signals: Signals) -> NDArray[np.float32]:
-    from kineme.transfer.channel_samples import channel_samples
-
-    found = channel_samples(signals)
-    columns = np.column_stack([found.frames / signals.fps, found.means, found.deviations])
-    clipped: NDArray[np.float32] = np.clip(columns, -LARGEST_SAMPLE, LARGEST_SAMPLE).astype(
-        np.float32
-    )
-    return clipped
+    return Analysis(facts, found.table, embeddings), described.features, samples

@@ -157,7 +157,7 @@ def edited(table: Any, edits: Edits) -> Any:
     A ``label`` goes with ``cluster``, an ``action_label`` with ``action`` where there is one.
     """
     recordings = as_array(table.column("recording"))
-    for name, label in (("cluster", "label"), ("following", None), ("action", "action_label")):
+    for name, label in (("cluster", "label"), ("next_cluster", None), ("action", "action_label")):
         if name not in table.column_names:
             continue
         clusters = edits.applied(as_array(table.column(name)), recordings)

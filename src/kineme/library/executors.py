@@ -29,7 +29,6 @@ PRELOADED = (
     "kineme.library.descriptions",
     "kineme.methods.segmenter",
     "kineme.transfer.channel_samples",
-    "kineme.library.vocabulary.joining",
     "kineme.formats.skeletons._amc_kernels",
     "kineme.methods.kineme.pipeline",
     "kineme.methods.kineme.found",
@@ -291,11 +290,11 @@ def _alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
 class Watch:
     """Tells how many things are done, and for how many seconds the work on the others goes on.
 
-    So many things make so much work, in any unit. ``what`` stands before the numbers.
+    So many things make so much work, in any unit.
     """
 
-    def __init__(self, progress: Progress, things: int, work: float, what: str = ""):
-        self._progress, self._what = progress, what
+    def __init__(self, progress: Progress, things: int, work: float):
+        self._progress = progress
         self._started = time.monotonic()
         self._things, self._work = things, work
         self._things_done, self._work_done = 0, 0.0
@@ -308,8 +307,4 @@ class Watch:
         left_s = (time.monotonic() - self._started) * left / max(self._work_done, 1)
         shown = f"{left_s:.0f} s" if left_s < 90 else f"{left_s / 60:.0f} min"
         more = f", {shown} left" if self._things_done < self._things else ""
-        self._progress(f"{self._what}{self._things_done} of {self._things}{more}")
-
-    def more(self, work: float) -> None:
-        """There is so much more work."""
-        self._work += work
+        self._progress(f"{self._things_done} of {self._things}{more}")

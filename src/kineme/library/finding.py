@@ -28,7 +28,7 @@ from kineme.recordings import Motion, Signals
 AnyPath = str | PathLike[str]
 
 TYPICAL = 5
-"""Words that stand for a cluster in a search, the most typical ones."""
+"""Segments that stand for a cluster in a search, the most typical ones."""
 
 BEYOND = 0.1
 """Seconds by which an example may stop after the end of its recording without a warning."""
@@ -95,11 +95,11 @@ def _likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) ->
 
 
 def typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
-    """Return the most typical words of a cluster, by number or name, as examples."""
-    words = tables.columns("words")
-    rows = np.flatnonzero(np.isin(words["cluster"], numbers_of(tables, cluster)))
-    rows = rows[np.argsort(words["spread"][rows], kind="stable")][:TYPICAL]
-    columns = (words[name][rows].tolist() for name in ("recording", "start_s", "stop_s"))
+    """Return the most typical segments of a cluster, by number or name, as examples."""
+    local = tables.columns("local_clusters")
+    rows = np.flatnonzero(np.isin(local["cluster"], numbers_of(tables, cluster)))
+    rows = rows[np.argsort(local["spread"][rows], kind="stable")][:TYPICAL]
+    columns = (local[name][rows].tolist() for name in ("recording", "start_s", "stop_s"))
     return [Example(Named(name), *span) for name, *span in zip(*columns, strict=True)]
 
 

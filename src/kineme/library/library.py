@@ -15,10 +15,10 @@ from kineme.errors import ParameterError
 from kineme.library.executors import connected
 from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
 from kineme.library.finding import as_examples, hits_like, typical_examples
-from kineme.library.open_library import Cluster, OpenTables, Word, clusters_of, numbers_of
+from kineme.library.open_library import Cluster, OpenTables, clusters_of, numbers_of
 from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
-from kineme.library.storage.layout import arrow
+from kineme.library.storage.layout import arrow, as_column
 from kineme.library.storage.places import place, reaching
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import THRESHOLD
@@ -90,7 +90,7 @@ class Library:
 
         Parameters
         ----------
-        name : {"segments", "recordings", "words", "embeddings", "clusters"}
+        name : {"segments", "recordings", "local_clusters", "embeddings", "clusters"}
 
         Raises
         ------
@@ -103,14 +103,16 @@ class Library:
         """Return the clusters of the library, those of most seconds first."""
         return clusters_of(self._tables)
 
-    def unsure(self) -> list[Word]:
-        """Return the words whose cluster is uncertain, those of least confidence first."""
-        words, most = self._tables.columns("words"), self.head["vocabulary"]["unsure"]
-        confidence = words["confidence"]
-        rows = np.flatnonzero((confidence < most) & (words["cluster"] != words["following"]))
+    def unsure(self) -> list[dict[str, Any]]:
+        """Return rows of ``local_clusters`` that may belong to another cluster, likeliest first."""
+        local, most = self._tables.columns("local_clusters"), self.head["clustering"]["unsure"]
+        confidence = local["confidence"]
+        rows = np.flatnonzero((confidence < most) & (local["cluster"] != local["next_cluster"]))
         rows = rows[np.argsort(confidence[rows], kind="stable")]
-        columns = (words[name][rows].tolist() for name in Word._fields)
-        return [Word(*row) for row in zip(*columns, strict=True)]
+        found: list[dict[str, Any]] = (
+            self.table("local_clusters").take(as_column(rows, int)).to_pylist()
+        )
+        return found
 
     def numbers(self, cluster: int | str) -> list[int]:
         """Return the clusters of that number or name; ParameterError where there is none."""
@@ -191,8 +193,8 @@ class Library:
         Parameters
         ----------
         sql : str
-            For DuckDB: ``segments``, ``recordings``, ``words`` and ``embeddings``, whose columns
-            are told by `kineme.library.storage.tables.DESCRIBED`, and ``clusters``.
+            For DuckDB: ``segments``, ``recordings``, ``local_clusters`` and ``embeddings``, whose
+            columns are told by `kineme.library.storage.tables.DESCRIBED`, and ``clusters``.
 
         Raises
         ------
@@ -245,8 +247,8 @@ class Library:
         chosen, tables = list(recordings), self._tables
         with tables.editing():
             (number, *_) = self.numbers(cluster)
-            words = tables.columns("words")
-            present = set(words["recording"][words["cluster"] == number].tolist())
+            local = tables.columns("local_clusters")
+            present = set(local["recording"][local["cluster"] == number].tolist())
             if not present.intersection(chosen) or present <= set(chosen):
                 raise ParameterError(
                     f"cluster {number} is split by naming some, not all, of its {len(present)} "
@@ -268,9 +270,9 @@ class Library:
         return len(self.recordings["recording"])
 
     def __repr__(self) -> str:
-        words = self._tables.columns("words")["cluster"].tolist()
+        numbers = self._tables.columns("local_clusters")["cluster"].tolist()
         recordings, clusters = (
             format_count(len(self), "recording"),
-            format_count(len(set(words)), "cluster"),
+            format_count(len(set(numbers)), "cluster"),
         )
         return f"<Library of {recordings} ({self.hours:.2g} h), {clusters}>"

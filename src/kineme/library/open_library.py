@@ -143,7 +143,7 @@ class Cluster(NamedTuple):
     typical_s : float
         Median seconds of a repetition, or of an activity where none was counted.
     example : str
-        The recording of its most typical word.
+        The recording with its most typical segment.
     start_s, stop_s : float
         Where that lies there.
     """
@@ -161,59 +161,35 @@ class Cluster(NamedTuple):
     stop_s: float
 
 
-class Word(NamedTuple):
-    """A cluster of one recording, as part of one of the library.
-
-    Attributes
-    ----------
-    recording : str
-    start_s, stop_s : float
-        Its typical segment.
-    cluster : int
-        Of the library.
-    following : int
-        The one that it is nearest to but for its own.
-    confidence : float
-        How much nearer it is to its own, 0 to 1.
-    """
-
-    recording: str
-    start_s: float
-    stop_s: float
-    cluster: int
-    following: int
-    confidence: float
-
-
 def clusters_of(tables: OpenTables) -> list[Cluster]:
     """Return the clusters of a library, those of most seconds first."""
-    words, segments = tables.columns("words"), tables.columns("segments")
+    local, segments = tables.columns("local_clusters"), tables.columns("segments")
     recordings = tables.recordings
     vocabularies = dict(zip(recordings["recording"], recordings["vocabulary"], strict=True))
     lasts = segments["stop_s"] - segments["start_s"]
     active = segments["kind"] != "transition"
     finer = segments["level"] == "primitive"
     found = []
-    for number in sorted(set(words["cluster"].tolist())):
-        members = np.flatnonzero(words["cluster"] == number)
-        typical = members[np.argmin(words["spread"][members])]
+    for number in sorted(set(local["cluster"].tolist())):
+        members = np.flatnonzero(local["cluster"] == number)
+        typical = members[np.argmin(local["spread"][members])]
         rows = active & (segments["cluster"] == number)
         repeated = rows & finer
         typically = lasts[repeated if repeated.any() else rows]
-        recording = str(words["recording"][typical])
+        recording = str(local["recording"][typical])
         found.append(
             Cluster(
                 number,
                 tables.edits.name(number),
                 vocabularies[recording],
-                len(set(words["recording"][members].tolist())),
+                len(set(local["recording"][members].tolist())),
                 int((rows & ~finer).sum()),
                 int(repeated.sum()),
                 round(float(lasts[rows & ~finer].sum()), 6),
                 round(float(np.median(typically)), 6) if len(typically) else 0.0,
                 recording,
-                float(words["start_s"][typical]),
-                float(words["stop_s"][typical]),
+                float(local["start_s"][typical]),
+                float(local["stop_s"][typical]),
             )
         )
     return sorted(found, key=lambda cluster: (-cluster.seconds, cluster.cluster))
@@ -233,7 +209,7 @@ def cluster_table(clusters: Sequence[Cluster]) -> Any:
 
 def numbers_of(tables: OpenTables, cluster: int | str) -> list[int]:
     """Return the numbers of the clusters of that number or name, one at least."""
-    numbers = sorted(set(tables.columns("words")["cluster"].tolist()))
+    numbers = sorted(set(tables.columns("local_clusters")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)
     named = isinstance(cluster, str)  # a whole number is never taken for a name of digits
     found = [number for number in numbers if named and edits.name(number) == text]

@@ -1,4 +1,4 @@
-"""How the recordings of a library are read and segmented, and how their clusters are joined."""
+"""How the recordings of a library are read and segmented."""
 
 from __future__ import annotations
 
@@ -14,15 +14,6 @@ from typing import Any
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
-from kineme.methods.constants import (
-    SHARE,
-    SOME,
-    SOME_LENGTH,
-    SOME_TIME,
-    check,
-    constant,
-    constants_of,
-)
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
@@ -132,53 +123,3 @@ def _plain(value: Any) -> Any:
 
 def _tupled(value: Any) -> Any:
     return tuple(value) if isinstance(value, list) else value
-
-
-@dataclass(frozen=True, kw_only=True)
-class VocabularyConstants:
-    """How the clusters of single recordings are joined; distances are those of a search."""
-
-    join: float = constant(
-        "words are joined up to this mean distance, as a search measures it", limits=SOME_LENGTH,
-        default=0.85,
-    )  # fmt: skip
-    longest_example: float = constant(
-        "a longer example is cut to this", unit="s", limits=SOME_TIME, default=4.0, fine=True
-    )
-    longest_context: float = constant(
-        "a longer context of an example is cut to this",
-        unit="s",
-        limits=SOME_TIME,
-        default=12.0,
-        fine=True,
-    )
-    most: int = constant(
-        "words that are compared each with each; of more, a sample",
-        limits=SOME,
-        default=400,
-        fine=True,
-    )
-    typical: int = constant(
-        "words of each cluster that further words are compared with",
-        limits=SOME,
-        default=5,
-        fine=True,
-    )
-    nearest: int = constant(
-        "clusters that a further word is compared with, the nearest by embedding", limits=SOME,
-        default=4, fine=True,
-    )  # fmt: skip
-    unsure: float = constant(
-        "confidence below which a word is shown as uncertain", limits=SHARE, default=0.1,
-        fine=True,
-    )  # fmt: skip
-
-    def __post_init__(self) -> None:
-        check(self)
-
-    def parameters(self) -> Mapping[str, Any]:
-        """Return the value of each constant by name, for the head of a library."""
-        return {each.name: each.value for each in constants_of(self)}
-
-
-VOCABULARY = VocabularyConstants()

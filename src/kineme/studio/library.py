@@ -387,11 +387,11 @@ def _status(path: Path) -> Literal["as found", "corrected", "checked"]:
 
 def _clusters(library: Library) -> list[LibraryCluster]:
     rows = {name: row for row, name in enumerate(library.recordings["recording"])}
-    words = library.table("words").select(["cluster", "recording"]).to_pydict()
+    local = library.table("local_clusters").select(["cluster", "recording"]).to_pydict()
     where: dict[int, set[int]] = {}
-    for cluster, name in zip(words["cluster"], words["recording"], strict=True):
+    for cluster, name in zip(local["cluster"], local["recording"], strict=True):
         where.setdefault(cluster, set()).add(rows[name])
-    unsure = Counter(word.cluster for word in library.unsure())
+    unsure = Counter(each["cluster"] for each in library.unsure())
     return [
         LibraryCluster(
             **{**each._asdict(), "recordings": sorted(where[each.cluster])},

@@ -7,14 +7,13 @@ by those of the collection: what lies still in one must not look like what runs 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from hashlib import sha256
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kineme._util.arrays import Float32s, Floats, Ints
-from kineme.errors import ParameterError
 from kineme.recordings import Signals
 
 RATE = 5.0
@@ -25,24 +24,15 @@ STILL = 0.05
 """Movement of less than this share of how much a channel's means vary in the collection is none."""
 
 
-@dataclass(frozen=True, eq=False)
-class ChannelSamples:
-    """What the channels of a recording are like, in samples at `RATE` a second.
+class ChannelSamples(NamedTuple):
+    """What the channels of a recording are like, `RATE` times a second.
 
-    Parameters
-    ----------
-    names : tuple of str
-        Of the channels.
-    frames : (samples,) array
-        Where they are.
-    means, deviations : (samples, channels) array
-        In the units of the channels, over `WINDOW`.
+    ``rows[i]`` are the second of a sample, then the means and the deviations of all channels over
+    `WINDOW`, in their units.
     """
 
     names: tuple[str, ...]
-    frames: Ints
-    means: Float32s
-    deviations: Float32s
+    rows: Floats
 
 
 def channel_samples(signals: Signals) -> ChannelSamples:
@@ -51,8 +41,8 @@ def channel_samples(signals: Signals) -> ChannelSamples:
     Examples
     --------
     >>> from kineme import Signals
-    >>> channel_samples(Signals([[0.0], [2.0]] * 20, fps=20)).deviations[4].tolist()
-    [1.0]
+    >>> channel_samples(Signals([[0.0], [2.0]] * 20, fps=20)).rows[4].tolist()
+    [0.8, 1.0, 1.0]
     """
     half = max(1, round(WINDOW / 2 * signals.fps))
     parts = []
@@ -65,92 +55,42 @@ def channel_samples(signals: Signals) -> ChannelSamples:
         means = _means(values - middle, *spans)
         squares = _means((values - middle) ** 2, *spans)
         deviations = np.sqrt(np.maximum(squares - means**2, 0.0))
-        parts.append((first + at, means + middle, deviations))
-    frames, means, deviations = (np.concatenate(part) for part in zip(*parts, strict=True))
-    return ChannelSamples(
-        tuple(signals.names), frames, means.astype(np.float32), deviations.astype(np.float32)
-    )
+        parts.append(np.column_stack([(first + at) / signals.fps, means + middle, deviations]))
+    return ChannelSamples(tuple(signals.names), np.concatenate(parts))
 
 
-@dataclass(frozen=True, eq=False)
-class Units:
-    """Those of a collection, in which the samples of its recordings are compared.
+def fit_units(rows: NDArray[Any]) -> Callable[[NDArray[Any]], Float32s]:
+    """Return what turns rows of any recording into features, in the units of these rows.
 
-    Parameters
-    ----------
-    varies : (channels,) array
-        How much the means of each channel vary in the collection.
-    means, energies : (2, channels) array
-        What is taken off these features, and what they are divided by.
+    Features are (samples, 2 · channels): means, and how much each channel moves.
     """
+    values, within = _means_and_deviations(rows)
+    varies = values.std(axis=0)
+    varies = np.where(varies > 0, varies, np.sqrt((within**2).mean(axis=0)))
 
-    varies: Floats
-    means: Floats
-    energies: Floats
+    def numbers(rows: NDArray[Any]) -> Floats:
+        values, within = _means_and_deviations(rows)
+        return np.hstack([values, np.log(within / np.where(varies > 0, varies, 1.0) + STILL)])
 
-    @classmethod
-    def of(cls, means: Float32s, deviations: Float32s) -> Units:
-        """Return the units of these samples, (samples, channels) each."""
-        values, within = means.astype(np.float64), deviations.astype(np.float64)
-        varies = values.std(axis=0)
-        varies = np.where(varies > 0, varies, np.sqrt((within**2).mean(axis=0)))
-        return cls(varies, _scale(values), _scale(_energies(within, varies)))
-
-    def features(self, means: Float32s, deviations: Float32s) -> Float32s:
-        """Samples as they are compared, (samples, 2 · channels)."""
-        values = means.astype(np.float64)
-        energies = _energies(deviations.astype(np.float64), self.varies)
-        parts = [
-            (part - centre) / scale
-            for part, (centre, scale) in ((values, self.means), (energies, self.energies))
-        ]
-        return np.hstack(parts).astype(np.float32)
+    fitted = numbers(rows)
+    centre, deviation = fitted.mean(axis=0), fitted.std(axis=0)
+    # A channel that does not vary, but for rounding, tells nothing.
+    largest = np.abs(fitted.reshape(len(rows), 2, -1)).max(axis=(0, 2)).repeat(len(varies))
+    deviation = np.where(deviation > 1e-9 * largest, deviation, np.inf)
+    return lambda rows: ((numbers(rows) - centre) / deviation).astype(np.float32)
 
 
-def in_common_units(recordings: Sequence[ChannelSamples]) -> list[Float32s]:
-    """Features (samples, 2 · channels) of each recording, in units of all of these."""
-    for one in recordings:
-        if one.names != recordings[0].names:
-            raise ParameterError(
-                "clusters are shared over recordings of the same channels, not of "
-                f"{', '.join(recordings[0].names):.80} and of {', '.join(one.names):.80}"
-            )
-    drawn = [recordings[i] for i in by_content(recordings)]
-    units = Units.of(
-        np.concatenate([one.means for one in drawn]),
-        np.concatenate([one.deviations for one in drawn]),
-    )
-    return [units.features(one.means, one.deviations) for one in recordings]
+def thin_samples(rows: NDArray[Any], step: int) -> NDArray[Any]:
+    """Return every n-th row, from the middle of the first n: recordings begin at rest."""
+    return rows[min(step, len(rows)) // 2 :: step]
 
 
-def by_content(recordings: Sequence[ChannelSamples]) -> list[int]:
-    """Recordings by their numbers, in an order that is the same whatever they are called.
-
-    Sums, and samples at equal steps, depend on the order; what they are taken for must not.
-    """
-
-    def digest(number: int) -> bytes:
-        one = recordings[number]
-        parts = (one.frames, one.means, one.deviations)
-        return sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in parts)).digest()
-
-    return sorted(range(len(recordings)), key=digest)
+def _means_and_deviations(rows: NDArray[Any]) -> tuple[Floats, Floats]:
+    n = rows.shape[1] // 2
+    return rows[:, 1 : 1 + n].astype(np.float64), rows[:, 1 + n :].astype(np.float64)
 
 
 def _means(values: Floats, first: Ints, last: Ints) -> Floats:
     sums = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
     means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
     return means
-
-
-def _energies(deviations: Floats, varies: Floats) -> Floats:
-    energies: Floats = np.log(deviations / np.where(varies > 0, varies, 1.0) + STILL)
-    return energies
-
-
-def _scale(values: Floats) -> Floats:
-    """Mean and deviation of each column; infinite where it does not vary."""
-    centre = values.mean(axis=0)
-    deviation = (values - centre).std(axis=0)
-    varies = deviation > 1e-9 * np.abs(values).max()
-    return np.stack([centre, np.where(varies, deviation, np.inf)])

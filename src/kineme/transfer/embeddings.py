@@ -6,7 +6,12 @@ these leave. From these 68 numbers a fixed mean is subtracted, and fixed axes ar
 copies of a segment (faster, slower, larger, smaller, mirrored, noisy) differ little, and different
 segments much. The result is a unit vector, and the distance of two the chord between them.
 
-Mean and axes are in ``axes.npz``, which ``benchmarks/truth/embedding_axes.py`` makes.
+Mean and axes are in ``axes.npz``. They were fitted to 1600 spans of 0.7 to 4 s, drawn alike from
+HDM05, UTKinect, CMU's subject 86 and single takes without regard to labels, and six copies of each:
+up to 2^0.5 faster or slower, 2^0.4 larger or smaller, cut by up to 10 % at either end, with uneven
+time, a fifth mirrored, shifted by 0.05 and shaken by 0.025 leg lengths. The axes are those of a
+linear discriminant analysis: spans vary most along them where the copies of one vary by one. Half
+of the mean variance of copies is added to that of each axis.
 """
 
 from __future__ import annotations

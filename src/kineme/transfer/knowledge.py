@@ -21,15 +21,17 @@ from numpy.typing import NDArray
 from kineme._util.checks import check_type, format_count
 from kineme._util.files import translate_read_errors
 from kineme.errors import ParameterError
-from kineme.features.canonical.matching import DIMS
+from kineme.features.canonical.matching import DIMS, MATCHING_FPS, OFFSETS_S, matching_features
 from kineme.features.effectors import Names
 from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
 from kineme.transfer import knowledge_file
-from kineme.transfer.features import SETTINGS, transfer_features, working_frames
 from kineme.transfer.matching import Primitives
+
+FPS = MATCHING_FPS
+SETTINGS = {"fps": FPS, "offsets_s": list(OFFSETS_S), "unit": "directions"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +129,7 @@ class KnowledgeBase:
                 f"the segments are of {segments.n_frames} frames, the motion has {motion.n_frames}"
             )
         rows = _labelled(segments)
-        features = transfer_features(motion, effectors=effectors)
+        features = matching_features(motion, effectors=effectors)
         starts, stops = working_frames(rows, segments.fps, len(features))
         source = motion.provenance
         path, digest = source.path, source.sha256
@@ -230,3 +232,12 @@ def _labelled(segments: Segmentation) -> SegmentTable:
     if not len(rows):
         raise ParameterError("no activity has a label: there is nothing to learn")
     return rows
+
+
+def working_frames(
+    rows: SegmentTable, fps: float, n_features: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """First frame and end of each row in the features; at least one frame each."""
+    starts = np.minimum(np.rint(rows.start_frame * (FPS / fps)).astype(np.int64), n_features - 1)
+    stops = np.minimum(np.rint(rows.stop_frame * (FPS / fps)).astype(np.int64), n_features)
+    return starts, np.maximum(stops, starts + 1)

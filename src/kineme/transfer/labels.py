@@ -24,9 +24,9 @@ from kineme._util.checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable
-from kineme.transfer.features import FPS, working_frames
-from kineme.transfer.knowledge import KnowledgeBase
-from kineme.transfer.matching import THRESHOLD, Primitives, label_costs, same_movements
+from kineme.transfer.knowledge import FPS, KnowledgeBase, working_frames
+from kineme.transfer.matching import Primitives, label_costs, same_movements
+from kineme.transfer.subsequences import THRESHOLD
 from kineme.transfer.unsegmented import found_by_search, segmented_as_found
 
 REACH = 2.0

@@ -29,8 +29,6 @@ from kineme.transfer.subsequences import warped
 # Which primitive, in which run of the other side, at what cost.
 Matches = tuple[Ints, Ints, Floats]
 
-THRESHOLD = 0.85
-"""Cost of unit vectors up to which two primitives are one movement, whoever makes them."""
 _WALL = 1e6  # so far is what lies between two runs from any feature
 
 

@@ -1,29 +1,36 @@
-"""One number for one movement, over several recordings.
-
-Recording by recording, clusters of bodies are looked for in those before as label
-transfer looks for labels, with the clusters' numbers for names. Those of signals are
-found anew over all recordings, see `kineme.transfer.vocabulary`.
-"""
+"""One number for one movement, over several recordings: `kineme.transfer.clusters` on tables."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
+from hashlib import sha256
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
+from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.recordings import Motion, Signals
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.channel_samples import channel_samples
-from kineme.transfer.features import transfer_features
-from kineme.transfer.knowledge import KnowledgeBase
-from kineme.transfer.labels import transfer_labels
-from kineme.transfer.matching import THRESHOLD
-from kineme.transfer.vocabulary import share_by_samples
+from kineme.transfer.channel_samples import ChannelSamples, channel_samples, thin_samples
+from kineme.transfer.clusters import (
+    CONSTANTS,
+    ClusterSet,
+    Features,
+    LocalCluster,
+    assign_to_centres,
+    find_local_clusters,
+    keep_numbers,
+    link_clusters,
+    spans_with_clusters,
+    to_samples,
+)
+from kineme.transfer.embeddings import embedding
+from kineme.transfer.subsequences import THRESHOLD
 
 
 def share_clusters(
@@ -33,14 +40,13 @@ def share_clusters(
     threshold: float = THRESHOLD,
     n_clusters: int | None = None,
 ) -> list[Segmentation]:
-    """Return the same segments, in which equal cluster numbers are equal movements everywhere.
+    """Return the same segments; equal cluster numbers are equal movements in all recordings.
 
-    Of motions the clusters of the first keep their numbers. A later cluster takes the number that
-    most of its members match in the recordings before, if more than half match it. Of two clusters
-    of one recording only the one with more matches takes it. All others are numbered on.
+    Clusters of motions are joined if a search finds them in each other. Those of the first
+    recording keep their numbers, others are numbered on.
 
-    Of signals each activity takes one of the clusters that the samples of all recordings
-    have together; repetitions have the cluster of their activity.
+    Of signals, the samples of all recordings are clustered together. Each activity takes the
+    nearest of these clusters, repetitions that of their activity.
 
     Parameters
     ----------
@@ -49,9 +55,9 @@ def share_clusters(
     segmentations : sequence of Segmentation
         One for each; labels are neither used nor changed.
     threshold : float
-        Of motions, largest cost of a match; see `transfer_labels`.
+        Of motions, largest mean distance at which clusters are joined.
     n_clusters : int, optional
-        Of signals, how many clusters to tell apart; found out by default.
+        Of signals, how many clusters to tell apart; estimated by default.
 
     Returns
     -------
@@ -84,58 +90,80 @@ def share_clusters(
     signals = [each for each in recordings if isinstance(each, Signals)]
     if not signals:
         motions = [each for each in recordings if isinstance(each, Motion)]
-        return _numbered_on(motions, segmentations, threshold)
+        return _share_by_search(motions, segmentations, threshold)
     if len(signals) < len(recordings):
         raise ParameterError("clusters are shared over motions or over signals, not over both")
     samples = [channel_samples(each) for each in signals]
     return share_by_samples(samples, segmentations, n_clusters=n_clusters)
 
 
-def _numbered_on(
+def _share_by_search(
     motions: Sequence[Motion], segmentations: Sequence[Segmentation], threshold: float
 ) -> list[Segmentation]:
-    """Return the clusters of motions by the numbers of those before, or by the next ones."""
-    base: KnowledgeBase | None = None
-    shared, following = [], 0
-    for motion, found in zip(motions, segmentations, strict=True):
-        old = sorted(set(found.table.cluster.tolist()) - {-1})
-        numbers = _numbers_before(motion, found, base, threshold) if base else {}
-        for cluster in old:
-            if cluster not in numbers:
-                numbers[cluster] = following if base else cluster
-                following = max(following, numbers[cluster]) + 1
-        shared.append(renumber_clusters(found, numbers))
-        if old:
-            named = _named_by_cluster(shared[-1])
-            examples = KnowledgeBase.from_recording(motion, named)
-            base = base + examples if base else examples
-    return shared
+    described = [features_and_poses(motion) for motion in motions]
+    local = [
+        each
+        for number, found in enumerate(segmentations)
+        for each in find_local_clusters(found.table, number)
+    ]
 
+    def part(values: NDArray[Any], span: tuple[float, float]) -> NDArray[Any]:
+        return values[slice(*to_samples(span, MATCHING_FPS, len(values)))]
 
-def _numbers_before(
-    motion: Motion, found: Segmentation, base: KnowledgeBase, threshold: float
-) -> dict[int, int]:
-    """Return the numbers of the clusters that are found in the knowledge."""
-    unnamed = found.table.with_columns(label=np.full(len(found), ""))
-    bare = replace(found, table=unnamed, hierarchy=None)
-    named = transfer_labels(bare, transfer_features(motion), base, threshold=threshold)
-    rows = named.primitives if len(named.primitives) else named.activities
-    matches: list[tuple[int, int, int]] = []
-    for cluster in sorted(set(rows.cluster.tolist()) - {-1}):
-        cluster_labels = rows.label[rows.cluster == cluster].tolist()
-        name, count = Counter(cluster_labels).most_common(1)[0]
-        if name and count > len(cluster_labels) / 2:
-            matches.append((-count, cluster, int(name)))
-    numbers: dict[int, int] = {}
-    for _, cluster, number in sorted(matches):
-        if number not in numbers.values():
-            numbers[cluster] = number
-    return numbers
+    def load(each: LocalCluster) -> Features:
+        features, _ = described[each.recording]
+        return part(features, each.example), part(features, each.context)
 
-
-def _named_by_cluster(found: Segmentation) -> Segmentation:
-    """Return every segment of a cluster labelled with its number, all others without label."""
-    labels: NDArray[np.str_] = np.array(
-        [str(c) if c >= 0 else "" for c in found.table.cluster.tolist()]
+    embeddings = [
+        embedding(part(described[each.recording][1], (each.start_s, each.stop_s))) for each in local
+    ]
+    clusters = ClusterSet(local, np.array(embeddings), load)
+    constants = replace(CONSTANTS, join=threshold)
+    keys = [str(number) for number in range(len(motions))]
+    shared = link_clusters(clusters, keys, constants).cluster.tolist()
+    numbers: list[dict[int, int]] = [{} for _ in motions]
+    for each, cluster in zip(local, shared, strict=True):
+        numbers[each.recording][each.cluster] = cluster
+    result = [renumber_clusters(*each) for each in zip(segmentations, numbers, strict=True)]
+    if not result:
+        return result
+    first = segmentations[0].table
+    lasting = keep_numbers(
+        {0: spans_with_clusters(first.columns(), first.cluster)},
+        {i: spans_with_clusters(r.table.columns(), r.table.cluster) for i, r in enumerate(result)},
+        following=int(first.cluster.max()) + 1,
     )
-    return replace(found, table=found.table.with_columns(label=labels), hierarchy=None)
+    return [renumber_clusters(each, lasting) for each in result]
+
+
+def share_by_samples(
+    samples: Sequence[ChannelSamples],
+    segmentations: Sequence[Segmentation],
+    *,
+    n_clusters: int | None = None,
+) -> list[Segmentation]:
+    """Return what `share_clusters` does for signals, from their samples."""
+    for one in samples:
+        if one.names != samples[0].names:
+            raise ParameterError(
+                "clusters are shared over recordings of the same channels, not of "
+                f"{', '.join(samples[0].names):.80} and of {', '.join(one.names):.80}"
+            )
+    rows = [one.rows for one in samples]
+    order = sorted(range(len(rows)), key=lambda i: sha256(rows[i].tobytes()).digest())
+    activities = [segmentations[i].activities for i in order]
+    assigned = assign_to_centres(
+        [partial(thin_samples, rows[i]) for i in order],
+        [len(rows[i]) for i in order],
+        [[np.array([[row.start_s, row.stop_s]]) for row in each] for each in activities],
+        n_clusters=n_clusters,
+    ).cluster
+    parts = np.split(assigned, np.cumsum([len(each) for each in activities])[:-1])
+    shared = list(segmentations)
+    for i, clusters in zip(order, parts, strict=True):
+        found, table = segmentations[i], segmentations[i].table
+        action = np.where(found.activities.kind == "activity", clusters, -1)[table.activity]
+        cluster = np.where(table.kind != "transition", action, -1)
+        changed = table.with_columns(cluster=cluster, action=action)
+        shared[i] = replace(found, table=changed, hierarchy=None)
+    return shared

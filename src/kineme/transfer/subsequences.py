@@ -152,32 +152,6 @@ def search(
     return Matches(starts[ends].astype(np.int64), ends + 1, distances[ends])
 
 
-def two_way_distance(one: ArrayLike, other: ArrayLike) -> float:
-    """Return the larger of the distances of each one's best match in the other; inf without one.
-
-    Small only where neither is a mere part of the other.
-
-    Parameters
-    ----------
-    one, other : (samples, dims) array
-        Matching features of two segments.
-
-    Returns
-    -------
-    float
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from kineme.transfer.subsequences import two_way_distance
-    >>> angle = np.arange(20) / 4
-    >>> turn = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    >>> two_way_distance(turn, turn) < 0.01
-    True
-    """
-    return max(float(warped(a, b)[0].min()) for a, b in ((one, other), (other, one)))
-
-
 def warped(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np.int32]]:
     """``costs[j]``, ``starts[j]``: of the cheapest match that ends with sample j; inf without."""
     short, long = _checked(example, "example"), _checked(recording, "recording")

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from kineme.segments.editing.rows import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, kind_of
-from kineme.transfer.features import FPS
-from kineme.transfer.knowledge import KnowledgeBase
+from kineme.transfer.knowledge import FPS, KnowledgeBase
 from kineme.transfer.subsequences import search
 
 Row = tuple[int, int, str]

@@ -95,7 +95,7 @@ def query(
         str,
         typer.Argument(
             help="Such as: select label, count(*) from segments group by label. The tables are "
-            "segments, recordings, clusters, words and embeddings."
+            "segments, recordings, clusters, local_clusters and embeddings."
         ),
     ],
     json: Json = False,
@@ -117,7 +117,9 @@ def export(
     ],
     table: Annotated[
         str,
-        typer.Option(metavar="NAME", help="segments, recordings, clusters, words or embeddings."),
+        typer.Option(
+            metavar="NAME", help="segments, recordings, clusters, local_clusters or embeddings."
+        ),
     ] = "segments",
 ) -> None:
     """Write the segments of all recordings as one table."""
@@ -165,7 +167,7 @@ def _facts(library: Library) -> dict[str, Any]:
         "recordings": len(library),
         "hours": library.hours,
         "clusters": [cluster._asdict() for cluster in library.clusters()],
-        "unsure": [word._asdict() for word in library.unsure()],
+        "unsure": library.unsure(),
         "failed": library.failed,
         "sources": library.head["sources"],
         "settings": library.head["settings"],
@@ -197,14 +199,12 @@ def _show_library(library: Library) -> None:
         )
     console.print(table)
     unsure = library.unsure()
-    for word in unsure[:UNSURE]:
-        console.print(
-            Text(
-                f"unsure: cluster {word.cluster} in {word.recording}, {word.start_s:.2f} to "
-                f"{word.stop_s:.2f} s, may be {word.following}",
-                style="dim",
-            )
-        )
+    line = (
+        "unsure: cluster {cluster} in {recording}, {start_s:.2f} to {stop_s:.2f} s, "
+        "may be {next_cluster}"
+    )
+    for part in unsure[:UNSURE]:
+        console.print(Text(line.format(**part), style="dim"))
     if len(unsure) > UNSURE:
         console.print(Text(f"and {len(unsure) - UNSURE} more that are unsure", style="dim"))
     for path, reason in library.failed.items():

@@ -26,6 +26,7 @@ from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_
 from kineme.library.storage.places import near, written
 from kineme.library.windows import all_windows
 from kineme.segments.table import COLUMNS, SegmentTable
+from kineme.transfer.channel_samples import thin_samples
 
 METADATA = b"kineme.library"
 FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
@@ -149,7 +150,7 @@ def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.fl
     path = folder / f"{key}{SAMPLES}"
     with _opening(path):
         rows: NDArray[np.float32] = np.load(near(path), mmap_mode="r", allow_pickle=False)
-        rows = np.array(rows[min(step, len(rows)) // 2 :: step])  # recordings begin at rest
+        rows = np.array(thin_samples(rows, step))
         if rows.ndim != 2 or rows.dtype != np.float32 or not len(rows) or rows.shape[1] % 2 == 0:
             raise ValueError("not samples of channels")
         deviations = rows[:, 1 + rows.shape[1] // 2 :]

@@ -24,7 +24,7 @@ from kineme.library.storage.places import is_remote, place, written
 if sys.platform != "win32":
     import fcntl
 
-SCHEMA = "kineme.library/3"
+SCHEMA = "kineme.library/4"
 """Of the folder; a change that old readers would misunderstand gets the next number."""
 HEAD, EDITS, STATES = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"
@@ -36,12 +36,12 @@ BODIES = "bodies"
 MOST_CLUSTERS = 1 << 62
 """Above the number of any cluster, so that columns of integers hold it."""
 _KINDS = {
+    "clustering": dict,
     "failed": dict,
     "following": int,
     "settings": dict,
     "sources": list,
     "tables": str,
-    "vocabulary": dict,
 }
 EXTRA = "library"
 """The extra that installs what libraries need."""
@@ -68,7 +68,7 @@ def _is_complete(head: Mapping[str, Any]) -> bool:
     """Return whether everything in a head is of its type."""
     if not all(isinstance(head.get(name), kind) for name, kind in _KINDS.items()):
         return False
-    constants = head["vocabulary"]
+    constants = head["clustering"]
     return (
         re.fullmatch("[0-9a-f]{1,64}", head["tables"]) is not None
         and 0 <= head["following"] < MOST_CLUSTERS

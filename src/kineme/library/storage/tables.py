@@ -44,14 +44,14 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
         "own_cluster": Column("its cluster in the recording alone", int),
         "action_label": Column("the name of `action`"),
     },
-    "words": {
+    "local_clusters": {
         "recording": Column("the recording it is of"),
         "own_cluster": Column("the cluster in that recording", int),
         "cluster": Column("the cluster of the library", int),
         "label": Column("the name of that, or empty"),
-        "following": Column("the nearest other cluster; -1: there is no other", int),
+        "next_cluster": Column("the nearest other cluster; -1: there is no other", int),
         "confidence": Column("how much nearer its own cluster is than that one, 0 to 1", float),
-        "spread": Column("mean distance to the other words of its cluster", float),
+        "spread": Column("mean distance from the other members of its cluster", float),
         "start_s": Column("where its typical segment starts", float),
         "stop_s": Column("where that stops", float),
         "seconds": Column("of all its segments", float),

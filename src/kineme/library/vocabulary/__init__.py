@@ -1,1 +1,0 @@
-"""One vocabulary of a library: words, the clusters they are joined to, numbers that last."""

@@ -1,0 +1,453 @@
+"""Clusters in common: which clusters of several recordings are the same movement.
+
+Segmentation finds clusters in each recording alone, here called local clusters. An `Assignment`
+says which cluster in common each of them belongs to.
+
+**Bodies** (`link_clusters`). The example of a local cluster is its typical segment. Its context is
+the activity around that: another recording may cut the same cyclic movement at another phase. The
+distance of two local clusters is the mean of the distances at which a search (see
+`kineme.transfer.subsequences`) finds the example of each in the context of the other, 1 at most.
+Average linkage joins them up to the threshold of a search. Local clusters of one recording were
+found to differ there, so their distance is set to 2.
+
+More local clusters than ``most`` are linked in rounds, so that time grows with their number, not
+with its square. A round links a sample. All others are compared with representatives of the few
+clusters whose embeddings are nearest, and take the nearest cluster within the threshold. What fits
+none is left for the next round: rare movements are not lost.
+
+**Signals** (`assign_to_centres`). A cluster of a single recording depends on what else is in it: a
+recording of walking tells fast from slow, one of walking and sitting does not. So the samples of
+all recordings are clustered (k-means, the best of several starts) in common units. Each local
+cluster takes the centre that is nearest to the mean of its samples.
+
+**Numbers** (`keep_numbers`). A cluster that is found again keeps the number that it had.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from kineme._util.arrays import Float32s, Floats, Ints
+from kineme._util.parallel import map_threads
+from kineme.segments.table import SegmentTable
+from kineme.transfer.channel_samples import fit_units
+from kineme.transfer.subsequences import THRESHOLD, Searched
+
+FARTHEST = 1.0
+"""Distance of two movements that have nothing in common."""
+SAME_RECORDING = 2.0
+"""Distance of local clusters of one recording."""
+SEPARATOR = 1e3
+"""Value of each feature between two contexts, so that no match crosses from one to the other."""
+BLOCK = 100
+"""Local clusters that are compared at a time."""
+
+MAX_SAMPLES = 20_000
+"""Samples of channels that k-means takes; of more, every n-th of each recording."""
+STARTS = 5
+"""Runs of k-means, of which the best counts."""
+MIN_EXPLAINED = 0.02
+"""Share of the variance of all samples that one more cluster must explain."""
+COUNTING_SAMPLES = 10_000
+"""Samples from which the number of clusters is estimated."""
+PATIENCE = 3
+"""Numbers of clusters that are tried beyond the best."""
+
+Features = Sequence[Float32s]
+"""Those (samples, dims) of an example, and of its context."""
+Spans = tuple[Floats, Floats, Ints]
+"""Starts and stops in seconds, and clusters, of the activities of a recording."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClusterConstants:
+    """How local clusters are compared and linked."""
+
+    join: float = THRESHOLD
+    """Largest mean distance at which clusters are joined: that of a search."""
+    longest_example: float = 4.0
+    longest_context: float = 12.0
+    """Seconds to which longer ones are cut."""
+    most: int = 400
+    """Local clusters in the sample of a round."""
+    typical: int = 5
+    """Representatives of each cluster of a round, those of least spread."""
+    nearest: int = 4
+    """Clusters of a round that each other local cluster is compared with."""
+    unsure: float = 0.1
+    """Confidence below which an assignment is shown as uncertain."""
+
+
+CONSTANTS = ClusterConstants()
+
+
+class Assignment(NamedTuple):
+    """``cluster[i]`` is the cluster in common of local cluster i, those of most seconds first.
+
+    ``next_cluster`` is the nearest other one, -1 without any. ``spread`` is the mean distance from
+    the other members of its cluster (of signals, from its centre). ``confidence`` is 1 - spread /
+    distance from the next cluster, 0 to 1, nan without a next. Of several rounds, they are those of
+    the round in which a local cluster was assigned.
+    """
+
+    cluster: Ints
+    next_cluster: Ints
+    confidence: Floats
+    spread: Floats
+
+    def shift(self, count: int) -> Assignment:
+        """Return the same with clusters numbered from ``count`` on."""
+        cluster, following = (np.where(n < 0, -1, n + count) for n in self[:2])
+        return self._replace(cluster=cluster, next_cluster=following)
+
+
+@dataclass(frozen=True, eq=False)
+class LocalCluster:
+    """A cluster of one recording; its typical segment is a row of the segment table."""
+
+    recording: int
+    cluster: int
+    row: int
+    start_s: float
+    stop_s: float
+    spans: Floats
+    """Starts and stops of all its segments, (segments, 2) seconds."""
+    example: tuple[float, float]
+    context: tuple[float, float]
+    """Seconds from and to which it is compared."""
+
+    @property
+    def seconds(self) -> float:
+        """How long its segments last together."""
+        return round(float((self.spans[:, 1] - self.spans[:, 0]).sum()), 6)
+
+
+def find_local_clusters(table: SegmentTable, recording: int) -> list[LocalCluster]:
+    """Return the clusters of a segment table, in ascending order.
+
+    The typical segment is the repetition of median length, or the activity if none was counted.
+    """
+    active, finer, lasts = table.kind != "transition", table.level == "primitive", table.duration_s
+    found = []
+    for cluster in sorted(set(table.cluster[active].tolist()) - {-1}):
+        members = np.flatnonzero((table.cluster == cluster) & active)
+        repeated = members[finer[members]]
+        chosen = repeated if len(repeated) else members
+        row = int(chosen[np.argsort(lasts[chosen], kind="stable")[len(chosen) // 2]])
+        # Of one level, so that no second counts twice: activities, if there are any.
+        counted = members[finer[members] == finer[members[0]]]
+        spans = np.column_stack([table.start_s[counted], table.stop_s[counted]])
+        start_s, stop_s = float(table.start_s[row]), float(table.stop_s[row])
+        # The example is the middle of a longer segment, the context the activity around that.
+        middle = (start_s + stop_s) / 2
+        half = min(stop_s - start_s, CONSTANTS.longest_example) / 2
+        reach = max(CONSTANTS.longest_context, 2 * half) / 2
+        around = (table.level == "activity") & (table.start_s <= middle) & (middle < table.stop_s)
+        first = min([middle - half, *table.start_s[around].tolist()])
+        last = max([middle + half, *table.stop_s[around].tolist()])
+        example = middle - half, middle + half
+        context = max(first, middle - reach), min(last, middle + reach)
+        typical = row, start_s, stop_s
+        found.append(LocalCluster(recording, cluster, *typical, spans, example, context))
+    return found
+
+
+def to_samples(span: tuple[float, float], fps: float, n_samples: int) -> tuple[int, int]:
+    """Return the samples [first, stop) of a span in seconds, at least one."""
+    first = min(round(span[0] * fps), n_samples - 1)
+    return first, min(max(round(span[1] * fps), first + 1), n_samples)
+
+
+@dataclass(frozen=True, eq=False)
+class ClusterSet:
+    """Local clusters to be linked.
+
+    ``load(cluster)`` returns the features of one. They are not kept, as a set may be large.
+    ``embeddings`` (n, 32) are those of typical segments.
+    """
+
+    local: Sequence[LocalCluster]
+    embeddings: Float32s
+    load: Callable[[LocalCluster], Features]
+
+    @property
+    def recording(self) -> Ints:
+        return np.array([each.recording for each in self.local], np.int64)
+
+    def select(self, numbers: Ints) -> ClusterSet:
+        """Return some of the local clusters."""
+        local = [self.local[number] for number in numbers.tolist()]
+        return ClusterSet(local, self.embeddings[numbers], self.load)
+
+
+def link_clusters(
+    clusters: ClusterSet,
+    keys: Sequence[str],
+    constants: ClusterConstants = CONSTANTS,
+    *,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Assignment:
+    """Return the cluster in common of each local cluster, by average linkage.
+
+    ``keys`` tell recordings apart. Samples are drawn by digests of them, so that a few recordings
+    more change little. ``progress`` is told of several rounds how many have their cluster.
+    """
+    n, count = len(clusters.local), 0
+    result = Assignment(np.full(n, -1), np.full(n, -1), np.full(n, np.nan), np.zeros(n))
+
+    def store(numbers: Ints, found: Assignment) -> None:
+        fits = found.cluster >= 0
+        for column, values in zip(result, found.shift(count), strict=True):
+            column[numbers[fits]] = values[fits]
+        if n > constants.most:
+            progress(f"clusters in common: {(result.cluster >= 0).sum()} of {n}")
+
+    names = [f"{keys[each.recording]} {each.cluster}" for each in clusters.local]
+    waiting = np.array(sorted(range(n), key=lambda i: sha256(names[i].encode()).digest()), np.int64)
+    while len(waiting):
+        sample, others = np.sort(waiting[: constants.most]), waiting[constants.most :]
+        linked = _link(clusters.select(sample), constants.join)
+        store(sample, linked)
+        # Least spread first within each cluster, of which the first few are typical.
+        order = np.lexsort((linked.spread, linked.cluster))
+        ordered = linked.cluster[order]
+        place = np.arange(len(order)) - np.searchsorted(ordered, ordered)
+        chosen = order[place < constants.typical]
+        typical = Representatives(clusters.select(sample[chosen]), linked.cluster[chosen])
+        for first in range(0, len(others), BLOCK):
+            block = others[first : first + BLOCK]
+            store(block, assign(clusters.select(block), typical, constants))
+        count += int(linked.cluster.max()) + 1
+        waiting = others[result.cluster[others] < 0]
+    return _number_by_seconds(result, [each.seconds for each in clusters.local])
+
+
+def _link(clusters: ClusterSet, join: float) -> Assignment:
+    """Compare local clusters pairwise and join them by average linkage."""
+    from scipy.cluster.hierarchy import fcluster, linkage
+    from scipy.spatial.distance import squareform
+
+    rows, recording = np.arange(len(clusters.local)), clusters.recording
+    # Distances are symmetric: a block of rows is compared from its own columns on.
+    wanted = rows >= rows[:, None] // BLOCK * BLOCK
+    distances = measure_distances(clusters, clusters, wanted)
+    distances = np.where(wanted, distances, distances.T)
+    distances[recording[:, None] == recording] = SAME_RECORDING
+    np.fill_diagonal(distances, 0.0)
+    cluster = np.zeros(len(rows), np.int64)
+    if len(rows) > 1:
+        tree = linkage(squareform(distances, checks=False), "average")
+        cluster += fcluster(tree, join, "distance") - 1
+    members = np.eye(int(cluster.max()) + 1)[cluster]
+    sums, sizes = distances @ members, members.sum(axis=0)
+    spread = sums[rows, cluster] / np.maximum(sizes[cluster] - 1, 1)
+    return _compare_with_next(cluster, spread, sums / sizes)
+
+
+class Representatives(NamedTuple):
+    """The most typical local clusters of a round, and the cluster of each."""
+
+    clusters: ClusterSet
+    cluster: Ints
+
+
+def assign(
+    clusters: ClusterSet, typical: Representatives, constants: ClusterConstants
+) -> Assignment:
+    """Return the nearest cluster of each local cluster, -1 if none is within the threshold."""
+    near = np.zeros((len(clusters.local), len(typical.cluster)), np.bool_)
+    for row, embedding in enumerate(clusters.embeddings):
+        apart = ((typical.clusters.embeddings - embedding) ** 2).sum(axis=1)
+        order = typical.cluster[np.argsort(apart, kind="stable")].tolist()
+        near[row] = np.isin(typical.cluster, list(dict.fromkeys(order))[: constants.nearest])
+    distances = measure_distances(clusters, typical.clusters, near)
+    same = clusters.recording[:, None] == typical.clusters.recording
+    distances = np.where(near, np.where(same, SAME_RECORDING, distances), 0.0)
+    members = np.eye(int(typical.cluster.max()) + 1)[typical.cluster]
+    counts = near @ members
+    means = np.where(counts > 0, distances @ members / np.maximum(counts, 1), np.inf)
+    least = means.min(axis=1)
+    found = _compare_with_next(means.argmin(axis=1), least, means)
+    return found._replace(cluster=np.where(least <= constants.join, found.cluster, -1))
+
+
+def _compare_with_next(cluster: Ints, spread: Floats, distances: Floats) -> Assignment:
+    """Add next cluster and confidence, from distances (n, clusters); inf where not compared."""
+    others = distances.copy()
+    others[np.arange(len(cluster)), cluster] = np.inf
+    least = others.min(axis=1)
+    following = np.where(np.isinf(least), -1, others.argmin(axis=1))
+    confidence = np.clip(1 - spread / np.maximum(least, 1e-9), 0, 1)
+    return Assignment(cluster, following, np.where(following < 0, np.nan, confidence), spread)
+
+
+def _number_by_seconds(found: Assignment, seconds: Sequence[float]) -> Assignment:
+    """Number the clusters from 0, those of most seconds first."""
+    totals = np.round(np.bincount(found.cluster, seconds), 6)
+    rank = np.append(np.argsort(np.argsort(-totals, kind="stable")), -1)
+    return found._replace(cluster=rank[found.cluster], next_cluster=rank[found.next_cluster])
+
+
+def measure_distances(ones: ClusterSet, others: ClusterSet, wanted: NDArray[np.bool_]) -> Floats:
+    """``distances[i, j]``: the mean of i's example found in j's context, and j's in i's.
+
+    `FARTHEST` where not ``wanted``, (ones, others) of bool.
+    """
+    distances = np.full(wanted.shape, FARTHEST)
+    for first in range(0, len(wanted), BLOCK):
+        rows = slice(first, first + BLOCK)
+        columns = np.flatnonzero(wanted[rows].any(axis=0))
+        part = wanted[rows][:, columns]
+        here = [ones.load(each) for each in ones.local[rows]]
+        there = [others.load(each) for each in others.select(columns).local]
+        with threadpool_limits(1):  # sums do not depend on the number of threads
+            both = _search(here, there, part) + _search(there, here, part.T).T
+        distances[rows, columns] = both / 2
+    return distances
+
+
+def _search(
+    ones: Sequence[Features], others: Sequence[Features], wanted: NDArray[np.bool_]
+) -> Floats:
+    """Return how far the example of each is from the nearest movement in contexts of others."""
+    every = _join_contexts(others) if wanted.all() else None
+
+    def search_one(number: int) -> Floats:
+        distances = np.full(len(others), FARTHEST)
+        columns = np.flatnonzero(wanted[number])
+        if len(columns):
+            searched, starts = every or _join_contexts([others[i] for i in columns.tolist()])
+            found, _ = searched.distances(ones[number][0], most=FARTHEST)
+            distances[columns] = np.minimum(np.minimum.reduceat(found, starts), FARTHEST)
+        return distances
+
+    return np.array(map_threads(search_one, range(len(ones))))
+
+
+def _join_contexts(others: Sequence[Features]) -> tuple[Searched, Ints]:
+    """Return contexts as one recording to search, and where each starts in it."""
+    gap = np.full((1, others[0][1].shape[1]), SEPARATOR, np.float32)
+    searched = Searched(np.concatenate([part for _, context in others for part in (context, gap)]))
+    return searched, np.cumsum([0, *(len(context) + 1 for _, context in others[:-1])])
+
+
+def assign_to_centres(
+    loads: Sequence[Callable[[int], NDArray[Any]]],
+    counts: Sequence[int],
+    spans: Sequence[Sequence[Floats]],
+    *,
+    n_clusters: int | None = None,
+) -> Assignment:
+    """Return the cluster of each group of spans, by the samples of channels in them.
+
+    Parameters
+    ----------
+    loads : sequence of callable
+        ``load(n)`` returns every n-th row of the `ChannelSamples.rows` of a recording. Sums depend
+        on the order of recordings: sort them by content, not by name.
+    counts : sequence of int
+        Rows of each recording.
+    spans : sequence of sequence of (segments, 2) array
+        Groups of each recording, such as the segments of a local cluster, in seconds.
+    n_clusters : int, optional
+        By default `estimate_n_clusters` decides.
+    """
+    step = -(-sum(counts) // MAX_SAMPLES)
+    rows = np.concatenate([load(step) for load in loads])
+    to_features = fit_units(rows)
+    points = to_features(rows)
+    centres, _ = fit_centres(points, n_clusters or estimate_n_clusters(points))
+    means = []
+    for load, groups in zip(loads, spans, strict=True):
+        rows = load(1)
+        features = to_features(rows).astype(np.float64)
+        means += [features[_samples_in(rows[:, 0], group)].mean(axis=0) for group in groups]
+    distances = np.sqrt(((np.array(means)[:, None] - centres) ** 2).sum(axis=2))
+    # A centre may be nobody's nearest: there is no cluster of it.
+    used, cluster = np.unique(distances.argmin(axis=1), return_inverse=True)
+    found = _compare_with_next(cluster, distances.min(axis=1), distances[:, used])
+    lasts = [float((each[:, 1] - each[:, 0]).sum()) for groups in spans for each in groups]
+    return _number_by_seconds(found, lasts)
+
+
+def _samples_in(seconds: NDArray[Any], spans: Floats) -> Ints:
+    """Return which samples lie in spans; of a span without any, the next one."""
+    firsts = np.minimum(np.searchsorted(seconds, spans[:, 0]), len(seconds) - 1)
+    stops = np.maximum(np.searchsorted(seconds, spans[:, 1]), firsts + 1)
+    return np.concatenate([np.arange(*span) for span in zip(firsts, stops, strict=True)])
+
+
+def fit_centres(points: Float32s, n_clusters: int) -> tuple[Float32s, float]:
+    """Return the centres of k-means, fewer if fewer points differ, and the squares left."""
+    from sklearn.cluster import KMeans  # takes a second
+
+    count = min(n_clusters, len(np.unique(points, axis=0)))
+    with threadpool_limits(1):  # sums do not depend on the number of cores
+        found = KMeans(count, n_init=STARTS, random_state=0).fit(points)
+    return found.cluster_centers_, float(found.inertia_)
+
+
+def estimate_n_clusters(points: Float32s) -> int:
+    """Return how many clusters points have: one more explains `MIN_EXPLAINED` of their variance.
+
+    Examples
+    --------
+    >>> points = np.repeat([[0.0, 0], [9, 0], [0, 9]], 20, axis=0).astype(np.float32)
+    >>> estimate_n_clusters(points)
+    3
+    """
+    points = points[:: -(-len(points) // COUNTING_SAMPLES)]
+    total = max(float(points.var(axis=0, dtype=np.float64).sum()) * len(points), 1e-12)
+    costs = [1.0 + MIN_EXPLAINED]
+    # Even with nothing left unexplained, one more must not cost more than the best.
+    while len(costs) <= np.argmin(costs) + 1 + PATIENCE and len(costs) * MIN_EXPLAINED < min(costs):
+        left = fit_centres(points, len(costs) + 1)[1]
+        costs.append(left / total + (len(costs) + 1) * MIN_EXPLAINED)
+    return int(np.argmin(costs)) + 1
+
+
+def spans_with_clusters(columns: Mapping[str, NDArray[Any]], clusters: Ints) -> Spans:
+    """Return the activities of a segment table; also primitives whose cluster no activity has."""
+    active, coarse = columns["kind"] != "transition", columns["level"] == "activity"
+    rows = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))
+    return columns["start_s"][rows], columns["stop_s"][rows], clusters[rows]
+
+
+def keep_numbers(
+    old: Mapping[Any, Spans], new: Mapping[Any, Spans], *, following: int
+) -> dict[int, int]:
+    """Return the number of each new cluster: that of the old one with which it shares most seconds.
+
+    Each number goes to one cluster. The others are numbered from ``following`` on. Keys of old and
+    new are recordings.
+
+    Examples
+    --------
+    >>> starts, stops = np.array([0.0, 5.0]), np.array([5.0, 9.0])
+    >>> old = {"a": (starts, stops, np.array([4, 2]))}
+    >>> new = {"a": (starts, stops, np.array([0, 1])), "b": (starts, stops, np.array([1, 2]))}
+    >>> keep_numbers(old, new, following=7)
+    {0: 4, 1: 2, 2: 7}
+    """
+    shared: defaultdict[tuple[int, int], float] = defaultdict(float)
+    for recording in old.keys() & new.keys():
+        (starts, stops, before), (begins, ends, now) = old[recording], new[recording]
+        overlap = np.minimum(stops[:, None], ends) - np.maximum(starts[:, None], begins)
+        for i, j in np.argwhere((overlap > 0) & (before[:, None] >= 0) & (now >= 0)):
+            shared[int(before[i]), int(now[j])] += round(float(overlap[i, j]), 6)
+    numbers: dict[int, int] = {}
+    for (number, cluster), _ in sorted(shared.items(), key=lambda pair: (-pair[1], pair[0])):
+        if cluster not in numbers and number not in numbers.values():
+            numbers[cluster] = number
+    for cluster in sorted({int(c) for _, _, clusters in new.values() for c in clusters} - {-1}):
+        if cluster not in numbers:
+            numbers[cluster], following = following, following + 1
+    return dict(sorted(numbers.items()))
