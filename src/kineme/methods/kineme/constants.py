@@ -58,15 +58,23 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     shared: tuple[float, ...] = constant(
         "per view: largest variance that channels share, where that of a channel is 1",
-        limits=SOME_LENGTH, fine=True, default=(1e4,),
+        limits=SOME_LENGTH, fine=True, default=(1e4, 1e4, 1.0, 0.3, 0.3),
     )  # fmt: skip
     weights: tuple[float, ...] = constant(
         "per view: statistics are divided by their deviation to this power", limits=SHARE,
-        fine=True, default=(0.5,),
+        fine=True, default=(0.5, 1.0, 1.0, 0.5, 1.0),
     )  # fmt: skip
     restless_over: tuple[float, ...] = constant(
         "per view: the deviation of a statistic is its mean change over this; 0: that of its band",
-        unit="s", limits=TIME, fine=True, default=(0.0,),
+        unit="s", limits=TIME, fine=True, default=(0.0, 1.0, 0.0, 0.0, 1.0),
+    )  # fmt: skip
+    view_margin: float = constant(
+        "the last view is taken in place of the first if its mutual information with all views is "
+        "higher by more than this, in the mean", limits=SHARE, fine=True, default=0.06,
+    )  # fmt: skip
+    half_views: bool = constant(
+        "whether views of half of the channels count in this as well", limits=None, fine=True,
+        default=False,
     )  # fmt: skip
     velocity_weight: float = constant(
         "weight of the velocities of joints; that of their positions is 1", limits=FACTOR,
@@ -144,7 +152,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     transition_cost: float = constant(
         "least gain of a transition over a border: log-likelihood times seconds, mean of channels",
-        unit="s", limits=SOME_FACTOR, fine=True, default=0.6,
+        unit="s", limits=SOME_FACTOR, fine=True, default=1.2,
     )  # fmt: skip
     # Repetitions.
     noise_share: float = constant(

@@ -37,7 +37,7 @@ from kineme.methods.kineme.primitives import (
 )
 from kineme.methods.kineme.repeating import Repeating
 from kineme.methods.kineme.tree import Level, level_of, link_parts, median_distance, part_ends
-from kineme.methods.kineme.views import Views, most_agreed, views_of
+from kineme.methods.kineme.views import Views, choose_view, views_of
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
@@ -140,7 +140,8 @@ def _part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Pa
 
     scale = 0
     if len(views.views) > 1:
-        scale = most_agreed([*map(clusters, views.views)], [*map(clusters, views.halves)])
+        answers, halves = [*map(clusters, views.views)], [*map(clusters, views.halves)]
+        scale = choose_view(answers, halves, margin=preset.view_margin)
     view = views.views[scale]
     level = level_of(view, preset, Repeating(poses, preset))
     return Part(scale, view, level.in_frames(span, preset))

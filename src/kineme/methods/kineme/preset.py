@@ -39,9 +39,8 @@ KINEME = KinemePreset(name="kineme", help="Finds activities and counts their rep
 OF_SENSORS: Mapping[str, Any] = {
     "unit": "any",
     "working_fps": 50.0,
-    "shared": (1e4, 1e4, 1e4, 1.0, 1.0, 1.0, 0.3, 0.3, 0.3),
-    "weights": (0.5, 1.0, 1.0) * 3,
-    "restless_over": (0.0, 0.0, 1.0) * 3,
+    "view_margin": 0.0,
+    "half_views": True,  # a sensor may be loose, or on another limb than the movement
     "min_explained": 0.8,
     "chance_duration": 32.0,  # sitting down twice is no exercise
     "centering": 0.4,
@@ -49,7 +48,7 @@ OF_SENSORS: Mapping[str, Any] = {
     "event_scale": 0.0,
     "transition_cost": 1000.0,  # people who label sensors leave nothing between two activities
 }
-"""Values for signals where they differ: no one view fits all, and lengths mean nothing."""
+"""Values for signals where they differ: lengths mean nothing, and few channels are doubtful."""
 
 SENSORS = KinemePreset(
     name="sensors",

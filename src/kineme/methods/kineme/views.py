@@ -3,9 +3,9 @@
 A scale has two choices. What channels have in common is movement where sensors are on both legs,
 and only position where channels are positions of joints: it is left in, or reduced. And some
 sensors separate activities by what varies most, others by what changes seldom: statistics are
-divided by one or the other. The first and the last view are opposite in both. The one of these two
-that agrees more with all views is taken (`most_agreed`). Views of half of the channels are among
-these, as an answer that depends on few channels is doubtful.
+divided by one or the other. The first and the last view are opposite in both. The last one is taken
+if it agrees with all views more than the first by a margin (`choose_view`). Of few channels, views
+of half of them are among these, as an answer that depends on one channel is doubtful.
 
 Where channels are positions of joints, their velocities are added: sitting down and standing up
 have the same positions.
@@ -83,7 +83,7 @@ def views_of(
     scaled = np.asarray(centred / _deviations(centred), np.float64)
     scales = [*map(Scale, preset.shared, preset.weights, preset.restless_over)]
     requested = [(np.arange(scaled.shape[1]), scale) for scale in scales]
-    if len(scales) > 1:
+    if len(scales) > 1 and preset.half_views:
         halves = slow_and_fast(scaled)
         # An answer that half of the channels gives as well depends on no single channel.
         requested += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
@@ -237,8 +237,10 @@ def _deviations(centred: Floats) -> Floats:
     return np.where(deviations > TINY, deviations, 1.0)
 
 
-def most_agreed(answers: Sequence[Labels], others: Sequence[Labels] = ()) -> int:
-    """0 for the first answer or the place of the last: the one with more agreement, or the first.
+def choose_view(
+    answers: Sequence[Labels], others: Sequence[Labels] = (), *, margin: float = 0.0
+) -> int:
+    """Return 0 for the first answer or the place of the last: the one that agrees more with all.
 
     Parameters
     ----------
@@ -246,18 +248,21 @@ def most_agreed(answers: Sequence[Labels], others: Sequence[Labels] = ()) -> int
         Per answer the cluster of each sample.
     others : sequence of (samples,) array
         Answers that count, but cannot be taken.
+    margin : float
+        Mutual information, in the mean over all, by which the last must agree more to be taken.
 
     Examples
     --------
     >>> first, other, last = np.array([[0, 1, 0, 1, 0], [0, 0, 0, 1, 1], [0, 0, 1, 1, 1]])
-    >>> most_agreed([first, other, last])
-    2
+    >>> choose_view([first, other, last]), choose_view([first, other, last], margin=0.5)
+    (2, 0)
     """
+    voters = [*answers, *others]
     first, last = (
-        sum(mutual_information(answers[one], other) for other in (*answers, *others))
-        for one in (0, -1)
+        sum(mutual_information(answers[one], voter) for voter in voters) for one in (0, -1)
     )
-    return 0 if round(first - last, DIGITS) >= 0 else len(answers) - 1
+    needed = first + margin * len(voters)
+    return len(answers) - 1 if round(last - needed, DIGITS) > 0 else 0
 
 
 def mutual_information(first: Labels, second: Labels) -> float:
