@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from _joined import clusters_of
-from kineme.features.channels import at_rate
+from kineme.features.channels import resample_channels
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample, scale, turn
 from kineme.segments.segmentation import Segmentation
@@ -64,7 +64,9 @@ def _at(recording: Motion | Signals, rate: float) -> Motion | Signals:
     if isinstance(recording, Motion):
         return resample(recording, rate)
     return Signals(
-        at_rate(recording.values, recording.fps, rate, smoothing=0.0), rate, recording.names
+        resample_channels(recording.values, recording.fps, rate, smoothing=0.0),
+        rate,
+        recording.names,
     )
 
 

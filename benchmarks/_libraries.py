@@ -13,7 +13,7 @@ from _options import few, needed
 from kineme import Library, read
 from kineme._version import __version__
 from kineme.library import Settings
-from kineme.library.compiling import compiled
+from kineme.library.compiling import compile_tables
 from kineme.library.descriptions import analysis_of
 from kineme.library.storage.analyses import Analysis, has_analysis, write_analysis
 from kineme.library.storage.index import write_index
@@ -44,7 +44,7 @@ def joined(folder: Path, keys: Mapping[str, str]) -> float:
     """Leave head and tables of pieces by the names of their recordings; seconds that it took."""
     start = perf_counter()
     entries = [(name, folder / name, key) for name, key in sorted(keys.items())]
-    tables, following = compiled(folder, entries, {}, 0, lambda _: None)
+    tables, following = compile_tables(folder, entries, {}, 0, lambda _: None)
     head = {
         "schema": SCHEMA,
         "kineme": __version__,

@@ -32,7 +32,7 @@ from _recordings import Case, hdm05, subject_86
 from _sources import of_bodies
 from kineme import Library
 from kineme.evaluation import TRANSITION, Comparison, Labelling, Truth, one_to_one_accuracy
-from kineme.library.compiling import compiled
+from kineme.library.compiling import compile_tables
 from kineme.library.storage.analyses import read_analysis, read_features, write_analysis
 from kineme.library.storage.layout import ANALYSES
 from kineme.transfer.clusters import CONSTANTS, find_local_clusters
@@ -131,7 +131,7 @@ def show_growth(folder: Path, sizes: list[int], most: int) -> None:
             entries = many(library, size, Path(home))
             kept = sum(path.stat().st_size for path in (Path(home) / ANALYSES).glob("*.npy"))
             started = process_time()
-            tables, _ = compiled(Path(home), entries, {}, 0, lambda _: None)
+            tables, _ = compile_tables(Path(home), entries, {}, 0, lambda _: None)
             seconds = process_time() - started
         found = tables["local_clusters"]
         n, clusters = len(found), len(set(found.column("cluster").to_pylist()))

@@ -391,7 +391,7 @@ def test_what_is_there_several_times_is_worked_on_once(
     assert made.new == 1
     assert all(f"{path.name}: " in said for path, said in made.failed.items())
     monkeypatch.setattr(
-        "kineme.library.gathering.by_content",
+        "kineme.library.gathering.group_by_content",
         lambda tasks, _: [Group([task], "") for task in tasks],
     )
     build(own, tmp_path / "each", jobs=1)

@@ -16,8 +16,8 @@ from kineme.library.windows import (
     FINER,
     LENGTHS,
     all_windows,
-    by_length,
     count,
+    group_by_length,
     parts_at_speeds,
     windows_of,
 )
@@ -47,7 +47,7 @@ def test_windows_of_all_lengths_are_told_apart_again() -> None:
     random = np.random.default_rng(0)
     for n in (1, 14, 15, 61, 200):
         features = random.normal(size=(n, 40)).astype(np.float32)
-        laid = dict(by_length(all_windows(features), n))
+        laid = dict(group_by_length(all_windows(features), n))
         assert {length: len(own) for length, own in laid.items()} == {
             length: int(count(np.array(n), length)) for length in LENGTHS
         }
@@ -72,7 +72,7 @@ def test_the_window_that_is_the_example_is_the_nearest() -> None:
 
 def test_parts_that_overlap_are_one_within_a_recording() -> None:
     parts = Parts(*map(np.array, ([1, 0, 0, 0], [0, 5, 0, 30], [10, 20, 8, 40])))
-    assert [column.tolist() for column in index.joined(parts)] == [
+    assert [column.tolist() for column in index.merge_overlapping(parts)] == [
         [0, 0, 1],
         [0, 30, 0],
         [20, 40, 10],

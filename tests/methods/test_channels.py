@@ -13,8 +13,8 @@ from presets import OWN
 
 from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
-from kineme.features.channels import at_rate
-from kineme.features.channels import standardized as standard
+from kineme.features.channels import resample_channels
+from kineme.features.channels import standardize_channels as standard
 from kineme.features.emg import emg_envelope
 from kineme.methods import resolve_preset
 from kineme.methods.kineme.preset import KINEME, SENSORS
@@ -28,7 +28,7 @@ RATES = st.floats(5, 500)
 
 @given(VALUES, RATES, RATES)
 def test_resampled_values_are_means_of_what_is_there(values, fps, new) -> None:
-    found = at_rate(values, fps, new, smoothing=0.1)
+    found = resample_channels(values, fps, new, smoothing=0.1)
     assert len(found) == int((len(values) - 1) * new / fps + 1e-9) + 1
     assert (found >= values.min(axis=0) - 1e-6).all()
     assert (found <= values.max(axis=0) + 1e-6).all()
@@ -36,7 +36,7 @@ def test_resampled_values_are_means_of_what_is_there(values, fps, new) -> None:
 
 @given(VALUES, RATES)
 def test_the_same_rate_without_smoothing_changes_nothing(values, fps) -> None:
-    assert np.allclose(at_rate(values, fps, fps, smoothing=0), values, atol=1e-6)
+    assert np.allclose(resample_channels(values, fps, fps, smoothing=0), values, atol=1e-6)
 
 
 def naive_mean(values: np.ndarray, fps: float, at: float, width: float) -> np.ndarray:
@@ -52,7 +52,7 @@ def naive_mean(values: np.ndarray, fps: float, at: float, width: float) -> np.nd
 @given(VALUES, st.floats(20, 200), st.floats(20, 60), st.floats(0, 0.3))
 @settings(max_examples=30)
 def test_resampling_is_what_it_says(values, fps, new, smoothing) -> None:
-    found = at_rate(values, fps, new, smoothing=smoothing)
+    found = resample_channels(values, fps, new, smoothing=smoothing)
     width = max(smoothing, 1 / fps, 1 / new)
     for i in range(0, len(found), 5):
         assert np.allclose(found[i], naive_mean(values, fps, i / new, width), atol=1e-6)
@@ -61,7 +61,7 @@ def test_resampling_is_what_it_says(values, fps, new, smoothing) -> None:
 def test_what_is_too_fast_for_the_new_rate_does_not_fold_back() -> None:
     t = np.arange(5000) / 1000
     hum = np.sin(2 * np.pi * 59 * t)[:, None]  # every 33rd sample of it would look like 1 Hz
-    assert np.abs(at_rate(hum, 1000, 30, smoothing=0.1)[3:-3]).max() < 0.1
+    assert np.abs(resample_channels(hum, 1000, 30, smoothing=0.1)[3:-3]).max() < 0.1
 
 
 @given(VALUES)

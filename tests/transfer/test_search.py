@@ -12,7 +12,7 @@ from scipy.spatial.distance import cdist
 
 import naive
 from kineme.errors import ParameterError
-from kineme.transfer.subsequences import BLOCK, search, warped
+from kineme.transfer.subsequences import BLOCK, search, warp
 
 
 def directions(n: int, seed: int, dims: int = 6) -> np.ndarray:
@@ -31,7 +31,7 @@ def at_speed(features: np.ndarray, speed: float) -> np.ndarray:
 @settings(max_examples=60)
 def test_equal_to_the_naive_version(n: int, m: int, seed: int) -> None:
     recording, example = directions(n, seed), directions(m, seed + 100)
-    costs, starts = warped(example, recording)
+    costs, starts = warp(example, recording)
     expected, begins = naive.warpings(cdist(recording, example))
     np.testing.assert_allclose(costs, expected, rtol=1e-5, atol=1e-3)  # float32
     possible = np.isfinite(expected)
@@ -89,9 +89,9 @@ def test_a_part_is_not_the_whole() -> None:
     whole = directions(40, 7)
     part = whole[5:27]
     assert search(part, whole, threshold=0.01).distances[0] < 0.01
-    assert warped(whole, part)[0].min() > 0.1
-    assert warped(whole, whole)[0].min() < 1e-3
-    assert np.isinf(warped(whole, whole[:5])[0]).all()
+    assert warp(whole, part)[0].min() > 0.1
+    assert warp(whole, whole)[0].min() < 1e-3
+    assert np.isinf(warp(whole, whole[:5])[0]).all()
 
 
 @pytest.mark.parametrize(

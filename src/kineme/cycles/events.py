@@ -182,9 +182,9 @@ def foot_events(
     sources: dict[str, str] = {}
     for side, pattern in zip(SIDES, (left, right), strict=True):
         found = (
-            _of_body(recording, side, pattern)
+            _find_body_events(recording, side, pattern)
             if isinstance(recording, Motion)
-            else _of_sensors(recording, side, pattern)
+            else _find_sensor_events(recording, side, pattern)
         )
         if found is None:
             continue
@@ -213,7 +213,7 @@ Found = tuple[list[float], list[float], str]
 """Seconds at which a foot comes down, at which it leaves the ground, and what they are from."""
 
 
-def _of_body(motion: Motion, side: str, pattern: str | None) -> Found | None:
+def _find_body_events(motion: Motion, side: str, pattern: str | None) -> Found | None:
     if pattern is not None:
         raise ParameterError("left= and right= name channels of signals; this is a body")
     points = _points(motion, side)
@@ -235,7 +235,7 @@ def _paths(motion: Motion, points: Sequence[str]) -> list[Floats]:
     return [motion.positions[:, motion.skeleton.joint(name)] for name in points]
 
 
-def _of_sensors(signals: Signals, side: str, pattern: str | None) -> Found | None:
+def _find_sensor_events(signals: Signals, side: str, pattern: str | None) -> Found | None:
     chosen = _channels(signals.names, side, pattern)
     if chosen is None:
         return None

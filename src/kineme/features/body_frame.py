@@ -114,14 +114,14 @@ def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]
     pelvis = left[shared - 1]
     # Some skeletons have several joints at the same place before the legs are apart.
     for left_hip, right_hip in zip(left[shared:], right[shared:], strict=False):
-        if np.linalg.norm(_at_rest(skeleton, pelvis, left_hip, right_hip)) > 0:
+        if np.linalg.norm(_measure_hip_axis(skeleton, pelvis, left_hip, right_hip)) > 0:
             return pelvis, left_hip, right_hip
     raise MotionError(
         f"left and right leg coincide below {skeleton.names[pelvis]!r}, so nothing tells the facing"
     )
 
 
-def _at_rest(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip: int) -> Floats:
+def _measure_hip_axis(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip: int) -> Floats:
     """From the right hip to the left, in the pelvis's own frame, at rest."""
 
     def from_pelvis(joint: int) -> Floats:
@@ -136,7 +136,7 @@ def _turned_axis(
     skeleton: Skeleton, rotations: Floats, pelvis: int, left_hip: int, right_hip: int
 ) -> Floats:
     """(frames, 3): the pelvis's axis to the left, in the world."""
-    rest = _at_rest(skeleton, pelvis, left_hip, right_hip)
+    rest = _measure_hip_axis(skeleton, pelvis, left_hip, right_hip)
     axis = np.zeros(3)
     # The coordinate axis nearest to the line of the hips, with its sign.
     axis[np.argmax(np.abs(rest))] = np.sign(rest[np.argmax(np.abs(rest))])

@@ -61,7 +61,7 @@ class Mixture(NamedTuple):
         return chosen if self.reduction is None else self.reduction.apply(chosen)
 
 
-def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
+def resample_channels(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
     """Return the channels at the times 0, 1/new, 2/new, … up to their last frame.
 
     Each value is the mean over `smoothing` seconds around its time, or over a frame of the old or
@@ -106,7 +106,7 @@ def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> F
     return np.asarray(means + middle, np.float64)
 
 
-def standardized(values: ArrayLike) -> Floats:
+def standardize_channels(values: ArrayLike) -> Floats:
     """Return the channels with mean 0 and standard deviation 1; those that never change are 0."""
     centred = np.asarray(values, np.float64)
     centred = centred - centred.mean(axis=0)
@@ -151,10 +151,10 @@ def channel_statistics(
     (50, 6)
     """
     every = Mixture(np.arange(channels.shape[1]))
-    return in_mixtures(channels, [every], fps, rate=rate, window=window, bands=bands)[0]
+    return compute_statistics(channels, [every], fps, rate=rate, window=window, bands=bands)[0]
 
 
-def in_mixtures(
+def compute_statistics(
     channels: Floats,
     mixtures: Sequence[Mixture],
     fps: float,

@@ -74,7 +74,7 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     if array.shape[1] < 2:
         raise MotionError("a single point is in no distance: segment its coordinates as signals")
     points = spread_points(array)
-    features = _without_spikes(_distances(array[:, points]))
+    features = _filter_median(_distances(array[:, points]))
     # Before centring: the largest mean distance tells the size of the whole.
     largest = float(features.mean(axis=0).max(initial=0))
     features -= features.mean(axis=0)
@@ -107,7 +107,7 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     considered = np.arange(min(n, CONSIDERED)) * n // min(n, CONSIDERED)
     few = positions[:: max(1, len(positions) // _FRAMES), considered]
     apart, varying = _mean_and_deviation(few)
-    kept = np.flatnonzero(~_of_the_lab(few, varying))
+    kept = np.flatnonzero(~_find_lab_points(few, varying))
     # Rows and columns of the points that are kept.
     apart, varying = apart[np.ix_(kept, kept)], varying[np.ix_(kept, kept)]
     # The point whose distances vary most, then always the one farthest from those chosen.
@@ -120,7 +120,7 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     return np.sort(considered[kept[chosen]])
 
 
-def _of_the_lab(positions: Floats, varying: Floats) -> NDArray[np.bool_]:
+def _find_lab_points(positions: Floats, varying: Floats) -> NDArray[np.bool_]:
     """Return which points never move, though none that move keep their distance from them."""
     # Root mean square of the distance from the mean place, for each point.
     movement = np.linalg.norm(positions - positions.mean(axis=0), axis=2)
@@ -145,7 +145,7 @@ def _mean_and_deviation(positions: Floats) -> tuple[Floats, Floats]:
     return mean, deviation
 
 
-def _without_spikes(values: Floats) -> Floats:
+def _filter_median(values: Floats) -> Floats:
     """Return each value the median of itself and its two neighbours in time.
 
     A marker that is taken for another for a frame or two would outweigh all movement.

@@ -104,7 +104,7 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     skeleton = source.skeleton if isinstance(source, Motion) else source
     # The first source that names a part wins: the user, the rig, usual names, shape.
     rig, of_rig = find_rig_joints(skeleton.names)
-    ways = [(_named(skeleton, names), "as named"), (of_rig, f"by {rig} name"),
+    ways = [(_find_named(skeleton, names), "as named"), (of_rig, f"by {rig} name"),
             (_find_by_names(skeleton), "by name")]  # fmt: skip
     if len({part for joints, _ in ways for part in joints}) < len(PARTS):
         ways.append((find_by_shape(skeleton.parents, _upright_pose(source)), "by shape"))
@@ -112,9 +112,9 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     missing = [part.replace("_", " ") for part in PARTS if part not in found]
     if missing:
         raise EndEffectorError(
-            f"{_listed(missing)} not found among the joints {join_names(skeleton.names, SHOWN)}; "
-            + remedy(skeleton),
-            reason=f"no {_listed(missing, 'or')} among the joints",
+            f"{_list_words(missing)} not found among the joints "
+            f"{join_names(skeleton.names, SHOWN)}; " + remedy(skeleton),
+            reason=f"no {_list_words(missing, 'or')} among the joints",
         )
     joints = [found[part][0] for part in PARTS]
     # One joint that serves as two parts would count twice.
@@ -138,12 +138,12 @@ def remedy(skeleton: Skeleton) -> str:
     return f"name all five with --effectors {parts} (effectors=... in Python)"
 
 
-def _listed(words: list[str], last: str = "and") -> str:
+def _list_words(words: list[str], last: str = "and") -> str:
     """Return the words as people list them: ``a, b and c``."""
     return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
-def _named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
+def _find_named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
     if names is None:
         return {}
     if not isinstance(names, Mapping):

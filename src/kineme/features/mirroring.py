@@ -105,7 +105,7 @@ def _partners(skeleton: Skeleton) -> list[int]:
     names = skeleton.names
     index = {name: joint for joint, name in enumerate(names)}
     partners = [
-        next((index[other] for other in _renamed(name) if other in index), joint)
+        next((index[other] for other in _swap_side(name) if other in index), joint)
         for joint, name in enumerate(names)
     ]
     if partners == list(range(len(names))):
@@ -123,7 +123,7 @@ def _partners(skeleton: Skeleton) -> list[int]:
     return partners
 
 
-def _renamed(name: str) -> Iterator[str]:
+def _swap_side(name: str) -> Iterator[str]:
     """Yield the name with one word for a side turned into the other, each way to do so."""
     # A name may hold several letters that look like a side, as in `l_hand_r`.
     for found in _SIDE.finditer(name):

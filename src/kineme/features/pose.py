@@ -89,7 +89,7 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
         raise ParameterError(f"offsets must be different frames, at least one, not {offsets!r}")
     # Frames that are needed beyond either end.
     before, after = max(0, -min(offsets)), max(0, *offsets)
-    longer = _extrapolated(features, before, after)
+    longer = _extrapolate(features, before, after)
     frames, dims = features.shape
     stacked = np.empty((frames, len(offsets), dims))
     for block, offset in enumerate(sorted(offsets)):
@@ -124,7 +124,7 @@ def offsets_in_frames(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]
     return frames
 
 
-def _extrapolated(features: Floats, before: int, after: int) -> Floats:
+def _extrapolate(features: Floats, before: int, after: int) -> Floats:
     """Return features with so many frames more at either end, in line with the two outermost."""
     # A single frame has no step and is repeated.
     first = features[1] - features[0] if len(features) > 1 else np.zeros(features.shape[1])

@@ -74,7 +74,7 @@ def columns_to_motion(
         notes.append(f"{format_count(unsure, 'position')} less sure than {limit:g} not used")
     unit, stated, up = options.unit, None, options.up
     if unit is None:
-        stated, remarks = _in_one_unit(content, joints, positions)
+        stated, remarks = _find_common_unit(content, joints, positions)
         notes += remarks
     if flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")
@@ -119,7 +119,7 @@ def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
     return joints
 
 
-def _in_one_unit(
+def _find_common_unit(
     content: FileContent, joints: Joints, positions: Floats
 ) -> tuple[str | None, list[str | Note]]:
     """Return the unit that the columns' names tell, and notes; None where none does.

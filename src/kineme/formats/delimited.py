@@ -23,13 +23,13 @@ from numpy.typing import NDArray
 
 from kineme.formats.files import FileContent, numbers, unique
 from kineme.formats.timing import (
+    append_unit,
     date_columns,
     date_seconds,
     day_comes_first,
     is_ambiguous,
     is_date,
     is_timing,
-    with_unit,
 )
 
 EMPTY = frozenset(
@@ -141,15 +141,17 @@ class DelimitedText:
     def times(self) -> dict[str, str]:
         """Columns that tell times or a rate, and their names as `table_timing` knows them."""
         if self.clocks is not None:
-            named = {
+            make_unique_names = {
                 name: f"time ({unit})" if unit else "time" for name, unit in self.clocks.items()
             }
         else:
             units = dict(zip(self.names, self.units, strict=False))
-            named = {
-                name: with_unit(name, units.get(name, "")) for name in self.names if is_timing(name)
+            make_unique_names = {
+                name: append_unit(name, units.get(name, ""))
+                for name in self.names
+                if is_timing(name)
             }
-        return named | {self.names[i]: "time (s)" for i in self.dates}
+        return make_unique_names | {self.names[i]: "time (s)" for i in self.dates}
 
     @cached_property
     def day_first(self) -> bool | None:
@@ -180,7 +182,7 @@ class DelimitedText:
 
     def numeric(self) -> list[str]:
         """Return names of columns whose first cell is a number or empty, and of those of dates."""
-        first = map(dotted, self.first_cells) if self.comma else self.first_cells
+        first = map(replace_decimal_comma, self.first_cells) if self.comma else self.first_cells
         dates = {self.names[i] for i in self.dates}
         return [
             name
@@ -220,7 +222,11 @@ class DelimitedText:
                 for i in dates:
                     cells[i] = _seconds(content, cells[i].strip(), line, self.day_first)
                 row = [cells[i] for i in chosen]
-                values.extend(_numbers(content, [*map(dotted, row)] if self.comma else row, line))
+                values.extend(
+                    _numbers(
+                        content, [*map(replace_decimal_comma, row)] if self.comma else row, line
+                    )
+                )
         except csv.Error as error:
             raise content.error(str(error), first + reader.line_num - 1) from None
         if not values:
@@ -246,7 +252,7 @@ class DelimitedText:
                 )
 
 
-def named(names: Iterable[str]) -> list[str]:
+def make_unique_names(names: Iterable[str]) -> list[str]:
     """Return the names of columns, each of them once, and none of them empty."""
     return unique(name.strip() or NAMELESS for name in names)
 
@@ -271,7 +277,7 @@ def has_comma(cell: str) -> bool:
     return _COMMA.fullmatch(cell) is not None
 
 
-def dotted(cell: str) -> str:
+def replace_decimal_comma(cell: str) -> str:
     """Return a cell with a decimal point in place of a decimal comma; other text as it is."""
     return cell.replace(",", ".") if has_comma(cell) else cell
 

@@ -92,7 +92,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     doubts = drop_implausible(positions, names, points.fps)
     gaps = fill_gaps(positions, points.fps)
     body = _least_broken(names, gaps, len(positions))
-    used = _used(body)
+    used = _list_used(body)
     kept = [i for i in range(len(names)) if i not in gaps.open or i in used]
     missing = bridge(positions, gaps, used, points.fps)
     is_visible = ~mark_spans(missing, len(positions))
@@ -169,7 +169,7 @@ def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:
     if "pelvis" not in body:
         return find_body(names, usable - hidden.keys())
     tried: set[int] = set()
-    while broken := (_used(body) & hidden.keys()) - tried:
+    while broken := (_list_used(body) & hidden.keys()) - tried:
         worst = max(broken, key=lambda point: (hidden[point].sum(), -point))
         without = find_body(names, usable - {worst})
         tried.add(worst)
@@ -192,13 +192,13 @@ def _missing_with_the_body(
     return found
 
 
-def _used(body: Body) -> set[int]:
+def _list_used(body: Body) -> set[int]:
     return {point for made_of in body.values() for point in made_of}
 
 
 def _missing(body: Body, hidden: dict[int, NDArray[np.bool_]]) -> int:
     """Frames in which one of the body's points was not seen."""
-    masks = [hidden[point] for point in _used(body) & hidden.keys()]
+    masks = [hidden[point] for point in _list_used(body) & hidden.keys()]
     return int(np.logical_or.reduce(masks).sum()) if masks else 0
 
 

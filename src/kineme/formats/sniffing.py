@@ -24,7 +24,7 @@ from kineme.formats.delimited import (
     from_text,
     is_finite,
     is_number,
-    named,
+    make_unique_names,
     separator_of,
 )
 from kineme.formats.files import FileContent
@@ -89,7 +89,7 @@ def sniff(content: FileContent) -> DelimitedText:
         row = next(filter(str.strip, islice(lines, below, None)), "")
         cells = head_cells(content, lines[head], row, separator)
     passed = full[first + 1 : first + 1 + words]
-    if words and (both := _joined(cells, cells_of(lines[passed[0]], separator))) != cells:
+    if words and (both := _join_names(cells, cells_of(lines[passed[0]], separator))) != cells:
         cells, passed = both, passed[1:]
     headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
     remark = "holds no numbers and is passed over"
@@ -97,7 +97,7 @@ def sniff(content: FileContent) -> DelimitedText:
     return DelimitedText(
         content,
         lines,
-        named(map(from_text, cells)),
+        make_unique_names(map(from_text, cells)),
         head,
         below,
         separator,
@@ -152,14 +152,14 @@ def _is_head(lines: Sequence[str], full: Sequence[int], at: int, separator: str 
     )
 
 
-def _joined(names: list[str], words: Sequence[str]) -> list[str]:
+def _join_names(names: list[str], words: Sequence[str]) -> list[str]:
     """Names with the words below them, where only both tell the columns apart.
 
     Examples
     --------
-    >>> _joined(["time", "L_TOE", "L_TOE"], ["", "x", "y"])
+    >>> _join_names(["time", "L_TOE", "L_TOE"], ["", "x", "y"])
     ['time', 'L_TOE_x', 'L_TOE_y']
-    >>> _joined(["time", "acc", "acc"], ["s", "g", "g"])
+    >>> _join_names(["time", "acc", "acc"], ["s", "g", "g"])
     ['time', 'acc', 'acc']
     """
     both = ["_".join(filter(None, pair)) for pair in zip(names, words, strict=False)]

@@ -26,7 +26,7 @@ from kineme.formats.channels.reading import (
 )
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.columns import columns_to_motion, is_used
-from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, named
+from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, make_unique_names
 from kineme.formats.dialects import find_table, hold_channels, recognise_table
 from kineme.formats.files import FileContent, format_point_name, save, spell_names, unique
 from kineme.formats.gaps import unseen
@@ -65,7 +65,7 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
     """Return the joint positions in a Parquet table, or its channels where there are none."""
     file = parquet_file(content)
     stored = file.schema_arrow.names
-    if options.channels or hold_channels(named(stored)):
+    if options.channels or hold_channels(make_unique_names(stored)):
         table = parquet_channels(content, file, options.columns or None)
         return to_signals(content, PARQUET.name, table, options.fps)
     used = parquet_columns(content, file, [name for name in stored if is_used(name)])

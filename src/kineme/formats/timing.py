@@ -110,14 +110,14 @@ def date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
     return [i for i in dates if ":" in cells[i]][:1]
 
 
-def with_unit(name: str, unit: str) -> str:
+def append_unit(name: str, unit: str) -> str:
     """Return the name of a column of times with the unit that stands below it.
 
     As it is where none does.
 
     Examples
     --------
-    >>> with_unit("time", "ms"), with_unit("time", "hh:mm"), with_unit("time_s", "ms")
+    >>> append_unit("time", "ms"), append_unit("time", "hh:mm"), append_unit("time_s", "ms")
     ('time (ms)', 'time', 'time_s')
     """
     match = _TIME.fullmatch(name.strip())
@@ -214,7 +214,7 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
         raise content.error("the times do not tell a rate: give fps= (--fps)")
     jumps &= np.abs(steps - period) > 0.75 * period  # at low rates a frame may come late
     doubt = 2 * np.spacing(np.abs(times).max()) / (period * len(steps))
-    fps = _rounded(len(steps) / duration if even else 1 / period, max(1e-6, float(doubt)))
+    fps = _round_rate(len(steps) / duration if even else 1 / period, max(1e-6, float(doubt)))
     notes = [] if even else [_unevenness(steps, jumps, period, fps)]
     if not finite.all():
         untimed = format_count(int((~finite).sum()), "row")
@@ -417,7 +417,7 @@ def _unevenness(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: flo
     return f"{sentence}; times jump {shown}: the recording is split there, and seconds count frames"
 
 
-def _rounded(fps: float, share: float) -> float:
+def _round_rate(fps: float, share: float) -> float:
     """Return the rate to thousandths of a hertz where it is within this share of that."""
     rounded = round(fps, 3)
     return rounded if rounded > 0 and abs(fps - rounded) <= share * fps else fps

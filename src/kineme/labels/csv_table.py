@@ -28,7 +28,7 @@ from typing import Any, Literal
 
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError
-from kineme.formats.delimited import dotted, from_text
+from kineme.formats.delimited import from_text, replace_decimal_comma
 from kineme.formats.timing import date_seconds, is_date
 from kineme.labels import pairs
 from kineme.labels.delimited import number, read_rows, write_rows
@@ -137,7 +137,10 @@ def intervals(path: Path) -> dict[str, Labels]:
         headers = [(*names, "label") for names in SPANS.values()]
         for line, row in read_rows(file, path, headers, delimiter=comma):
             unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
-            cells = {name: row[name] if comma == "," else dotted(row[name]) for name in SPANS[unit]}
+            cells = {
+                name: row[name] if comma == "," else replace_decimal_comma(row[name])
+                for name in SPANS[unit]
+            }
             convert = _second if unit == "seconds" else number
             start, stop = (convert(cell, name, path, line) for name, cell in cells.items())
             count = _count(row, path, line)
@@ -216,7 +219,7 @@ def _cell(text: str | None, name: str, path: Path, line: int, *, commas: bool) -
     if kind is float and not text.strip():
         return math.nan
     try:
-        return kind(dotted(text) if commas else text)
+        return kind(replace_decimal_comma(text) if commas else text)
     except ValueError as error:
         needed = "a whole number" if kind is int else "a number"
         raise ReadError(path, f"{name} must be {needed}, not {text!r}", line=line) from error

@@ -15,11 +15,11 @@ from kineme._util.files import OwnedFolder, is_draft
 from kineme._version import __version__
 from kineme.errors import ParameterError, ReadError
 from kineme.library.edits import read_edits
-from kineme.library.executors import Executor, Progress, connected, processes
+from kineme.library.executors import Executor, Progress, connect, processes
 from kineme.library.gathering import gather
-from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, opened, plan_of
+from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, open_folder, plan_of
 from kineme.library.settings import Settings
-from kineme.library.sources import listed, names_of
+from kineme.library.sources import list_recordings, names_of
 from kineme.library.storage.analyses import KEY_LENGTH, has_analysis, is_analysis
 from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import (
@@ -148,9 +148,9 @@ def build(
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
     check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
     check_type(settings, (Settings, type(None)), "build", "kineme.library.Settings() makes one")
-    with processes(int(jobs)) if client is None else connected(client) as executor:
+    with processes(int(jobs)) if client is None else connect(client) as executor:
         added, removed = as_paths(sources), as_paths(remove)
-        folder = opened(into, [*added, *removed])
+        folder = open_folder(into, [*added, *removed])
         with writer_lock(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
             plan = plan_of(folder, head, added, removed, recursive, settings)
@@ -161,10 +161,10 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     """Return the library brought up to date, for one that holds it."""
     progress("looking for recordings")
     before = _former_recordings(plan.folder, head)
-    found = listed(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
+    found = list_recordings(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
     missing_sources = [source for source in plan.sources if not source.exists()]
     not_found = {path: entry for path, entry in before.items() if path not in found}
-    absent = _without_source(plan, not_found, missing_sources)
+    absent = _group_missing(plan, not_found, missing_sources)
     gathered = gather(plan, list(found), executor, progress)
     failed = dict.fromkeys(missing_sources, NOT_FOUND) | gathered.failed
     keys = {path: plan.settings.key(digest) for path, digest in gathered.digests.items()}
@@ -196,7 +196,7 @@ def _former_recordings(folder: Path, head: Head) -> Former:
     return {place(path): (name, key) for path, name, key in zip(*columns, strict=True)}
 
 
-def _without_source(
+def _group_missing(
     plan: Plan, not_found: Former, missing_sources: Sequence[Path]
 ) -> dict[Path, Path]:
     """Recordings of sources that are not there, by source: as on a disk that was taken out."""
@@ -230,7 +230,7 @@ def _written(
     if same and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         following, tables = head["following"], head["tables"]
     else:
-        from kineme.library.compiling import activities_in, compiled
+        from kineme.library.compiling import activities_in, compile_tables
 
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)
@@ -239,7 +239,7 @@ def _written(
         returned = {
             name: removed[key] for name, _, key in entries if key in removed and name not in former
         }
-        made, following = compiled(
+        made, following = compile_tables(
             plan.folder, entries, {**returned, **former}, following, progress
         )
         keys = dict(before.values())

@@ -44,7 +44,7 @@ CACHED = 500
 """Local clusters whose features are kept for the next comparison: those of a round."""
 
 
-def compiled(
+def compile_tables(
     folder: Path,
     entries: Sequence[Entry],
     before: Mapping[str, Spans],

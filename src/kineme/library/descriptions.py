@@ -21,7 +21,7 @@ from kineme._util.arrays import Float32s, Floats
 from kineme._util.checks import format_count
 from kineme.errors import MotionError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
-from kineme.features.channels import at_rate, channel_statistics, standardized
+from kineme.features.channels import channel_statistics, resample_channels, standardize_channels
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
 from kineme.library.settings import Settings
@@ -109,10 +109,10 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     spans = signals.spans()
     rows = [
-        at_rate(values[a:b], signals.fps, preset.working_fps, smoothing=preset.smoothing)
+        resample_channels(values[a:b], signals.fps, preset.working_fps, smoothing=preset.smoothing)
         for a, b in spans
     ]
-    scaled = standardized(np.concatenate(rows))
+    scaled = standardize_channels(np.concatenate(rows))
     statistics = channel_statistics(
         scaled, preset.working_fps, rate=preset.rate, window=preset.averaging, bands=preset.bands
     )

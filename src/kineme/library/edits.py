@@ -151,7 +151,7 @@ def _cluster(written: Any) -> int:
     return number
 
 
-def edited(table: Any, edits: Edits) -> Any:
+def apply_edits(table: Any, edits: Edits) -> Any:
     """Return a computed table as it is now: clusters split and merged, names beside them.
 
     A ``label`` goes with ``cluster``, an ``action_label`` with ``action`` where there is one.

@@ -188,7 +188,7 @@ class Cluster:
     """
 
     def __init__(self, client: Any):
-        if not isinstance(client, _distributed().Client):
+        if not isinstance(client, _import_distributed().Client):
             raise ParameterError(
                 f"client takes a dask.distributed.Client or the address of a scheduler, not "
                 f"{client!r:.60}"
@@ -209,7 +209,7 @@ class Cluster:
         workers: int | None = None,  # noqa: ARG002 (they are there already)
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Yield each task and what came of it, as they come; see `Executor`."""
-        distributed = _distributed()
+        distributed = _import_distributed()
         waiting, running = iter(tasks), {}
         done = distributed.as_completed(loop=self._client.loop, raise_errors=False)
 
@@ -229,7 +229,7 @@ class Cluster:
 
 
 @contextmanager
-def connected(client: Any) -> Iterator[Executor]:
+def connect(client: Any) -> Iterator[Executor]:
     """The cluster of a client, or of the scheduler at an address such as ``tcp://10.0.0.1:8786``.
 
     An executor is taken as it is.
@@ -241,14 +241,14 @@ def connected(client: Any) -> Iterator[Executor]:
         yield Cluster(client)
         return
     try:
-        connection = _distributed().Client(client, set_as_default=False)
+        connection = _import_distributed().Client(client, set_as_default=False)
     except (OSError, ValueError) as error:
         raise ParameterError(f"no scheduler answers at {client:.60}: {error!s:.100}") from error
     with connection:
         yield Cluster(connection)
 
 
-def _distributed() -> Any:
+def _import_distributed() -> Any:
     try:
         import distributed
     except ImportError as error:
@@ -261,7 +261,7 @@ def _outcome(future: Any) -> Any:
     if future.status == "finished":
         return future.result()
     error = future.exception() if future.status == "error" else None
-    if isinstance(error, _distributed().KilledWorker):
+    if isinstance(error, _import_distributed().KilledWorker):
         return None
     if isinstance(error, KinemeError):
         raise error

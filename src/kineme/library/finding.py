@@ -14,7 +14,7 @@ from kineme.features.canonical import mirrored_features
 from kineme.formats.files import warn
 from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
-from kineme.library.index import Parts, Sought, joined, matches_in, parts_like
+from kineme.library.index import Parts, Sought, matches_in, merge_overlapping, parts_like
 from kineme.library.open_library import OpenTables, numbers_of
 from kineme.library.searching import Example, Hit, Named, best
 from kineme.library.sources import read_at
@@ -91,7 +91,9 @@ def _likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) ->
         if windows is None:
             return None
         found.append(parts_like(windows, example, top))
-    return joined(Parts(*(np.concatenate(column) for column in zip(*found, strict=True))))
+    return merge_overlapping(
+        Parts(*(np.concatenate(column) for column in zip(*found, strict=True)))
+    )
 
 
 def typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:

@@ -30,7 +30,7 @@ from kineme.formats.options import AnyPath
 from kineme.library.executors import Executor, InProcess, Progress, Watch
 from kineme.library.planning import Plan
 from kineme.library.settings import Settings
-from kineme.library.sources import content_digest, fetched, size_of, states_of
+from kineme.library.sources import content_digest, fetch, size_of, states_of
 from kineme.library.storage.analyses import has_analysis, write_analysis
 from kineme.library.storage.layout import STATES, read_json, write_json
 from kineme.library.storage.places import is_remote
@@ -73,7 +73,9 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     readable = [path for path in found if is_text(str(path))]
     states = states_of(readable, plan.settings.options().skeleton)
     unreadable = [path for path in found if path not in states]
-    gathered = Gathered(_unchanged(plan, states, former), failed=dict.fromkeys(unreadable, UNNAMED))
+    gathered = Gathered(
+        _find_unchanged(plan, states, former), failed=dict.fromkeys(unreadable, UNNAMED)
+    )
     waiting = [path for path in readable if path not in gathered.digests]
     if waiting:
         _make(plan, waiting, executor, progress, gathered)
@@ -92,7 +94,7 @@ def _former_states(path: Path, progress: Progress) -> States:
         return {}
 
 
-def _unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> dict[Path, str]:
+def _find_unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> dict[Path, str]:
     """Digests of recordings that look as they did, and have an analysis."""
     digests = {}
     complete = {path.stem for path in plan.analyses.glob("*.parquet")}
@@ -113,7 +115,7 @@ def _make(
     """Make the analyses of recordings; what came of each is noted."""
     tasks = tasks_for(waiting, plan.analyses, plan.settings)
     groups = {
-        group.tasks[0]: group for group in by_content(tasks, plan.settings.options().skeleton)
+        group.tasks[0]: group for group in group_by_content(tasks, plan.settings.options().skeleton)
     }
     if not isinstance(executor, InProcess):  # what comes next is imported while others work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
@@ -151,7 +153,7 @@ class Group(NamedTuple):
     digest: str
 
 
-def by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Group]:
+def group_by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Group]:
     """Groups of equal content, the largest first; what is elsewhere or cannot be read is alone."""
     criteria: tuple[Callable[[Task], str], ...] = (
         lambda task: "" if is_remote(task.path) else f"{task.size}",
@@ -262,7 +264,7 @@ def work_on(task: Task) -> Outcome:
         with warnings.catch_warnings(), threadpool_limits(1):  # sums do not depend on threads
             warnings.simplefilter("ignore", KinemeWarning)
             options = task.settings.options()
-            with fetched(task.path, options.skeleton) as path:
+            with fetch(task.path, options.skeleton) as path:
                 digest = content_digest(path, options.skeleton)
                 key = task.settings.key(digest)
                 if has_analysis(task.analyses, key):

@@ -85,12 +85,12 @@ def parts_like(windows: Windows, example: Float32s, top: int) -> Parts:
     middles = (near - windows.firsts[rows]) * step(windows.length) + windows.length // 2
     reach = step(windows.length) + len(example)  # a match may last twice as long
     lasts = windows.samples[rows]
-    return joined(
+    return merge_overlapping(
         Parts(rows, np.clip(middles - reach, 0, lasts), np.clip(middles + reach, 0, lasts))
     )
 
 
-def joined(parts: Parts) -> Parts:
+def merge_overlapping(parts: Parts) -> Parts:
     """Parts that overlap as one."""
     order = np.lexsort((parts.starts, parts.rows))
     rows, starts, stops = (column[order] for column in parts)
@@ -120,11 +120,11 @@ def matches_in(
             found = map_threads(search_parts, tasks)
     else:
         found = [_matches(outcome) for _, outcome in executor.completed(search_parts, tasks)]
-    joined: dict[int, list[Matches]] = {}
+    merge_overlapping: dict[int, list[Matches]] = {}
     for each in found:
         for row, matches in each.items():
-            joined.setdefault(row, []).append(matches)
-    return {row: _ordered(several) for row, several in sorted(joined.items())}
+            merge_overlapping.setdefault(row, []).append(matches)
+    return {row: _order_matches(several) for row, several in sorted(merge_overlapping.items())}
 
 
 def search_parts(task: Task) -> dict[int, Matches]:
@@ -181,7 +181,7 @@ def _matches(outcome: dict[int, Matches] | None) -> dict[int, Matches]:
     return outcome
 
 
-def _ordered(several: Sequence[Matches]) -> Matches:
+def _order_matches(several: Sequence[Matches]) -> Matches:
     """Matches of one recording as one, the best first."""
     if len(several) == 1:
         return several[0]

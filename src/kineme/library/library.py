@@ -12,7 +12,7 @@ import numpy as np
 
 from kineme._util.checks import check_flag, check_path, format_count
 from kineme.errors import ParameterError
-from kineme.library.executors import connected
+from kineme.library.executors import connect
 from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
 from kineme.library.finding import as_examples, hits_like, typical_examples
 from kineme.library.open_library import Cluster, OpenTables, clusters_of, numbers_of
@@ -172,7 +172,7 @@ class Library:
             examples += typical_examples(self._tables, cluster)
         if not examples:
             raise ParameterError("nothing to search for: give an example or a cluster")
-        with nullcontext() if client is None else connected(client) as executor:
+        with nullcontext() if client is None else connect(client) as executor:
             return hits_like(
                 self._tables, examples, as_examples(unlike, 0.0, None), threshold=threshold,
                 top=top, mirror=mirror, max_per_recording=max_per_recording, executor=executor,

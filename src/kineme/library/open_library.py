@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
-from kineme.library.edits import Edits, edited, read_edits
+from kineme.library.edits import Edits, apply_edits, read_edits
 from kineme.library.settings import Settings
 from kineme.library.sources import read_at
 from kineme.library.storage.layout import (
@@ -76,7 +76,7 @@ class OpenTables:
             self._computed[name] = read_table(self.folder, self.head["tables"], name)
         tables = self._edited  # an edit, in another thread, begins a new one
         if name not in tables:
-            tables[name] = edited(self._computed[name], self.edits)
+            tables[name] = apply_edits(self._computed[name], self.edits)
         return tables[name]
 
     def columns(self, name: str) -> Columns:

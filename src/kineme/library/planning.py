@@ -90,7 +90,7 @@ def sources_after(
     return [path for path in dict.fromkeys(sources) if path not in removed]
 
 
-def opened(into: AnyPath, named: Sequence[Path]) -> Path:
+def open_folder(into: AnyPath, named: Sequence[Path]) -> Path:
     """Return the folder of a library, made where there is none, unless nothing is named."""
     folder = place(into, "build")
     owned = OwnedFolder(folder)

@@ -109,8 +109,8 @@ def spans_like(
         covers = shared >= REFUSED * (found.stops - found.starts)[:, None]
         nearer = others.distances[None] < found.distances[:, None]
         rows = np.flatnonzero(~(covers & nearer).any(axis=1))
-        found = _picked(found, rows)
-    return _picked(found, slice(top))
+        found = _select_rows(found, rows)
+    return _select_rows(found, slice(top))
 
 
 def best(
@@ -143,5 +143,5 @@ def _union(
     return Matches(starts[chosen], stops[chosen], distances[chosen])
 
 
-def _picked(found: Matches, rows: slice | Ints) -> Matches:
+def _select_rows(found: Matches, rows: slice | Ints) -> Matches:
     return Matches(found.starts[rows], found.stops[rows], found.distances[rows])

@@ -91,8 +91,8 @@ class Settings:
             They are of another shape.
         """
         try:
-            constants = {name: _tupled(value) for name, value in content["constants"].items()}
-            reading = {name: _tupled(value) for name, value in content["reading"].items()}
+            constants = {name: _as_tuple(value) for name, value in content["constants"].items()}
+            reading = {name: _as_tuple(value) for name, value in content["reading"].items()}
             detail = content["detail"]
             preset = content["preset"]
             return cls(preset, constants, reading, content["effectors"], detail)
@@ -121,5 +121,5 @@ def _plain(value: Any) -> Any:
     return fspath(value) if isinstance(value, PathLike) else list(value)
 
 
-def _tupled(value: Any) -> Any:
+def _as_tuple(value: Any) -> Any:
     return tuple(value) if isinstance(value, list) else value

@@ -90,7 +90,7 @@ def states_of(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, str
     return states
 
 
-def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:
+def list_recordings(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:
     """Return each recording in the sources, an absolute path, and the first source it was found in.
 
     Files ``without`` are left out: those of the library itself.
@@ -149,7 +149,7 @@ def recordings_under(folder: Path, *, recursive: bool) -> list[Path]:
 
 
 @contextmanager
-def fetched(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
+def fetch(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
     """A recording on this machine, with the skeleton of an AMC beside it, as long as the block.
 
     What is wrong with it is said of ``path``.
@@ -174,6 +174,6 @@ def read_at(path: Path, reading: Mapping[str, Any]) -> Motion | Signals:
     """Return the recording at a place, with keywords of `kineme.read`."""
     if not is_remote(path):
         return read(path, **reading)
-    with fetched(path, reading.get("skeleton")) as here:
+    with fetch(path, reading.get("skeleton")) as here:
         found = read(here, **reading)
     return replace(found, provenance=replace(found.provenance, path=str(path)))

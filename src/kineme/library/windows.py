@@ -48,7 +48,7 @@ def windows_of(features: Float32s, length: int) -> Bytes:
     if len(features) == 0:
         return np.empty((0, NUMBERS), np.int8)
     if len(features) < length:
-        features = _of_length(features, length)
+        features = _resample_to(features, length)
     windows = np.lib.stride_tricks.sliding_window_view(features, length, axis=0)[:: step(length)]
     return np.clip(np.rint(LARGEST * _numbers(windows)), -LARGEST, LARGEST).astype(np.int8)
 
@@ -58,7 +58,7 @@ def all_windows(features: Float32s) -> Bytes:
     return np.concatenate([windows_of(features, length) for length in LENGTHS])
 
 
-def by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]:
+def group_by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]:
     """Yield each of `LENGTHS` and its part of `all_windows`."""
     first = 0
     for length in LENGTHS:
@@ -79,7 +79,7 @@ def parts_at_speeds(example: Float32s) -> NDArray[np.int32]:
     for speed in SPEEDS:
         n = min(round(length * speed), len(example))
         first = (len(example) - n) // 2
-        parts.append(_of_length(example[first : first + n], length).T)
+        parts.append(_resample_to(example[first : first + n], length).T)
     most = FINER * LARGEST
     return np.clip(np.rint(most * _numbers(np.array(parts))), -most, most).astype(np.int32)
 
@@ -96,6 +96,6 @@ def _numbers(windows: Float32s) -> Float32s:
     return numbers
 
 
-def _of_length(features: Float32s, length: int) -> Float32s:
+def _resample_to(features: Float32s, length: int) -> Float32s:
     at = np.linspace(0, len(features) - 1, length)
     return interpolate_frames(features.astype(np.float64), at).astype(np.float32)

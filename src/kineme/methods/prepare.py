@@ -33,7 +33,7 @@ from kineme.features import (
     stack,
 )
 from kineme.features.bones import have_bones
-from kineme.features.channels import at_rate, standardized
+from kineme.features.channels import resample_channels, standardize_channels
 from kineme.features.distances import SIZE
 from kineme.features.effectors import Names, remedy
 from kineme.features.emg import emg_envelope
@@ -106,8 +106,8 @@ def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> P
     spans = split_at_gaps(motion)
     motions = [resample(span, preset.working_fps) for _, span in spans]
     recorded = [
-        RecordedSpan(start, start + span.n_frames, at_rate.n_frames)
-        for (start, span), at_rate in zip(spans, motions, strict=True)
+        RecordedSpan(start, start + span.n_frames, resampled.n_frames)
+        for (start, span), resampled in zip(spans, motions, strict=True)
     ]
     notes = []
     if preset.view != "poses":
@@ -216,7 +216,7 @@ def prepare_signals(
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     rows, spans = [], []
     for start, stop in signals.spans():
-        row = at_rate(
+        row = resample_channels(
             values[start:stop], signals.fps, preset.working_fps, smoothing=preset.smoothing
         )
         rows.append(row)
@@ -246,7 +246,7 @@ def _stack_channels(rows: list[Floats], preset: Preset, *, standardize: bool) ->
     """Features of all spans; their distances are root mean squares over window and channels."""
     ends = np.cumsum([len(row) for row in rows])[:-1]
     joined = np.concatenate(rows)
-    scaled = standardized(joined) if standardize else joined
+    scaled = standardize_channels(joined) if standardize else joined
     offsets = offsets_in_frames(preset.offsets, preset.working_fps)
     # Stacked within each span: frames of two spans are no neighbours.
     stacked = np.concatenate([stack(row, offsets) for row in np.split(scaled, ends)])

@@ -71,10 +71,10 @@ def embedding(poses: ArrayLike) -> NDArray[np.float32]:
             f"poses have {POSE_DIMS} numbers each, not {array.shape[1]}: matching_poses(motion) "
             "gives them"
         )
-    return embedded(array, *axes_of_embeddings())
+    return embed_course(array, *axes_of_embeddings())
 
 
-def embedded(poses: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
+def embed_course(poses: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
     """Return the unit vector of where a course lies from the mean, along the axes."""
     values = (course(poses) - mean) @ axes
     return np.asarray(values / max(float(np.linalg.norm(values)), 1e-9), np.float32)

@@ -128,7 +128,7 @@ class KnowledgeBase:
             raise ParameterError(
                 f"the segments are of {segments.n_frames} frames, the motion has {motion.n_frames}"
             )
-        rows = _labelled(segments)
+        rows = _select_labelled(segments)
         features = matching_features(motion, effectors=effectors)
         starts, stops = working_frames(rows, segments.fps, len(features))
         source = motion.provenance
@@ -220,7 +220,7 @@ class KnowledgeBase:
         return f"<KnowledgeBase of {format_count(len(self), 'primitive')}: {labels}>"
 
 
-def _labelled(segments: Segmentation) -> SegmentTable:
+def _select_labelled(segments: Segmentation) -> SegmentTable:
     """Return the rows to learn from, with their labels."""
     rows = segments.primitives
     if len(rows):

@@ -95,10 +95,10 @@ def transfer_labels(
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
     check_flag(spread, "spread")
     threshold = min(float(threshold), LARGEST)
-    features = _checked(features, segmentation)
+    features = _check_features(features, segmentation)
     table = segmentation.table
     if not ((table.kind != "transition") | (table.label != "")).any():
-        return _searched(segmentation, features, knowledge, threshold, spread=spread)
+        return _search_labels(segmentation, features, knowledge, threshold, spread=spread)
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     rows = segmentation.level(level)
     labels = rows.label.astype(object)
@@ -165,7 +165,7 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
     return replace(segmentation, table=table, hierarchy=None)
 
 
-def _searched(
+def _search_labels(
     segmentation: Segmentation,
     features: Floats,
     knowledge: KnowledgeBase,
@@ -255,7 +255,7 @@ def _activity_labels(segmentation: Segmentation, labels: NDArray[Any]) -> list[s
     return names
 
 
-def _checked(features: ArrayLike, segmentation: Segmentation) -> Floats:
+def _check_features(features: ArrayLike, segmentation: Segmentation) -> Floats:
     array = as_floats(features, "features")
     expected = segmentation.n_frames * FPS / segmentation.fps
     if array.ndim != 2 or abs(len(array) - expected) > 2:

@@ -24,7 +24,7 @@ from scipy.sparse.csgraph import connected_components
 
 from kineme._util.arrays import Floats, Ints
 from kineme._util.parallel import map_threads
-from kineme.transfer.subsequences import warped
+from kineme.transfer.subsequences import warp
 
 # Which primitive, in which run of the other side, at what cost.
 Matches = tuple[Ints, Ints, Floats]
@@ -107,12 +107,12 @@ def _matches_within(
     examples: Primitives, others: Primitives, numbers: Ints, radius: float
 ) -> Matches:
     """Cheapest warping of each of some examples inside each run of others, within the radius."""
-    separated, first = _with_walls(others)
+    separated, first = _append_walls(others)
     starts = examples.starts
     features = np.asarray(examples.features, np.float32)
 
     def matches_of(p: np.int64) -> tuple[Ints, Floats]:
-        costs, _ = warped(features[starts[p] : starts[p + 1]], separated)
+        costs, _ = warp(features[starts[p] : starts[p + 1]], separated)
         cheapest = np.minimum.reduceat(costs, first)
         runs = np.flatnonzero(cheapest <= radius)
         return runs, cheapest[runs].astype(np.float64)
@@ -124,7 +124,7 @@ def _matches_within(
     return np.repeat(numbers, [len(part) for part, _ in found]), runs, costs
 
 
-def _with_walls(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
+def _append_walls(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
     """Return the features with a wall after each run, and where each run begins among them."""
     frames = np.arange(len(primitives.frame_runs)) + primitives.frame_runs
     n_runs = int(primitives.runs[-1]) + 1

@@ -64,15 +64,15 @@ class Searched:
     """
 
     def __init__(self, recording: ArrayLike):
-        self._features = _checked(recording, "recording")
+        self._features = _check_features(recording, "recording")
 
     def distances(self, example: ArrayLike, *, most: float) -> tuple[Float32s, NDArray[np.int32]]:
         """``distances[j]``, ``starts[j]``: of the match that ends with sample j.
 
         A distance above ``most`` is inf.
         """
-        short = _checked(example, "example")
-        costs, starts = warped(short, self._features)
+        short = _check_features(example, "example")
+        costs, starts = warp(short, self._features)
         variance = float(short.var(axis=0, dtype=np.float64).sum())
         # The smaller movement goes no farther than the example: what is dearer is no match.
         dearest = most * np.sqrt(2 * max(variance, STILL))
@@ -152,9 +152,9 @@ def search(
     return Matches(starts[ends].astype(np.int64), ends + 1, distances[ends])
 
 
-def warped(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np.int32]]:
+def warp(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np.int32]]:
     """``costs[j]``, ``starts[j]``: of the cheapest match that ends with sample j; inf without."""
-    short, long = _checked(example, "example"), _checked(recording, "recording")
+    short, long = _check_features(example, "example"), _check_features(recording, "recording")
     if short.shape[1] != long.shape[1] or len(short) == 0:
         raise ParameterError(
             f"an example of shape {short.shape} cannot be searched in features of shape "
@@ -178,7 +178,7 @@ def _squares(features: Float32s) -> Float32s:
     return squares
 
 
-def _checked(features: ArrayLike, name: str) -> Float32s:
+def _check_features(features: ArrayLike, name: str) -> Float32s:
     array = features if isinstance(features, np.ndarray) else as_floats(features, name)
     if array.ndim != 2:
         raise ParameterError(f"the {name} must be samples x dims, not of shape {array.shape}")

@@ -83,12 +83,12 @@ def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmen
             label=label,
         )
         for level, spans in levels
-        for start, stop, label in _tiled(spans, segmentation.n_frames)
+        for start, stop, label in _fill_between(spans, segmentation.n_frames)
     ]
     return replace_rows(segmentation, rows, [])
 
 
-def _tiled(rows: list[Row], n_frames: int) -> list[Row]:
+def _fill_between(rows: list[Row], n_frames: int) -> list[Row]:
     """Return the rows, and what lies between them without a label."""
     tiled: list[Row] = []
     at = 0

@@ -6,7 +6,9 @@ on fixed main axes of many people's movements, divided by a shrunk deviation of 
 unit vector. So it counts how a pose departs from the mean one, not how far. The distance of two is
 the chord between them: 0 is equal, 1.41 has nothing in common, 2 is opposite.
 
-Mean and axes are in ``basis.npz``, which ``benchmarks/truth/canonical_basis.py`` makes.
+Mean and axes are in ``basis.npz``. They were fitted to poses of HDM05, UTKinect, CMU's subject 86
+and single takes, each corpus with the same weight: the eigenvectors of the mean covariance, each
+divided by the root of its variance plus 0.3 of the largest one.
 """
 
 from __future__ import annotations
@@ -119,7 +121,7 @@ def features_and_poses(
 def poses_of(motion: Motion, *, effectors: Names | None = None) -> Floats:
     """Poses of the canonical body (frames, 17) at the rate of the motion, which is smoothed."""
     joints = {
-        joint: _smoothed(motion.positions[:, list(points)].mean(axis=1))
+        joint: _smooth(motion.positions[:, list(points)].mean(axis=1))
         for joint, points in canonical_joints(motion, effectors=effectors).items()
     }
     return canonical_poses(joints, motion.fps)
@@ -179,7 +181,7 @@ def _unit_vectors(values: NDArray[np.floating]) -> NDArray[np.float32]:
     return np.asarray(values / np.maximum(lengths, 1e-9), np.float32)
 
 
-def _smoothed(positions: Floats) -> Floats:
+def _smooth(positions: Floats) -> Floats:
     """Return a weighted mean over five frames; at the ends the outermost frame is repeated."""
     # Two frames more at either end, as the five weights need.
     longer = np.concatenate([positions[:1]] * 2 + [positions] + [positions[-1:]] * 2)

@@ -16,7 +16,7 @@ from kineme.formats.channels.reading import (
     channel_table,
     columns_read,
 )
-from kineme.formats.delimited import named
+from kineme.formats.delimited import make_unique_names
 from kineme.formats.files import FileContent
 from kineme.formats.timing import is_timing
 
@@ -69,7 +69,7 @@ def parquet_channels(
     """Return channels of a Parquet file: those named, in this order, or all that hold numbers."""
     import pyarrow as pa
 
-    names = named(file.schema_arrow.names)
+    names = make_unique_names(file.schema_arrow.names)
     types = dict(zip(names, file.schema_arrow.types, strict=True))
     numbers = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
     dates = (*numbers, pa.types.is_timestamp, pa.types.is_string)  # which may hold them

@@ -89,7 +89,7 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
     ``fps`` stands in place of what the table tells.
     """
     timing = table.timed(content, fps)
-    values, gaps, filled = without_gaps(content, table.values, timing, table.names)
+    values, gaps, filled = fill_or_split_gaps(content, table.values, timing, table.names)
     provenance = content.provenance(name, [*table.notes, *timing.notes, *filled])
     return Signals(values, timing.fps, table.names, gaps, provenance.timed(timing.clock))
 
@@ -202,7 +202,7 @@ def channel_table(
     return ChannelTable(chosen, channels, timing, None, tuple(notes), "".join(hints[:1]))
 
 
-def without_gaps(
+def fill_or_split_gaps(
     content: FileContent, values: Floats, timing: Timing, names: Sequence[str]
 ) -> tuple[Floats, list[tuple[int, int]], list[str]]:
     """Finite values, the spans in which a channel is missing for long, and what was done.

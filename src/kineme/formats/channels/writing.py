@@ -28,7 +28,7 @@ from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.reading import ChannelTable, text_channels
-from kineme.formats.delimited import as_text, dotted, named
+from kineme.formats.delimited import as_text, make_unique_names, replace_decimal_comma
 from kineme.formats.dialects import find_table
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import mark_spans
@@ -82,9 +82,9 @@ def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
             if signals.provenance.format == PARQUET:
                 return _ParquetRows.of(content, fps)
             rows = _TextRows.of(content, signals.n_frames)
-            return rows if fps is None else _at_rate(rows, fps)
-    rows = _of_values(signals)
-    return _at_rate(rows, signals.fps) if alone else rows
+            return rows if fps is None else _join_cells(rows, fps)
+    rows = _write_values(signals)
+    return _join_cells(rows, signals.fps) if alone else rows
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ class _TextRows:
         """Yield the cells of each row."""
         reader = csv.reader(self.records, delimiter=self.separator)
         full = (cells for cells in reader if any(map(str.strip, cells)))
-        as_read = ([*map(dotted, cells)] if self.comma else cells for cells in full)
+        as_read = ([*map(replace_decimal_comma, cells)] if self.comma else cells for cells in full)
         return islice(as_read, len(self.lines))
 
 
@@ -158,7 +158,7 @@ class _ParquetRows:
             timeless = [name for name in table.column_names if not is_rate(name)]
             rates = pa.array([fps] * table.num_rows, pa.float64())
             table = table.select(timeless).add_column(0, RATE, rates)
-        return cls(named(table.column_names), table)
+        return cls(make_unique_names(table.column_names), table)
 
     @classmethod
     def of_values(cls, signals: Signals) -> _ParquetRows:
@@ -219,7 +219,7 @@ def _has_rate(table: ChannelTable, content: FileContent, fps: float) -> bool:
         return False
 
 
-def _at_rate(rows: _TextRows, fps: float) -> _TextRows:
+def _join_cells(rows: _TextRows, fps: float) -> _TextRows:
     """Return the cells of rows as a CSV or TSV, below a rate in place of any of their own."""
     numbered = (str(i) for i in range(1, len(next(rows.cells(), ())) + 1))
     names = list(rows.names or numbered)
@@ -229,7 +229,7 @@ def _at_rate(rows: _TextRows, fps: float) -> _TextRows:
     return _text_rows(suffix, [RATE, *(names[i] for i in at)], cells)
 
 
-def _of_values(signals: Signals) -> _TextRows:
+def _write_values(signals: Signals) -> _TextRows:
     """Times and channels as a CSV that reads back to the same numbers."""
     missing = mark_spans(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 
-from kineme.formats.delimited import DelimitedText, named, separator_of
+from kineme.formats.delimited import DelimitedText, make_unique_names, separator_of
 from kineme.formats.sniffing import (
     HIGHEST,
     SEPARATOR,
@@ -92,7 +92,7 @@ class Layout:
         if has_no_names := bool(self.names) and is_row(cells):
             numbered = map(str, range(len(self.names) + 1, len(cells) + 1))
             cells, below = [*self.names, *numbered][: len(cells)], head
-        names = named(cells)
+        names = make_unique_names(cells)
         clocks = self._clocks(names)
         hidden = {name for name in names if self.hidden and re.fullmatch(self.hidden, name)}
         passed = sum(map(is_text_line, lines[:head]))

@@ -16,7 +16,7 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
 from kineme.formats.channels.reading import ChannelTable, to_signals
-from kineme.formats.delimited import DelimitedText, cells_of, is_number, named
+from kineme.formats.delimited import DelimitedText, cells_of, is_number, make_unique_names
 from kineme.formats.devices import Layout, begins_with
 from kineme.formats.dialects import Dialect
 from kineme.formats.options import ReadOptions
@@ -33,7 +33,7 @@ def read(text: DelimitedText, options: ReadOptions) -> Signals:
     is_time = [re.match(_TIME, name) is not None for name in table.names]
     # each channel belongs to the last column of times on its left
     clocks = [*accumulate((i if time else 0 for i, time in enumerate(is_time)), max)]
-    names = named(_with_sensors(table))
+    names = make_unique_names(_prefix_sensors(table))
     chosen = [i for i, time in enumerate(is_time) if not time]
     if options.emg:
         chosen = [i for i in chosen if _EMG.search(names[i])]
@@ -57,7 +57,7 @@ def read(text: DelimitedText, options: ReadOptions) -> Signals:
     return to_signals(content, "Delsys table", channels, options.fps)
 
 
-def _with_sensors(table: DelimitedText) -> list[str]:
+def _prefix_sensors(table: DelimitedText) -> list[str]:
     """Return the names of columns, with the sensor before them where a line above tells it."""
     above = [line for line in table.lines[: table.head] if line.strip(f"{table.separator} ")]
     if len(above) < 2 or not above[-1].startswith("sensor mode"):

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme.formats.delimited import DelimitedText, dotted, separator_of
+from kineme.formats.delimited import DelimitedText, replace_decimal_comma, separator_of
 from kineme.formats.files import FileContent, format_point_name, numbers, save, spell_names
 from kineme.formats.gaps import split_at, unseen
 from kineme.formats.options import ReadOptions
@@ -125,7 +125,7 @@ def _rate(
     if options.fps:
         return Timing(options.fps)
     try:
-        (declared,) = numbers([dotted(head.get("DataRate", ""))])
+        (declared,) = numbers([replace_decimal_comma(head.get("DataRate", ""))])
     except ValueError:
         declared = 0.0
     if declared > 0 and (len(times) < 2 or np.isnan(times).any()):

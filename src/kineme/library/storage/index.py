@@ -17,7 +17,7 @@ from kineme.errors import ReadError
 from kineme.library.storage.analyses import read_windows
 from kineme.library.storage.layout import ANALYSES, BODIES, TABLES
 from kineme.library.storage.places import near, written
-from kineme.library.windows import LENGTHS, NUMBERS, Bytes, by_length, count
+from kineme.library.windows import LENGTHS, NUMBERS, Bytes, count, group_by_length
 
 FROM_HOURS = 100.0
 """Of recordings of bodies, from which a library has an index."""
@@ -45,7 +45,7 @@ class Windows(NamedTuple):
 
 def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> None:
     """Leave an index beside the tables of that name, where the library is large enough."""
-    samples = _indexed(recordings)
+    samples = _build_index(recordings)
     rates = zip(samples.tolist(), recordings["features_fps"], strict=True)
     if sum(n / fps for n, fps in rates if n) < FROM_HOURS * 3600:
         return
@@ -65,7 +65,7 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
         firsts = dict.fromkeys(LENGTHS, 0)
         for row in np.flatnonzero(samples):
             windows = read_windows(folder / ANALYSES, recordings["piece"][row])
-            for length, part in by_length(windows, int(samples[row])):
+            for length, part in group_by_length(windows, int(samples[row])):
                 drafts[length][firsts[length] : firsts[length] + len(part)] = part
                 firsts[length] += len(part)
         for draft in drafts.values():
@@ -83,14 +83,14 @@ def open_index(
         return None
     except (OSError, ValueError) as error:
         raise ReadError(path, "is damaged: remove it and build the library again") from error
-    samples = _indexed(recordings)
+    samples = _build_index(recordings)
     firsts = np.concatenate([[0], np.cumsum(count(samples, length))])
     if embedded.shape != (firsts[-1], NUMBERS) or embedded.dtype != np.int8:
         raise ReadError(path, "is damaged: remove it and build the library again")
     return Windows(length, embedded, firsts, samples)
 
 
-def _indexed(recordings: dict[str, list[Any]]) -> Ints:
+def _build_index(recordings: dict[str, list[Any]]) -> Ints:
     """Return the samples of each recording, 0 of those that are no bodies."""
     bodies = np.array(recordings["vocabulary"], object) == BODIES
     return np.where(bodies, np.array(recordings["samples"], np.int64), 0)

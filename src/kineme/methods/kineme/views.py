@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats, Ints
-from kineme.features.channels import Mixture, Reduction, in_mixtures
+from kineme.features.channels import Mixture, Reduction, compute_statistics
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -137,7 +137,7 @@ def _make_scales(
         )
         for channels, scale in requested
     }
-    mixed = in_mixtures(
+    mixed = compute_statistics(
         scaled,
         list(mixtures.values()),
         preset.working_fps,
