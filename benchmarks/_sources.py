@@ -42,6 +42,8 @@ STANDING_S = 0.5
 """Between two exercises of a session."""
 ANNOTATED = ("one_to_one", "border_f1", "covering", "count_exact")
 """Scores where annotators cut."""
+CONTINUOUS = ("one_to_one", "border_f1", "covering")
+"""Scores of real recordings of several activities."""
 LABELLED = ("mof", "edit", "f1@50", "border_f1")
 """Scores of `kineme evaluate` where people labelled what is done."""
 
@@ -244,6 +246,19 @@ def videos(every: int) -> Iterator[Sample]:
         yield Sample(key, kineme.read(path), partial(judge, rows=rows))
 
 
+def continuous(folder: str, every: int) -> Iterator[Sample]:
+    """Recordings of several activities without a cut between them; labelled by people."""
+
+    def judge(found: Segmentation, source: LabelSource) -> Judged:
+        truth = source.of(n_frames=found.n_frames, fps=found.fps)
+        compared = compare(truth, found)
+        return {name: scores()[name].function(compared) for name in CONTINUOUS}
+
+    labels = labels_of(recordings_below(DATA / folder), DATA / folder / "labels.csv")
+    for path, source in list(labels.items())[::every]:
+        yield Sample(path.stem, kineme.read(path), partial(judge, source=source))
+
+
 def sensors(name: str, every: int) -> Iterator[Sample]:
     """What sensors, or the joints of a camera as channels, measured; labelled by people."""
 
@@ -318,6 +333,9 @@ def near(true: list[float], found: list[float]) -> int:
 
 SOURCES: Mapping[str, Callable[[int], Iterator[Sample]]] = {
     "subject_86": lambda every: cases(subject_86(), every),
+    "mocap6": partial(continuous, "mocap6"),
+    "takes": partial(continuous, "rigs/takes"),
+    "tug": partial(continuous, "bodies/tug"),
     "hdm05": lambda every: cases(hdm05(50), every),
     "synthetic": lambda every: cases(synthetic("all", 20), every),
     "uiprmd": partial(takes, "uiprmd"),
@@ -334,4 +352,4 @@ SOURCES: Mapping[str, Callable[[int], Iterator[Sample]]] = {
     "hugadb_by_person": partial(by_person, "hugadb"),
     "barbell": barbell,
 }
-"""By name: what yields every so manieth of its recordings."""
+"""By name: what yields every n-th of its recordings."""

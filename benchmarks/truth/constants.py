@@ -35,7 +35,7 @@ EVERY = {
     "ipolgait": 8, "countix": 8, "msrc12": 6, "sparse_events": 10, "hdm05": 4, "uiprmd": 4,
     "uiprmd_incorrect": 4, "synthetic": 2, "barbell": 3, "subject_86": 1,
 }  # fmt: skip
-"""Every so manieth recording of each source, those that take longest first."""
+"""Every n-th recording of each source, those that take longest first."""
 NEVER, TINY = 3600.0, 1e-6
 ONE_VIEW = {name: getattr(KINEME, name) for name in ("shared", "weights", "restless_over")}
 OFF: Mapping[str, Mapping[str, Any]] = {

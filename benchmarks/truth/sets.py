@@ -75,7 +75,7 @@ def main() -> None:
     parser.add_argument("--methods", nargs="+", default=["kineme"])
     parser.add_argument("--one-mapping", action="store_true", help="for the whole set, too")
     parser.add_argument("--rivals", action="store_true", help="segmenters of other packages, too")
-    parser.add_argument("--every", type=int, default=1, help="every so manieth recording only")
+    parser.add_argument("--every", type=int, default=1, help="every n-th recording only")
     parser.add_argument("--processes", type=int, default=few(2, 1))
     add_option(parser)
     options = parser.parse_args()

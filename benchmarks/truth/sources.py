@@ -36,16 +36,16 @@ from kineme.methods.presets import PRESETS
 
 SMALLER_IS_BETTER = ("error",)
 EVERY = {"hugadb": 4, "hdm05": 2, "sparse_events": 5, "ipolgait": 2}
-"""Of large sources, where constants are tried: every so manieth recording."""
+"""Of large sources, where constants are tried: every n-th recording."""
 
 SAME = {"subject_86": 1, "hdm05": 13, "uiprmd": 12, "countix": 20, "hugadb": 60, "ipolgait": 20}
-"""Sources that are segmented in other guises: every so manieth recording."""
+"""Sources that are segmented in other guises: every n-th recording."""
 
 Figures = Mapping[str, float]
 
 
 class Work(NamedTuple):
-    """A source that is segmented by presets: every so manieth recording of it.
+    """A source that is segmented by presets: every n-th recording of it.
 
     By name a preset stands for what suits the recording, bodies or sensors.
     """
