@@ -130,7 +130,7 @@ def test_what_is_left_out_of_means_stays_left_out_whatever_becomes_of_its_border
         editing.move_border(without, "primitive", 30, 38),
         editing.merge(without, "primitive", 0, 60),
         editing.set_cluster(without, "primitive", 30, 1),
-        editing.carried(without, walk()).segmentation,
+        editing.carry_corrections(without, walk()).segmentation,
     ):
         assert changed.annotation.excluded == (45,)
     merged = editing.merge(without, "primitive", 0, 60)

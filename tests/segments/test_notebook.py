@@ -26,8 +26,8 @@ def long_result(n: int) -> Segmentation:
     return Segmentation.from_columns(columns, n_frames=n, fps=1.0)
 
 
-def parsed(html: str) -> ET.Element:
-    return ET.fromstring(html)
+def parsed(page: str) -> ET.Element:
+    return ET.fromstring(page)
 
 
 @settings(max_examples=50)
@@ -52,17 +52,17 @@ def test_a_label_cannot_be_markup() -> None:
         "stop_frame": [9],
         "label": ["<script>alert(1)</script>"],
     }
-    html = Segmentation.from_columns(columns, n_frames=9, fps=30.0)._repr_html_()
-    assert "<script>" not in html
-    assert "&lt;script&gt;" in html
+    page = Segmentation.from_columns(columns, n_frames=9, fps=30.0)._repr_html_()
+    assert "<script>" not in page
+    assert "&lt;script&gt;" in page
 
 
 def test_a_day_of_segments_stays_small() -> None:
     result = long_result(86_400)
-    html = result._repr_html_()
-    bars = parsed(html).findall(".//rect")
+    page = result._repr_html_()
+    bars = parsed(page).findall(".//rect")
     assert len(bars) <= 1 + html.WIDTH
-    assert len(html) < 200_000
+    assert len(page) < 200_000
     assert f"and {86_401 - FIRST_ROWS} more" in result.table._repr_html_()
 
 

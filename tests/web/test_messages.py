@@ -31,7 +31,7 @@ def maker(page_script: Callable[[str], dict[str, Any]]) -> dict[str, Any]:
 
 
 def test_typescript_is_up_to_date(maker: dict[str, Any]) -> None:
-    for path, made in maker["made"]().items():
+    for path, made in maker["make_files"]().items():
         assert path.read_text(encoding="utf-8") == made, "run src/kineme/web/pages/make_messages.py"
 
 

@@ -68,10 +68,15 @@ def _write_rows(constants: Sequence[Constant]) -> None:
 def _show(title: str, constants: Sequence[Constant]) -> None:
     """Two lines for each constant: what it is and may be, and below it what it means."""
     rows = [
-        (each.name, f"{format_value(each.value)} {each.unit}", each.allowed, _default(each))
+        (
+            each.name,
+            f"{format_value(each.value)} {each.unit}",
+            each.allowed,
+            "" if each.value == each.default else _default(each),
+        )
         for each in constants
     ]
-    head = ("constant", "value", "may be", "default")
+    head = ("constant", "value", "may be", "otherwise")
     widths = [min(max(map(len, column)), MOST) for column in zip(head, *rows, strict=True)]
 
     def line(cells: Sequence[str]) -> str:

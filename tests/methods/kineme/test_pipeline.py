@@ -238,9 +238,9 @@ def constants(draw: st.DrawFn) -> dict[str, float]:
     choices = {
         "rate": st.sampled_from([1.0, 2.0, 5.0, 10.0]),
         "averaging": some,
-        "weights": st.sampled_from([(0.0,), (1.0,)]),
-        "shared": st.sampled_from([(0.3,), (1.0,)]),
-        "restless_over": st.sampled_from([(0.5,), (2.0,)]),
+        "weights": st.sampled_from([(0.0,) * 5, (1.0,) * 5]),
+        "shared": st.sampled_from([(0.3,) * 5, (1.0,) * 5]),
+        "restless_over": st.sampled_from([(0.5,) * 5, (2.0,) * 5]),
         "velocity_weight": none_or_some,
         "part": st.sampled_from([2.0, 5.0, 1000.0]),
         "fine_cost": none_or_some,

@@ -243,7 +243,7 @@ def test_agreement_is_the_mutual_information(pairs) -> None:
 
 
 def test_views_need_a_number_of_each_kind() -> None:
-    with pytest.raises(ParameterError, match="a number for each view, not 2, 9 and 9"):
+    with pytest.raises(ParameterError, match="a number for each view, not 2, 5 and 5"):
         SENSORS.replace(shared=(1.0, 0.3))
     alone = SENSORS.replace(shared=(0.3,), weights=(1.0,), restless_over=(1.0,))
     found = kineme.segment(kineme.Signals(worn()[0], FPS), preset=alone)
