@@ -91,12 +91,12 @@ def to_euler_zyx(q: Floats) -> Floats:
     about_z = np.arctan2(sz_cy, cz_cy)
     # What is left once the turn about z is taken off has only cos y and sin y in these places.
     sin, cos = np.sin(about_z), np.cos(about_z)
-    rotate_about_y = np.arctan2(2 * (w * y - x * z), cos * cz_cy + sin * sz_cy)
+    about_y = np.arctan2(2 * (w * y - x * z), cos * cz_cy + sin * sz_cy)
     about_x = np.arctan2(
         sin * 2 * (x * z + w * y) - cos * 2 * (y * z - w * x),
         cos * (1 - 2 * (x * x + z * z)) - sin * 2 * (x * y - w * z),
     )
-    return join(about_z, rotate_about_y, about_x)
+    return join(about_z, about_y, about_x)
 
 
 def rotate_about_y(angle: ArrayLike) -> Floats:

@@ -165,7 +165,7 @@ def _knee(
         np.concatenate([both, PULL * pulled]), np.concatenate([apart, PULL * apart / 2])
     )[0]
     # The same point as each body sees it, averaged.
-    at = (_move_markers(upper, found[:3]) + _move_markers(lower, found[3:])) / 2
+    at = (_place_point(upper, found[:3]) + _place_point(lower, found[3:])) / 2
     # Leftward axis in the frame of the thigh, averaged over time, then turned back with the thigh.
     axis = normalize(
         np.einsum("fji,fj->fi", upper[0], normalize(to_left)).mean(axis=0, keepdims=True)
@@ -180,7 +180,7 @@ Poses = tuple[Floats, Floats]
 """Rotations (frames, 3, 3) and places of the middle (frames, 3) of a rigid body."""
 
 
-def _move_markers(poses: Poses, point: Floats) -> Floats:
+def _place_point(poses: Poses, point: Floats) -> Floats:
     return np.asarray(np.einsum("fij,j->fi", poses[0], point) + poses[1])
 
 

@@ -243,7 +243,7 @@ def _join_clusters(
     for rows in kinds.values():
         jobs = [answers[i][0] for i in rows]
         sides = [s for i in rows if (s := answers[i][1].sides) is not None]
-        shared = _check_one_kind(jobs, sides, n_clusters)
+        shared = _share_clusters(jobs, sides, n_clusters)
         for i, side, one in zip(rows, sides, shared, strict=True):
             # Numbers of different kinds must not meet.
             found[i] = side, _numbered_on(one, following)
@@ -251,7 +251,7 @@ def _join_clusters(
     return dict(sorted(found.items()))
 
 
-def _check_one_kind(
+def _share_clusters(
     jobs: Sequence[Job], sides: Sequence[Sides], n_clusters: int | None
 ) -> list[Segmentation]:
     segmentations = [one.found for one in sides]

@@ -77,7 +77,7 @@ def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
     >>> agreement(truth, truth)["border_f1"]
     1.0
     """
-    compared = _pair(truth, found)
+    compared = _compare_to_truth(truth, found)
     scores = {} if compared is None else _scores(compared)
     return {name: value for name, value in scores.items() if isfinite(value)}
 
@@ -96,7 +96,7 @@ def differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, f
     >>> differences(truth, truth)
     []
     """
-    compared = _pair(truth, found)
+    compared = _compare_to_truth(truth, found)
     if compared is None:
         return []
     least = compared.spans.actions.tolerance_s * compared.fps
@@ -110,7 +110,7 @@ def differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, f
     ]
 
 
-def _pair(truth: Segmentation, found: Segmentation) -> Comparison | None:
+def _compare_to_truth(truth: Segmentation, found: Segmentation) -> Comparison | None:
     """Both at the rate of comparison; None where the truth has no activity."""
     if not (truth.activities.kind == "activity").any():
         return None

@@ -1,4 +1,4 @@
-"""The self-similarity matrix of a recording, at every zoom.
+"""Self-similarity matrix of a recording, at every zoom.
 
 A cell of level 0 is the similarity of two samples: ``exp(-d²)`` of the distance
 of their features, from 0 (nothing in common, or not seen) to 1. Features are

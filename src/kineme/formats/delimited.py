@@ -141,17 +141,17 @@ class DelimitedText:
     def times(self) -> dict[str, str]:
         """Columns that tell times or a rate, and their names as `table_timing` knows them."""
         if self.clocks is not None:
-            make_unique_names = {
+            told = {
                 name: f"time ({unit})" if unit else "time" for name, unit in self.clocks.items()
             }
         else:
             units = dict(zip(self.names, self.units, strict=False))
-            make_unique_names = {
+            told = {
                 name: append_unit(name, units.get(name, ""))
                 for name in self.names
                 if is_timing(name)
             }
-        return make_unique_names | {self.names[i]: "time (s)" for i in self.dates}
+        return told | {self.names[i]: "time (s)" for i in self.dates}
 
     @cached_property
     def day_first(self) -> bool | None:

@@ -84,11 +84,11 @@ def read(path: Path) -> Segmentation | Labels:
         rows = csv.DictReader(file, strict=True, delimiter=comma)
         columns = _columns(rows, path, commas=comma != ",")
     comments = columns.pop(COMMENT, None)
-    found = _read_provenance(columns, path)
+    found = _attach_provenance(columns, path)
     return found if comments is None else from_rows(found, comments)
 
 
-def _read_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:
+def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:
     """Return the table, with what lies beside it."""
     beside = provenance_path(path)
     if beside.is_file():

@@ -120,11 +120,11 @@ def matches_in(
             found = map_threads(search_parts, tasks)
     else:
         found = [_matches(outcome) for _, outcome in executor.completed(search_parts, tasks)]
-    merge_overlapping: dict[int, list[Matches]] = {}
+    by_row: dict[int, list[Matches]] = {}
     for each in found:
         for row, matches in each.items():
-            merge_overlapping.setdefault(row, []).append(matches)
-    return {row: _order_matches(several) for row, several in sorted(merge_overlapping.items())}
+            by_row.setdefault(row, []).append(matches)
+    return {row: _order_matches(several) for row, several in sorted(by_row.items())}
 
 
 def search_parts(task: Task) -> dict[int, Matches]:

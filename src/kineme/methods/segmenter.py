@@ -169,14 +169,10 @@ def segment_with_options(
     if progress is not None:
         progress("features")
     given = options.features
-    segment_with_options = (
-        recording if given is None else wrap_features(recording, given, options.feature_fps)
-    )
-    chosen = options.resolved(signals=isinstance(segment_with_options, Signals)).at_most(
-        segment_with_options.fps
-    )
-    if isinstance(segment_with_options, Signals):
-        n_frames, n_channels = segment_with_options.values.shape
+    seen = recording if given is None else wrap_features(recording, given, options.feature_fps)
+    chosen = options.resolved(signals=isinstance(seen, Signals)).at_most(seen.fps)
+    if isinstance(seen, Signals):
+        n_frames, n_channels = seen.values.shape
         if n_channels > max(n_frames, FEW_CHANNELS):
             warnings.warn(
                 f"there are more channels ({n_channels}) than samples ({n_frames}); if the table "
@@ -185,18 +181,16 @@ def segment_with_options(
                 stacklevel=2,
             )
         scaled = given is None if options.standardize is None else options.standardize
-        view = prepare_signals(
-            segment_with_options, chosen, emg=options.emg, standardize=scaled, unit=options.unit
-        )
+        view = prepare_signals(seen, chosen, emg=options.emg, standardize=scaled, unit=options.unit)
     elif chosen.unit == "standard deviations":
         raise ParameterError(
             f"{chosen.name} is in standard deviations, for signals: a motion takes one in metres "
             f"or body sizes"
         )
     else:
-        view = prepare_motion(segment_with_options, chosen, options.effectors)
+        view = prepare_motion(seen, chosen, options.effectors)
     if given is not None:
-        view = rescale_spans(view, recording, segment_with_options.fps)
+        view = rescale_spans(view, recording, seen.fps)
     timings = {"features": time.perf_counter() - start}
     facts = {"joints": True} if view.joints else {}
     found = chosen.analyze(

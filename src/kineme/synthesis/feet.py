@@ -171,7 +171,7 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
     # Law of cosines for the length wanted.
     angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
-    bend = _mark_about(_hinge(thigh, shin, world[:, leg[0]]), angle - now)
+    bend = _rotate_about(_hinge(thigh, shin, world[:, leg[0]]), angle - now)
     reached = thigh + rot.rotate(bend, shin)
     # The bent leg turns about the hip so that the ankle points to the target.
     swing = _arc(reached, target - hip)
@@ -210,7 +210,7 @@ def _hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
     return hinge
 
 
-def _mark_about(axis: Floats, angle: Floats) -> Floats:
+def _rotate_about(axis: Floats, angle: Floats) -> Floats:
     half = angle[:, None] / 2
     return np.concatenate([np.cos(half), np.sin(half) * axis], axis=1)
 

@@ -83,7 +83,7 @@ def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
                 return _ParquetRows.of(content, fps)
             rows = _TextRows.of(content, signals.n_frames)
             return rows if fps is None else _join_cells(rows, fps)
-    rows = _write_values(signals)
+    rows = _format_values(signals)
     return _join_cells(rows, signals.fps) if alone else rows
 
 
@@ -229,7 +229,7 @@ def _join_cells(rows: _TextRows, fps: float) -> _TextRows:
     return _text_rows(suffix, [RATE, *(names[i] for i in at)], cells)
 
 
-def _write_values(signals: Signals) -> _TextRows:
+def _format_values(signals: Signals) -> _TextRows:
     """Times and channels as a CSV that reads back to the same numbers."""
     missing = mark_spans(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels

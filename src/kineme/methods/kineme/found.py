@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 Frames = NDArray[np.int64]
 
-PICTURED = 256
-"""For pictures: neighbours per sample at most."""
 LISTED = 5
 """Activities that a note lists at most."""
 EACH = 8
