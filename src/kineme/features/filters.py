@@ -11,11 +11,16 @@ forward-backward filtering, IEEE Transactions on Signal Processing 44(4), 1996.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 
+Poles = NDArray[np.complex128]
+
 FILTERED = 16
 """Channels that are filtered at a time: copies stay small."""
+POLES: Poles = np.array([np.exp(0.75j * np.pi)])
+"""One of the two conjugate poles of the low-pass filter of second order, at frequency 1."""
 
 
 def filter_low(values: Floats, fps: float, cutoff: float, padding: int) -> Floats:
@@ -38,7 +43,7 @@ def filter_low(values: Floats, fps: float, cutoff: float, padding: int) -> Float
     True
     """
     edge = _warp(cutoff, fps)
-    poles = _find_prototype_poles() * edge
+    poles = POLES * edge
     return _filter_both_ways(values, _make_sections(poles, edge**2, [1.0, 2.0, 1.0]), padding)
 
 
@@ -56,7 +61,7 @@ def filter_band(values: Floats, fps: float, low: float, high: float, padding: in
     """
     edges = _warp(low, fps), _warp(high, fps)
     width, center = edges[1] - edges[0], edges[0] * edges[1]
-    half = _find_prototype_poles() * width / 2
+    half = POLES * width / 2
     root = np.sqrt(half**2 - center)
     # Each pole of the low-pass filter becomes one below the band's centre and one above it.
     poles = np.concatenate([half + root, half - root])
@@ -72,14 +77,7 @@ def _warp(frequency: float, fps: float) -> float:
     return 4 * float(np.tan(np.pi * frequency / fps))
 
 
-def _find_prototype_poles() -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
-    """Return one of the two conjugate poles of the low-pass filter of second order."""
-    return np.array([np.exp(0.75j * np.pi)])
-
-
-def _make_sections(
-    poles: np.ndarray[tuple[int], np.dtype[np.complex128]], gain: float, zeros: list[float]
-) -> Floats:
+def _make_sections(poles: Poles, gain: float, zeros: list[float]) -> Floats:
     """Return the digital sections (poles, 5) of analogue poles, each with its conjugate.
 
     ``zeros`` is the numerator of each; the gain is that of the analogue filter.

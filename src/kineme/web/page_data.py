@@ -55,15 +55,13 @@ def page_data(
     >>> page_data([[0.0], [1.0], [0.0]], fps=10.0).n_frames
     3
     """
-    if isinstance(recording, Motion):
-        head, binary = display_motion(recording, effectors=effectors)
+    if isinstance(recording, Motion | Signals):
+        head, binary = None, b""
+        if isinstance(recording, Motion):
+            head, binary = display_motion(recording, effectors=effectors)
         matrix = compare_frames(recording, effectors=effectors)
         warned = [str(note) for note in recording.provenance.warnings]
         return PageData(recording.n_frames, recording.fps, head, binary, matrix, warned)
-    if isinstance(recording, Signals):
-        matrix = compare_frames(recording)
-        warned = [str(note) for note in recording.provenance.warnings]
-        return PageData(recording.n_frames, recording.fps, None, b"", matrix, warned)
     if fps is None:
         raise ParameterError("an array does not tell its frame rate: give fps")
     matrix = compare_frames_of_signal(recording, fps)

@@ -36,7 +36,15 @@ from kineme.methods.kineme.primitives import (
     merge_similar_clusters,
 )
 from kineme.methods.kineme.repeating import Repeating
-from kineme.methods.kineme.tree import Level, level_of, link_parts, median_distance, part_ends
+from kineme.methods.kineme.tree import (
+    FineLevel,
+    Level,
+    fine_level_of,
+    level_of,
+    link_parts,
+    median_distance,
+    part_ends,
+)
 from kineme.methods.kineme.views import Views, choose_view, views_of
 from kineme.methods.stages import Progress, stopwatch
 
@@ -135,13 +143,13 @@ def _analyze(
 def _part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
     """Return a part as if it were alone. Its view is chosen before it is known what repeats."""
 
-    def clusters(view: Rows) -> Frames:
-        return level_of(view, preset).per_sample()
+    def clusters(fine: FineLevel) -> Frames:
+        return level_of(fine, preset).per_sample()
 
-    scale = 0
-    if len(views.views) > 1:
-        answers, halves = [*map(clusters, views.views)], [*map(clusters, views.halves)]
+    scale, fine = 0, [fine_level_of(view, preset) for view in views.views]
+    if len(fine) > 1:
+        answers = [*map(clusters, fine)]
+        halves = [clusters(fine_level_of(half, preset)) for half in views.halves]
         scale = choose_view(answers, halves, margin=preset.view_margin)
-    view = views.views[scale]
-    level = level_of(view, preset, Repeating(poses, preset))
-    return Part(scale, view, level.in_frames(span, preset))
+    level = level_of(fine[scale], preset, Repeating(poses, preset))
+    return Part(scale, views.views[scale], level.in_frames(span, preset))

@@ -90,29 +90,51 @@ class Level:
         return replace(self, fine=frames(self.fine), borders=frames(self.borders))
 
 
-def level_of(features: Rows, preset: KinemeConstants, repeating: Repeating | None = None) -> Level:
-    """Return the segments of the features at the level of the shortest description.
+class FineLevel(NamedTuple):
+    """The finest segments of a view, and how far they are from each other.
+
+    Attributes
+    ----------
+    features : (samples, dims) array
+    unit : float
+        The distance that counts as 1.
+    borders : (segments + 1,) array
+    sums : (segments, segments) array
+        Of `sum_between_segments`.
+    """
+
+    features: Rows
+    unit: float
+    borders: Samples
+    sums: Floats
+
+
+def fine_level_of(features: Rows, preset: KinemeConstants) -> FineLevel:
+    """Return the finest segments of a view, (samples, dims)."""
+    unit = median_distance(features, preset.near)
+    cost = preset.samples(preset.fine_cost)
+    borders = fine_borders(features, unit, width=preset.near, cost=cost)
+    return FineLevel(features, unit, borders, sum_between_segments(features, borders, unit))
+
+
+def level_of(fine: FineLevel, preset: KinemeConstants, repeating: Repeating | None = None) -> Level:
+    """Return the segments of a view at the level of the shortest description.
 
     Parameters
     ----------
-    features : (samples, dims) array
-        A view.
+    fine : FineLevel
     preset : KinemeConstants
     repeating : Repeating, optional
         Gives what a span saves by repeating itself; by default no span saves anything.
     """
-    unit = median_distance(features, preset.near)
 
     def saved(start: int, stop: int) -> float:
-        return repeating.saved(features, unit, start, stop) if repeating else 0.0
+        return repeating.saved(fine.features, fine.unit, start, stop) if repeating else 0.0
 
-    cost = preset.samples(preset.fine_cost)
-    fine = fine_borders(features, unit, width=preset.near, cost=cost)
-    sums = sum_between_segments(features, fine, unit)
-    level = best_level(fine, sums, preset, saved)
-    at = np.searchsorted(fine, level.borders[:-1])
-    preference = preferences(sum_runs(sums, at), np.diff(level.borders), level.labels)
-    return Level(fine, level.borders, level.labels, preference)
+    level = best_level(fine.borders, fine.sums, preset, saved)
+    at = np.searchsorted(fine.borders, level.borders[:-1])
+    preference = preferences(sum_runs(fine.sums, at), np.diff(level.borders), level.labels)
+    return Level(fine.borders, level.borders, level.labels, preference)
 
 
 class Grouped(NamedTuple):
