@@ -37,7 +37,7 @@ WORDS = 2
 """Lines of words between names and numbers at most."""
 
 SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
-"""The line in which spreadsheets say what parts their cells."""
+"""Line in which spreadsheets say what parts their cells."""
 
 _RATE = re.compile(
     r"\b(?:(?:sampl\w+|frame|update|output|measurement|capture|data)[\s_]*)?"

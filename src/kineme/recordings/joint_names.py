@@ -86,7 +86,7 @@ PARENTS = {
     "right_ankle": "right_hip",
     **dict.fromkeys(("head", "left_wrist", "right_wrist"), "pelvis"),
 }
-"""The small tree of a body that is made from points, parents first."""
+"""Small tree of a body that is made from points, parents first."""
 _BODY = (
     ("pelvis",),
     ("*_hip", "*_hip_centre", "*_waist", "*_thigh"),

@@ -253,7 +253,7 @@ def _link(clusters: ClusterSet, join: float) -> Assignment:
 
 
 class Representatives(NamedTuple):
-    """The most typical local clusters of a round, and the cluster of each."""
+    """Most typical local clusters of a round, and the cluster of each."""
 
     clusters: ClusterSet
     cluster: Ints
