@@ -34,7 +34,6 @@ from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.journal import Journal
 from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import (
-    Reading,
     keep_reading,
     listed_in,
     notes_on_sidecars,
@@ -192,8 +191,8 @@ def _library(root: Path, motion: Motion, _: Segmentation) -> None:
 def _studio(root: Path, motion: Motion, truth: Segmentation) -> None:
     folder = _made(root / "studio")
     formats.write(motion[:60], root / TAKE)
-    said = Reading({"fps": 30.0, "unit": "cm", "up": "y"}, ["Anna", "Bob"])
-    keep_reading(root / TAKE, said)
+    said = formats.ReadOptions(fps=30.0, unit="cm", up="y")
+    keep_reading(root / TAKE, said, ["Anna", "Bob"])
     set_offset(root / TAKE, 1.5)
     share_labels(folder, ["walk", "jump"])
     saved = folder / f"walk{CORRECTED}"
@@ -229,7 +228,7 @@ def _build_library(root: Path) -> object:
 def _read_beside(root: Path) -> object:
     take = root / TAKE
     said = notes_on_sidecars(take)
-    found = kineme.read(take, **options_of(take)), listed_in([take])
+    found = kineme.read(take, **vars(options_of(take))), listed_in([take])
     return found, video_message(take), shared_labels(take.parent), said
 
 
@@ -238,7 +237,8 @@ def _ask_library(root: Path) -> object:
     tables = [
         library.table(name) for name in ("segments", "recordings", "local_clusters", "embeddings")
     ]
-    return library.settings, library.failed, repr(library), library.clusters(), tables
+    options = library.read_options, library.segment_options
+    return options, library.failed, repr(library), library.clusters(), tables
 
 
 def _search_library(root: Path) -> object:

@@ -12,13 +12,13 @@ import numpy as np
 from _options import few, needed
 from kineme import Library, read
 from kineme._version import __version__
-from kineme.library import Settings
 from kineme.library.compiling import compile_tables
 from kineme.library.descriptions import analysis_of
 from kineme.library.storage.analyses import Analysis, has_analysis, write_analysis
 from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import ANALYSES, HEAD, SCHEMA, write_json
 from kineme.library.storage.tables import write_tables
+from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.transfer.clusters import CONSTANTS
 
@@ -35,7 +35,7 @@ def library_of(folder: Path, recordings: Iterable[tuple[str, Motion | Signals]])
     for name, recording in recordings:
         keys[name] = f"{len(keys):032x}"
         if not has_analysis(folder / ANALYSES, keys[name]):
-            write_analysis(folder / ANALYSES, keys[name], *analysis_of(recording, Settings()))
+            write_analysis(folder / ANALYSES, keys[name], *analysis_of(recording, SegmentOptions()))
     joined(folder, keys)
     return Library(folder)
 
@@ -48,7 +48,8 @@ def joined(folder: Path, keys: Mapping[str, str]) -> float:
     head = {
         "schema": SCHEMA,
         "kineme": __version__,
-        "settings": Settings().to_json(),
+        "read_options": {},
+        "segment_options": {},
         "sources": [],
         "recursive": False,
         "clustering": asdict(CONSTANTS),
@@ -66,7 +67,7 @@ def simulated(folder: Path, hours: float) -> float:
     (folder / ANALYSES).mkdir(parents=True)
     rng = np.random.default_rng(0)
     made = [
-        analysis_of(read(path), Settings())
+        analysis_of(read(path), SegmentOptions())
         for path in sorted(needed("cmu86").glob("*.amc"))[: few(None, 1)]
     ]
     keys = {}

@@ -105,7 +105,7 @@ ROOMS = {
     ),
     "studio": Room(
         "a local server and its page: recordings looked at, tables corrected and kept",
-        "clips datasets evaluation features formats labels library methods recordings report "
+        "clips datasets evaluation formats labels library methods recordings report "
         "segments transfer web",
     ),
     "cli": Room("commands, each imported when it is asked for", "*"),

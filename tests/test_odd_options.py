@@ -12,11 +12,13 @@ from typing import Any
 import pytest
 
 import kineme
+from kineme._util.json import options_from_json, options_to_json
 from kineme.clips.split import split
 from kineme.datasets import bundled_truth
 from kineme.errors import KinemeWarning
+from kineme.formats import ReadOptions
 from kineme.library import Library, build
-from kineme.library.settings import Settings
+from kineme.methods.segmenter import SegmentOptions
 from kineme.transfer import transfer_features
 from odd_values import ODD, surprise
 
@@ -77,10 +79,18 @@ def test_libraries(walk: kineme.Motion, tmp_path: Path) -> None:
 
     assert not surprises(search, "like", "start_s", "stop_s", "cluster", "unlike", "mirror")
     assert not surprises(search, "threshold", "top", "max_per_recording")
-    assert not surprises(Settings, "preset", "constants", "reading", "effectors")
 
     def again(**more: Any) -> object:
         return build(**{"sources": (), "into": tmp_path / "library"} | more)
 
-    assert not surprises(again, "sources", "remove", "jobs", "settings", "recursive")
+    assert not surprises(again, "sources", "remove", "jobs", "recursive")
+    assert not surprises(again, "read_options", "segment_options")
     assert not surprises(library.numbers, "cluster")
+
+
+@pytest.mark.parametrize("kind", [ReadOptions, SegmentOptions])
+def test_options_of_files_and_methods(kind: type) -> None:
+    def again(**given: object) -> object:
+        return options_from_json(kind, options_to_json(kind(**given)))
+
+    assert not surprises(again, *vars(kind()))

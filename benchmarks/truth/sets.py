@@ -26,9 +26,10 @@ from _options import DATA, command_line, few, needed
 from _rival_presets import register_rivals
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.folder import joined_comparisons
-from kineme.evaluation.recordings import Answer, Job, Reading, recordings_below, worked_out
+from kineme.evaluation.recordings import Answer, Job, recordings_below, worked_out
 from kineme.evaluation.score import pool_scores, scores
 from kineme.evaluation.tables import markdown
+from kineme.formats import ReadOptions
 from kineme.labels.collections import labels_of
 
 SETS = ("hugadb", "hapt", "ipolgait", "utkinect")
@@ -36,7 +37,8 @@ SHARES = ("mof", "edit", "f1@10", "f1@25", "f1@50")
 OTHERS = ("border_f1", "cut_ratio")
 WAYS = {"folder": True, "untold": False}
 """Ways to join the clusters of a set, and whether they are told the number of classes."""
-READING = Reading(without=("emg*", "time*"))
+READING, WITHOUT = ReadOptions(), ("emg*", "time*")
+"""How recordings are read, and columns that are left out."""
 
 
 def scored(job: Job) -> Answer:
@@ -91,7 +93,7 @@ def main() -> None:
         chosen = list(labels.items())[:: options.every][: few(None, 2)]
         with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
             for method in methods:
-                jobs = [Job(*one, method, READING, options.one_mapping) for one in chosen]
+                jobs = [Job(*one, method, READING, WITHOUT, options.one_mapping) for one in chosen]
                 tried = dict(zip(jobs, pool.map(scored, jobs), strict=True))
                 for job, answer in tried.items():
                     if answer.error:

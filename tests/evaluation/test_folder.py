@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
 from kineme.evaluation.folder import evaluate_folder
-from kineme.evaluation.recordings import Reading, recordings_below
+from kineme.evaluation.recordings import recordings_below
 from kineme.evaluation.score import (
     SCORES,
     Ratio,
@@ -179,7 +179,7 @@ def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> Non
 
 def test_clusters_are_joined_for_one_mapping(corpus) -> None:
     sources = labels_of(recordings_below(corpus), corpus / "labels.csv")
-    given = {"mapping": "folder", "reading": Reading(without=("emg*",)), "processes": 1}
+    given = {"mapping": "folder", "without": ("emg*",), "processes": 1}
     result = evaluate_folder(sources, ["uniform"], n_clusters=2, **given)  # clusters of no meaning
     assert result.pool_scores("uniform")["mof"] > 0.95
     assert [bool(one.error) for one in result.methods["uniform"]] == [False, False, True]
@@ -236,7 +236,7 @@ def test_the_figures_of_a_set_with_human_labels_come_out(data_dir, name) -> None
     if not home.is_dir():
         pytest.skip(f"no {home}")
     sources = labels_of(recordings_below(home), home / "labels.csv")
-    result = evaluate_folder(sources, ["kineme"], reading=Reading(without=("emg*",)), processes=1)
+    result = evaluate_folder(sources, ["kineme"], without=("emg*",), processes=1)
     found = result.pool_scores("kineme")
     for score, value in SETS[name].items():
         assert found[score] == pytest.approx(value, abs=0.002), score

@@ -25,7 +25,7 @@ from kineme.formats.files import FileContent, load
 from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings.operations import split_at_gaps
 from kineme.studio.loading import LoadedRecording
-from kineme.studio.reading import ReadingOptions, RecordingCache
+from kineme.studio.reading import RecordingCache
 from kineme.studio.storage.listed import ListedRecording
 
 REAL = ["Dec_real", "Eb015pi", "Eb015pr", "Eb015si", "sample_propulsion", "walkingOptiTrack"]
@@ -289,7 +289,7 @@ def test_muscles_of_a_laboratory(tmp_path, labels, more, muscles) -> None:
 
 def test_channels_beside_a_motion_are_curves_of_its_frames(tmp_path) -> None:
     path = laboratory(tmp_path, ["Fx1", "EMG1"])
-    loaded = LoadedRecording(ListedRecording(path), RecordingCache(ReadingOptions()))
+    loaded = LoadedRecording(ListedRecording(path), RecordingCache())
     heads = loaded.curves().head().curves
     number = next(
         i for i, head in enumerate(heads) if (head.name, head.group) == ("EMG1", "analog")

@@ -186,7 +186,7 @@ def use_studio(home: Path, rng: random.Random) -> None:
         asked: list[Callable[[], Any]] = [
             lambda: client.get("/api/state"),
             lambda: client.get(one),
-            lambda: client.post(f"{one}/reading", json={"fps": 20}),
+            lambda: client.post(f"{one}/reading", json={"options": {"fps": 20}}),
             lambda: client.post(f"{one}/video", json={"offset_s": 1.5}),
             lambda: client.post("/api/labels", json={"labels": ["walk"]}),
             lambda: client.post(f"{one}/edits", json=edit),

@@ -17,8 +17,11 @@ from library_folders import contents, write_channels
 
 import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
-from kineme.library import Library, Settings, build, gathering
+from kineme.formats import ReadOptions
+from kineme.library import Library, build, gathering
 from kineme.library.gathering import Group
+from kineme.library.planning import Plan
+from kineme.methods.segmenter import SegmentOptions
 
 
 def test_one_bad_file_costs_itself_only(built: Path, takes: Path) -> None:
@@ -86,13 +89,18 @@ def test_another_skeleton_makes_another_recording(tmp_path: Path) -> None:
     assert build((), folder).new == 1
 
 
-def test_settings_stay_until_others_are_given(takes: Path, tmp_path: Path) -> None:
+def test_options_stay_until_others_are_given(takes: Path, tmp_path: Path) -> None:
     folder = tmp_path / "library"
-    said = Settings(constants={"min_action": 3.0}, reading={"fps": 25.0})
-    assert build(takes / "wrist.csv", folder, settings=said).new == 1
+    said, method = ReadOptions(fps=25.0), SegmentOptions(constants={"bands": (0.5, 3.0)})
+    given = {"read_options": said, "segment_options": method}
+    assert build(takes / "wrist.csv", folder, **given).new == 1
     assert build((), folder).new == 0
-    assert Library(folder).settings == said
-    assert build((), folder, settings=Settings()).new == 1
+    library = Library(folder)
+    assert library.read_options == said
+    assert library.segment_options.constants == method.constants
+    assert build((), folder, read_options=ReadOptions()).new == 1
+    assert Library(folder).segment_options.constants == method.constants
+    assert build((), folder, segment_options=SegmentOptions()).new == 1
 
 
 def test_a_library_keeps_segments_of_the_detail_asked_for(tmp_path: Path) -> None:
@@ -101,7 +109,9 @@ def test_a_library_keeps_segments_of_the_detail_asked_for(tmp_path: Path) -> Non
     found = kineme.segment(kineme.read(kineme.bundled_recording()))
     counts = []
     for detail in (0.2, 1.0):
-        assert build(kineme.bundled_recording(), folder, settings=Settings(detail=detail)).new == 1
+        options = SegmentOptions(detail=detail)
+        built = build(kineme.bundled_recording(), folder, segment_options=options)
+        assert built.new == 1
         assert build((), folder).new == 0
         (row,) = Library(folder).query(asked).to_pylist()
         assert row["n"] == len(found.at_detail(detail).level("activity"))
@@ -254,11 +264,12 @@ def test_clusters_whose_recordings_leave_and_come_back_keep_number_and_name(
 
 def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:
     paths = [tmp_path / name for name in "abcdefgh"]
+    plan = Plan(tmp_path, (), (), False, ReadOptions(), SegmentOptions())
     for size, jobs in ((10, 1), (gathering.PER_WORKER, 4)):
         for path in paths:
             path.write_bytes(b" " * size)
         paths[5].write_bytes(b" " * (size + 1))
-        tasks = gathering.tasks_for(paths, tmp_path, Settings())
+        tasks = gathering.tasks_for(paths, plan)
         assert tasks[0].path == paths[5]  # the largest is worked on first
         assert min(gathering.workers_for(tasks), 4) == jobs
 
@@ -341,7 +352,7 @@ def test_a_full_disk_ends_the_build_and_leaves_what_was_there(
 
     monkeypatch.setattr(gathering, "write_analysis", full)
     with pytest.raises(WriteError, match="No space left"):
-        build((), folder, settings=Settings(constants={"min_action": 3.0}))
+        build((), folder, segment_options=SegmentOptions(constants={"min_action": 3.0}))
     assert contents(folder) == before
     assert len(Library(folder)) == 3
 

@@ -21,7 +21,7 @@ Damage = Callable[[Path], None]
 
 def ask(folder: Path) -> None:
     library = Library(folder)
-    library.settings, library.failed, library.unsure()
+    library.read_options, library.segment_options, library.failed, library.unsure()
     library.search(cluster=library.clusters()[0].cluster, top=3)
 
 
@@ -80,9 +80,10 @@ def broken_pages(folder: Path) -> None:
 
 DAMAGES: dict[str, Damage] = {
     "pages": broken_pages,
-    "settings that are none": head(settings={}),
-    "settings of another type": head(settings=[1]),
-    "a constant of no preset": head(settings={"constants": {"1": 1}, "reading": {}}),
+    "options of another type": head(read_options=[1]),
+    "an option there is not": head(segment_options={"colour": "red"}),
+    "an option of another type": head(read_options={"person": 3}),
+    "a constant of no preset": head(segment_options={"constants": {"1": 1}}),
     "constants that are texts": head(clustering={"unsure": "0.1"}),
     "a constant that is missing": head(clustering={}),
     "clusters of nobody": local(with_column("recording", lambda n: pa.array(["nobody"] * n))),

@@ -22,6 +22,7 @@ from kineme.library import Example, Library, build
 from kineme.library.descriptions import describe
 from kineme.library.storage.layout import as_column
 from kineme.library.storage.tables import DESCRIBED
+from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.table import COLUMNS
 from kineme.transfer.clusters import CONSTANTS
 from kineme.transfer.subsequences import THRESHOLD
@@ -99,7 +100,8 @@ def test_how_far_channels_are_apart_does_not_depend_on_how_many_there_are() -> N
     random = np.random.default_rng(0)
     values = np.cumsum(random.normal(size=(900, 2)), axis=0)
     few, many = (
-        describe(kineme.Signals(np.tile(values, (1, copies)), 30.0)).features for copies in (1, 6)
+        describe(kineme.Signals(np.tile(values, (1, copies)), 30.0), SegmentOptions()).features
+        for copies in (1, 6)
     )
     apart = [np.linalg.norm(rows[1:] - rows[:-1], axis=1) for rows in (few, many)]
     np.testing.assert_allclose(apart[0], apart[1], rtol=1e-4)

@@ -208,6 +208,7 @@ def test_a_recording_gives_equal_results_each_time() -> None:
     assert segment(recording(0)) == segment(recording(0))
 
 
-def test_detail_is_asked_of_the_result() -> None:
-    with pytest.raises(ParameterError, match=r"segment\(\.\.\.\)\.at_detail\(0\.5\)"):
-        segment(recording(0), detail=0.5)
+def test_another_detail_is_that_of_the_same_result() -> None:
+    assert segment(recording(0), detail=0.5) == segment(recording(0)).at_detail(0.5)
+    with pytest.raises(ParameterError, match="detail must be a number above 0"):
+        segment(recording(0), detail=0)

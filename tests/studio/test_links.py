@@ -15,7 +15,7 @@ ACTS: dict[str, Callable[..., object]] = {
         f"/api/recordings/{studio.id}/video", json={"offset_s": 2.0}
     ),
     "take.bvh.reading.json": lambda studio: studio.client.post(
-        f"/api/recordings/{studio.id}/reading", json={"fps": 30.0}
+        f"/api/recordings/{studio.id}/reading", json={"options": {"fps": 30.0}}
     ),
     "take.segments/history.json": lambda studio: studio.edit(
         1, "split", level="activity", frame=50

@@ -31,7 +31,7 @@ def test_a_name_that_is_not_utf8_is_shown_and_downloaded(make_studio, folder: Pa
         assert answer.status_code == 200, (address, answer.text)
     for address, sent in (
         ("video", {"offset_s": 1.5}),
-        ("reading", {"fps": 30}),
+        ("reading", {"options": {"fps": 30}}),
         ("clips", {"rows": [0], "loops": False}),
     ):
         answer = client.post(f"{one}/{address}", json=sent)
@@ -46,7 +46,7 @@ def test_a_folder_that_nothing_can_be_written_to_is_said(studio: Studio, folder:
     assert studio.get(one).status_code == 200
     for address, sent in (
         (f"{one}/video", {"offset_s": 1.5}),
-        (f"{one}/reading", {"fps": 30}),
+        (f"{one}/reading", {"options": {"fps": 30}}),
         ("/api/labels", {"labels": ["walk"]}),
     ):
         answer = studio.client.post(address, json=sent)

@@ -14,7 +14,7 @@ import kineme
 from kineme._util import json as _json
 from kineme.cli.app import app
 from kineme.cli.studio import _tell_apart
-from kineme.studio.reading import ReadingOptions
+from kineme.formats import ReadOptions
 from kineme.studio.storage import sidecars
 from kineme.studio.storage.listed import ListedRecording, file_id
 from people_files import write_people
@@ -43,7 +43,8 @@ def ids_of(duet: Studio) -> dict[str, str]:
     return {each["name"]: each["id"] for each in listed if each["name"].startswith("duet")}
 
 
-def choose(duet: Studio, **wanted: Any) -> list[str]:
+def choose(duet: Studio, *, everybody: bool = False, **options: Any) -> list[str]:
+    wanted = {"options": options, "everybody": everybody}
     answer = duet.client.post(f"/api/recordings/{duet.id}/reading", json=wanted)
     assert answer.status_code == 200, answer.text
     return answer.json()
@@ -98,7 +99,8 @@ def test_reading_the_file_otherwise_makes_the_tables_of_all_anew(duet: Studio) -
         assert labels(studio) == set()
         versions = duet.get(f"/api/recordings/{studio.id}/versions").json()["versions"]
         assert [each["names"] for each in versions] == [1]
-    refused = duet.client.post(f"/api/recordings/{bob.id}/reading", json={"person": "Eve"})
+    wanted = {"options": {"person": "Eve"}}
+    refused = duet.client.post(f"/api/recordings/{bob.id}/reading", json=wanted)
     assert (refused.status_code, refused.json()["people"]) == (400, ["Anna", "Bob"])
     assert bob.recording()["fps"] == 15.0
 
@@ -200,7 +202,7 @@ def test_commands_take_all_people(duet: Studio, monkeypatch: pytest.MonkeyPatch)
 
 
 def test_everybody_can_be_asked_for_at_the_start(duet: Studio) -> None:
-    _tell_apart([duet.path, duet.folder / "take.bvh"], ReadingOptions())
+    _tell_apart([duet.path, duet.folder / "take.bvh"], ReadOptions())
     assert [*ids_of(duet)] == ["duet.trc · Anna", "duet.trc · Bob"]
     asked = ["studio", "--no-browser", str(duet.folder), "--person", "all"]
     done = CliRunner().invoke(app, asked)

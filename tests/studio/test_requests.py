@@ -25,7 +25,7 @@ import kineme
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.http.events import Hub
-from kineme.studio.reading import ReadingOptions, RecordingCache
+from kineme.studio.reading import RecordingCache
 from kineme.studio.storage.listed import ListedRecording
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
@@ -366,7 +366,7 @@ def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None
         return path.name
 
     monkeypatch.setattr("kineme.studio.reading.read_quietly", read_together)
-    cache = RecordingCache(ReadingOptions())
+    cache = RecordingCache()
     with ThreadPoolExecutor(2) as threads:
         found = threads.map(cache.read, [ListedRecording(folder / each) for each in NAMES])
         assert list(found) == NAMES

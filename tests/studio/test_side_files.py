@@ -17,7 +17,7 @@ SIDE_FILES = {
         b'{"offset_s": "x"}',
         b"[]",
     ],
-    "take.bvh.reading.json": [DEEP, b'{"fps": []}', b'{"fps": -1}', b'{"unit": {}}', b"3"],
+    "take.bvh.reading.json": [DEEP, b'{"fps": []}', b'{"fps": -1}', b'{"colour": 1}', b"3"],
     "take.segments/history.json": [DEEP, b"[]", b'{"kept": [7]}', b'{"revision": 1e999}'],
 }
 DAMAGED = [(name, content) for name, contents in SIDE_FILES.items() for content in contents]
@@ -35,7 +35,7 @@ def test_the_recording_opens_and_the_file_is_named(
     message = studio.recording()
     said = f"{place.name} was left alone: it "
     assert [note.startswith(said) for note in message["warnings"] if ".json" in note] == [True]
-    assert message["reading"] == {}
+    assert message["read_options"] == {}
     assert message["video"] == {"name": "take.mp4", "offset_s": 0.0}
     assert studio.get("/api/state").json()["labels"] == []
     assert place.read_bytes() == content

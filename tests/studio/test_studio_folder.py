@@ -219,11 +219,11 @@ def test_a_recording_can_be_read_otherwise(studio: Studio) -> None:
     chosen = {"preset": "voegele2014", "parameters": {"radius": 0.5}}
     studio.done(message["revision"], "segment", **chosen)
     address = f"/api/recordings/{studio.id}/reading"
-    assert studio.client.post(address, json={"unit": "parsec"}).status_code == 400
+    assert studio.client.post(address, json={"options": {"unit": "parsec"}}).status_code == 400
     assert studio.recording()["fps"] == message["fps"]
-    assert studio.client.post(address, json={"fps": 30.0}).status_code == 200
+    assert studio.client.post(address, json={"options": {"fps": 30.0}}).status_code == 200
     after = studio.recording()
-    assert (after["fps"], after["reading"]) == (30.0, {"fps": 30.0})
+    assert (after["fps"], after["read_options"]) == (30.0, {"fps": 30.0})
     assert after["segmentation"]["fps"] == 30.0
     made = after["segmentation"]["provenance"]  # as the table was made before
     assert (made["preset"], made["parameters"]["radius"]) == ("voegele2014", 0.5)
@@ -261,15 +261,15 @@ def test_one_of_several_people_is_chosen_from_a_list(studio: Studio) -> None:
     said = studio.get(address).json()
     assert said["reading"] is True
     assert said["people"] == ["ann", "bob"]
-    refused = studio.client.post(f"{address}/reading", json={"person": "bob"})
+    refused = studio.client.post(f"{address}/reading", json={"options": {"person": "bob"}})
     assert (refused.status_code, refused.json()["people"]) == (400, [])
     assert "fps" in refused.json()["error"]
-    chosen = {"fps": 30.0, "person": "bob"}
+    chosen = {"options": {"fps": 30.0, "person": "bob"}}
     answered = studio.client.post(f"{address}/reading", json=chosen)
     assert answered.status_code == 200
     (bob,) = answered.json()
     shown = studio.get(f"/api/recordings/{bob}").json()
-    assert (shown["name"], shown["reading"]) == ("two.csv · bob", {"fps": 30.0})
+    assert (shown["name"], shown["read_options"]) == ("two.csv · bob", {"fps": 30.0})
     assert (shown["person"], shown["people"]) == ("bob", ["ann", "bob"])
 
 
@@ -284,7 +284,7 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
 
     def named(take: str) -> tuple[str | None, set[str]]:
         """The take that is shown once it is asked for, and the names in its table."""
-        assert studio.client.post(address, json={"take": take}).status_code == 200
+        assert studio.client.post(address, json={"options": {"take": take}}).status_code == 200
         shown = takes.recording()
         return shown["take"], {row["label"] for row in shown["segmentation"]["segments"]} - {""}
 
@@ -303,6 +303,6 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
     ]
     assert named("short") == ("short", set())
     assert not any("left alone" in each for each in takes.recording()["warnings"])
-    refused = studio.client.post(address, json={"take": "run"})
+    refused = studio.client.post(address, json={"options": {"take": "run"}})
     assert (refused.status_code, refused.json()["reading"]) == (400, True)
     assert takes.recording()["take"] == "short"

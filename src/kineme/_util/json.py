@@ -10,12 +10,13 @@ from __future__ import annotations
 import json
 import re
 import sys
-from os import PathLike
+from collections.abc import Mapping
+from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, TypeVar, overload
 
 from kineme._util.files import refuse_pipe
-from kineme.errors import ReadError
+from kineme.errors import ParameterError, ReadError
 
 DEEPEST = 64
 """Lists and objects inside one another."""
@@ -25,6 +26,7 @@ TOO_DEEP = f"holds more than {DEEPEST} lists and objects inside one another"
 
 AnyPath = str | PathLike[str]
 Shape = TypeVar("Shape")
+Options = TypeVar("Options")
 
 
 @overload
@@ -93,6 +95,69 @@ def sentence(problem: str, everything: str = "the whole of it") -> str:
     what, _, place = problem.partition(" - at ")
     where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or everything
     return f"{where}: {what[:1].lower()}{what[1:].replace('`', '')}"
+
+
+def options_to_json(options: object) -> dict[str, Any]:
+    """Return the options that differ from their defaults, as JSON holds them.
+
+    Parameters
+    ----------
+    options : dataclass
+        Every field has a default, such as `kineme.formats.ReadOptions`.
+
+    Raises
+    ------
+    ParameterError
+        JSON cannot hold a value, such as an array or a preset of one's own.
+
+    Examples
+    --------
+    >>> from kineme.formats import ReadOptions
+    >>> options_to_json(ReadOptions(fps=30.0, columns=("acc_*",)))
+    {'fps': 30.0, 'columns': ['acc_*']}
+    """
+    given, defaults = (
+        json.loads(json.dumps(vars(each), default=_as_plain)) for each in (options, type(options)())
+    )
+    return {name: value for name, value in given.items() if value != defaults[name]}
+
+
+def options_from_json(kind: type[Options], content: object) -> Options:
+    """Return the options that `options_to_json` gave, checked as all others of their kind.
+
+    Raises
+    ------
+    ParameterError
+        There is no such option, or it does not take this value.
+
+    Examples
+    --------
+    >>> from kineme.formats import ReadOptions
+    >>> options_from_json(ReadOptions, {"columns": ["acc_*"]}).columns
+    ('acc_*',)
+    """
+    if not isinstance(content, dict):
+        raise ParameterError(f"options must be values by their names, not {content!r:.60}")
+    names = vars(kind())
+    if unknown := content.keys() - names:
+        raise ParameterError(
+            f"there is no option {min(unknown)!r:.60}; there are {', '.join(names)}"
+        )
+    return kind(**{name: _as_tuples(value) for name, value in content.items()})
+
+
+def _as_plain(value: object) -> Any:
+    if isinstance(value, PathLike):
+        return fspath(value)
+    if isinstance(value, Mapping):
+        return dict(value)
+    raise ParameterError(f"options are kept as names, numbers and texts, not as {value!r:.60}")
+
+
+def _as_tuples(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _as_tuples(item) for name, item in value.items()}
+    return tuple(map(_as_tuples, value)) if isinstance(value, list) else value
 
 
 def fault_of(found: Any) -> str:

@@ -9,11 +9,12 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import INPUT, LABELS, OUTPUT, option
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Recursive
 from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.request import Request, asks
 from kineme.cli.options.targets import make_folder_of
 from kineme.errors import WriteError
+from kineme.formats.options import ReadOptions
 from kineme.labels import read_segments, write_segments
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
@@ -57,7 +58,7 @@ def _names_channels(path: Path) -> bool:
     return hold_channels(table.names) and table.names[0] != "1" and bool(table.numeric())
 
 
-@asks(READING)
+@add_options(READING)
 def convert(
     files: Annotated[
         list[Path],
@@ -67,7 +68,7 @@ def convert(
             "new file to write, for several with {name} in it.",
         ),
     ],
-    request: Request,
+    read_options: ReadOptions,
     from_format: Annotated[
         str | None,
         option(
@@ -122,11 +123,12 @@ def convert(
                 raise WriteError(place, "is there already: remove it or name another file")
             if several:
                 make_folder_of(place)
-            if from_format is None and ("columns" in request.reading or _is_recording(path)):
-                _convert_recording(request, path, place)
+            is_table = read_options.columns is not None
+            if from_format is None and (is_table or _is_recording(path)):
+                _convert_recording(read_options, path, place)
             else:
                 segments = read_segments(
-                    path, format=from_format, fps=request.reading.get("fps"), n_frames=frames
+                    path, format=from_format, fps=read_options.fps, n_frames=frames
                 )
                 write_segments(segments, place, format=to_format, level=level)
                 if not quiet and level is None:
@@ -150,14 +152,13 @@ def _tell_of_primitives(segments: Segmentation, place: Path, name: str | None) -
         )
 
 
-def _convert_recording(request: Request, path: Path, target: Path) -> None:
-    from kineme.formats import write
+def _convert_recording(options: ReadOptions, path: Path, target: Path) -> None:
+    from kineme.formats import read, write
     from kineme.formats.channels.writing import write_signals
     from kineme.recordings import Motion
 
-    recording = request.read(path)
-    columns = request.reading.get("columns")
-    if isinstance(recording, Motion) or columns is None:
+    recording = read(path, **vars(options))
+    if isinstance(recording, Motion) or options.columns is None:
         write(recording, target)
     else:
         write_signals(recording, target, columns=recording.names)

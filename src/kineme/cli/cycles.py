@@ -13,10 +13,15 @@ import typer
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.request import EVERYBODY, SEGMENTING, Request, asks
+from kineme.cli.options.method import SEGMENTING
+from kineme.cli.options.reading import ALL_PEOPLE, READING, Quiet
+from kineme.cli.segment import load_or_find_segments
 from kineme.errors import ParameterError
+from kineme.formats import read, read_analog
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,10 +40,11 @@ IN_A_COLUMN = 4
 """Axes of a picture, one below the other; of more there are two columns, left beside right."""
 
 
-@asks(READING | SEGMENTING)
+@add_options(READING | SEGMENTING)
 def cycles(
     files: Files,
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
     output: Annotated[
         Path | None,
         option(
@@ -112,29 +118,30 @@ def cycles(
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
     _check_targets(output, plot, compare, sides)
-    if compare is not None and len(batch.paths) != 2 and request.person != EVERYBODY:
+    if compare is not None and len(batch.paths) != 2 and read_options.person != ALL_PEOPLE:
         raise typer.BadParameter("takes two recordings", param_hint="--compare")
     if common and segments is None:
         reason = "is for tables whose clusters have numbers in common: give them with --segments"
         raise typer.BadParameter(reason, param_hint="--common")
-    read: list[_Read] = []
+    parts: list[_Part] = []
     batch.tables("--segments", segments)  # whether there are any
 
-    def read_one(path: Path, asked: Request, table: Path | None) -> None:
+    def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
         with batch.progress(path) as stage:
             stage("reading")
-            recording = asked.read(path)
+            recording = read(path, **vars(options))
             found = _channels_of(recording, names) if len(batch.paths) > 1 else ()
-            read.append(_Read(path, recording, asked.segments(recording, table, stage), found))
+            segmented = load_or_find_segments(recording, table, segment_options, stage)
+            parts.append(_Part(path, recording, segmented, found))
 
     for path in batch.paths:
-        batch.each_person(path, request, read_one, tables=("--segments", segments))
-    read = _keep_common_channels(read, batch)
-    recordings, tables = [each.recording for each in read], [each.segments for each in read]
+        batch.each_person(path, read_options, read_one, tables=("--segments", segments))
+    parts = _keep_common_channels(parts, batch)
+    recordings, tables = [each.recording for each in parts], [each.segments for each in parts]
     failures = Failures()
     if recordings:
         with failures.caught(""):
-            analog = _analog(batch.paths, recordings, request) if names else []
+            analog = _analog(batch.paths, recordings, read_options) if names else []
             if sides is not None:
                 names = _choose_channels(recordings, names)
             found = measured(
@@ -169,7 +176,7 @@ def cycles(
     failures.exit()
 
 
-class _Read(NamedTuple):
+class _Part(NamedTuple):
     path: Path
     recording: Motion | Signals
     segments: Segmentation
@@ -182,29 +189,27 @@ def _channels_of(recording: Motion | Signals, names: list[str] | None) -> tuple[
     return tuple(channel.name for channel in channels_of(recording, names))
 
 
-def _keep_common_channels(read: list[_Read], batch: Batch) -> list[_Read]:
+def _keep_common_channels(parts: list[_Part], batch: Batch) -> list[_Part]:
     """Those that have the channels that most have; the others are left out, and this is said."""
-    counts = Counter(each.channels for each in read)
+    counts = Counter(each.channels for each in parts)
     most = counts.most_common(1)[0][0] if counts else ()
-    for each in read:
+    for each in parts:
         if each.channels != most:
             other = ", ".join(sorted({*most} ^ {*each.channels})[:4])
             reason = f"does not have the channels of the others ({other}): choose with --channels"
             batch.leave_out(each.path, reason)
-    return [each for each in read if each.channels == most]
+    return [each for each in parts if each.channels == most]
 
 
 def _analog(
-    paths: list[Path], recordings: list[Motion | Signals], request: Request
+    paths: list[Path], recordings: list[Motion | Signals], options: ReadOptions
 ) -> list[Signals]:
     """Channels in the file of a single body, such as force plates, which may be measured, too."""
-    from kineme.formats import ReadOptions
-    from kineme.formats.read_write import read_analog
     from kineme.recordings import Motion
 
     if len(paths) > 1 or not isinstance(recordings[0], Motion):
         return []
-    signals = read_analog(paths[0], ReadOptions(**request.reading))
+    signals = read_analog(paths[0], options)
     return [] if signals is None else [signals]
 
 

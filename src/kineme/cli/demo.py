@@ -10,9 +10,10 @@ import typer
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.reading import Quiet
-from kineme.cli.options.request import Request
 from kineme.cli.options.targets import check_place, check_writable
-from kineme.cli.segment import write_results
+from kineme.cli.segment import find_segments, write_results
+from kineme.formats import read
+from kineme.methods.segmenter import SegmentOptions
 
 
 def demo(
@@ -38,11 +39,11 @@ def demo(
     with failures.caught(path):
         check_place(table)
         check_writable(table, picture)
-        request = Request.of()
+        options = SegmentOptions()
         with progress(path.name, quiet=quiet) as stage:
-            recording = request.read(path)
-            result = request.segment(recording, stage)
-        write_results(result, recording, request, table, picture)
+            recording = read(path)
+            result = find_segments(recording, options, stage)
+        write_results(result, recording, options, table, picture)
         if not quiet:
             from kineme.cli.tables import show_segments
 

@@ -10,9 +10,11 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, TABLES, option
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.request import Request, asks
+from kineme.formats import read
+from kineme.formats.options import ReadOptions
 
 if TYPE_CHECKING:
     from kineme.cycles import Events
@@ -21,10 +23,10 @@ if TYPE_CHECKING:
 FEET = "Feet"
 
 
-@asks(READING)
+@add_options(READING)
 def events(
     files: Files,
-    request: Request,
+    read_options: ReadOptions,
     output: Annotated[
         Path | None,
         option(
@@ -78,15 +80,15 @@ def events(
     gaits = batch.targets("--gait", gait, ".csv")
     spans = batch.targets("--labels", labels, ".csv")
     copies = batch.targets("--c3d", c3d, ".c3d")
-    if c3d is not None and request.reading.get("fps"):
+    if c3d is not None and read_options.fps:
         raise typer.BadParameter(
             "a C3D has its own frame rate: leave out --fps", param_hint="--c3d"
         )
 
-    def work(path: Path, asked: Request, _: None, *targets: Path | None) -> None:
+    def work(path: Path, options: ReadOptions, _: None, *targets: Path | None) -> None:
         with batch.progress(path) as stage:
             stage("reading")
-            recording = asked.read(path)
+            recording = read(path, **vars(options))
             found = foot_events(recording, left=left, right=right)
             measures = gait_of(found, recording)
         for target in filter(None, targets):
@@ -107,7 +109,7 @@ def events(
             _show(path, found, measures, [*targets])
 
     for path, *targets in zip(batch.paths, tables, gaits, spans, copies, strict=True):
-        batch.each_person(path, request, work, *targets)
+        batch.each_person(path, read_options, work, *targets)
     batch.exit()
 
 

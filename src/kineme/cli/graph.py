@@ -11,10 +11,15 @@ import typer
 from kineme._util.checks import format_count
 from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.messages import Failures, progress
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
+from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import BODY, Quiet
-from kineme.cli.options.request import SEGMENTING, Request, asks
 from kineme.cli.options.targets import check_place, check_writable
+from kineme.cli.segment import load_or_find_segments
+from kineme.formats import read_motion
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
     from kineme.recordings import Motion
@@ -22,10 +27,11 @@ if TYPE_CHECKING:
     from kineme.synthesis import MotionGraph
 
 
-@asks(BODY | SEGMENTING)
+@add_options(BODY | SEGMENTING)
 def graph(
     files: Files,
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
     output: Annotated[Path, option(OUTPUT, "The motion graph: a .json file.", "--output", "-o")],
     segments: SegmentTable = None,
     plot: Annotated[Path | None, option(OUTPUT, "Draw the graph: .png, .pdf or .svg.")] = None,
@@ -57,7 +63,7 @@ def graph(
     of which `kineme synthesize` makes new motion.
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
-    tables = batch.tables("--segments", segments, request.person)
+    tables = batch.tables("--segments", segments, read_options.person or "")
     failures = Failures()
     with failures.caught(output):
         check_place(output)
@@ -70,10 +76,10 @@ def graph(
             from kineme.synthesis import check_source
 
             stage("reading")
-            motion = request.read_motion(path)
+            motion = read_motion(path, **vars(read_options))
             check_source(motion, (motions or [motion])[0])
             stage("segments")
-            found.append(request.segments(motion, table, stage))
+            found.append(load_or_find_segments(motion, table, segment_options, stage))
             motions.append(motion)
     if not motions:
         batch.exit()
@@ -84,9 +90,8 @@ def graph(
         made = motion_graph(
             motions, found, threshold=threshold, window=window, prune=not keep_dead_ends
         )
-        options = {k: v for k, v in request.reading.items() if v is not None}
-        stored = {k: str(v) if isinstance(v, Path) else v for k, v in options.items()}
-        made = replace(made, sources=tuple(replace(s, options=stored) for s in made.sources))
+        sources = tuple(replace(source, options=read_options) for source in made.sources)
+        made = replace(made, sources=sources)
         write_graph(made, output)
         if plot is not None:
             from kineme.plot.graph import plot_graph

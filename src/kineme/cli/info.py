@@ -10,10 +10,14 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, FilesOfFormats, Recursive
-from kineme.cli.options.reading import READING, Effectors, Json
-from kineme.cli.options.request import Request, asks
+from kineme.cli.options.method import Effectors
+from kineme.cli.options.reading import READING, Json
 from kineme.errors import EndEffectorError
+from kineme.formats import read, read_analog
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
     from kineme.features import Names
@@ -24,10 +28,11 @@ IN_A_LINE = 12
 """Channels that are told in a line; more get a list of their own."""
 
 
-@asks({"effectors": Effectors} | READING)
+@add_options({"effectors": Effectors} | READING)
 def info(
     files: FilesOfFormats,
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
     joints: Annotated[bool, option(OUTPUT, "Show the tree of joints.", "--joints")] = False,
     channels: Annotated[
         bool,
@@ -40,10 +45,10 @@ def info(
     batch = Batch(files, recursive=recursive)
     for path in batch.paths:
         with batch.caught(path):
-            recording = request.read(path)
-            facts = _facts(recording, request.effectors)
+            recording = read(path, **vars(read_options))
+            facts = _facts(recording, segment_options.effectors)
             if channels:
-                facts["measures"] = _measures(path, recording, request)
+                facts["measures"] = _measures(path, recording, read_options)
             if json:
                 typer.echo(dumps(facts))
             else:
@@ -71,17 +76,12 @@ def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
     return facts | {"channels": list(recording.names)}
 
 
-def _measures(path: Path, recording: Motion | Signals, request: Request) -> list[Facts]:
+def _measures(path: Path, recording: Motion | Signals, options: ReadOptions) -> list[Facts]:
     """Return what can be measured in a recording: see `kineme.cycles.channels_of`."""
     from kineme.cycles.channels import channels_of
-    from kineme.formats import ReadOptions
-    from kineme.formats.read_write import read_analog
     from kineme.recordings import Motion
 
-    analog = None
-    if isinstance(recording, Motion):
-        analog = read_analog(path, ReadOptions(**request.reading))
-
+    analog = read_analog(path, options) if isinstance(recording, Motion) else None
     return [
         {"name": each.name, "unit": each.unit, "group": each.group, "source": each.source}
         for each in channels_of(recording, ["*"], beside=[] if analog is None else [analog])

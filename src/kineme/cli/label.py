@@ -10,18 +10,26 @@ import typer
 from kineme._util.checks import format_count
 from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.messages import Failures
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import BODY, Quiet
-from kineme.cli.options.request import SEGMENTING, Request, Stage, asks
+from kineme.cli.segment import find_segments, load_or_find_segments
+from kineme.formats import read_motion
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
+    from kineme.methods import Progress
+    from kineme.recordings import Motion
     from kineme.transfer import KnowledgeBase
 
 
-@asks(BODY | SEGMENTING)
+@add_options(BODY | SEGMENTING)
 def label(
     files: Files,
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
     labels: Annotated[
         Path,
         option(
@@ -46,7 +54,7 @@ def label(
     held of a recording is replaced.
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
-    tables = batch.tables("--labels", labels, request.person)
+    tables = batch.tables("--labels", labels, read_options.person or "")
     failures = Failures()
     from kineme.transfer import KnowledgeBase
 
@@ -57,7 +65,9 @@ def label(
     added: dict[Path, KnowledgeBase] = {}
     for path, table in zip(batch.paths, tables, strict=True):
         with batch.caught(path), batch.progress(path) as stage:
-            added[path] = _label_primitives(request, path, table, stage)
+            stage("reading")
+            motion = read_motion(path, **vars(read_options))
+            added[path] = _label_primitives(motion, table, segment_options, stage)
     with failures.caught(knowledge):
         if added:
             merged = KnowledgeBase.merged(*bases, *added.values())
@@ -69,17 +79,15 @@ def label(
 
 
 def _label_primitives(
-    request: Request, path: Path, labels: Path | None, stage: Stage
+    motion: Motion, labels: Path | None, options: SegmentOptions, stage: Progress
 ) -> KnowledgeBase:
     """Return the primitives of a recording, called as its labels say."""
     from kineme.transfer import KnowledgeBase, name_primitives
 
-    stage("reading")
-    motion = request.read_motion(path)
-    table = request.segments(motion, labels, stage)
+    table = load_or_find_segments(motion, labels, options, stage)
     if not len(table.primitives):
-        table = name_primitives(request.segment(motion, stage), table)
-    return KnowledgeBase.from_recording(motion, table, effectors=request.effectors)
+        table = name_primitives(find_segments(motion, options, stage), table)
+    return KnowledgeBase.from_recording(motion, table, effectors=options.effectors)
 
 
 def _show(knowledge: Path, added: dict[Path, KnowledgeBase], total: int) -> None:

@@ -8,16 +8,22 @@ from typing import Annotated
 import typer
 
 from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
+from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.request import SEGMENTING, Request, asks
 from kineme.cli.options.targets import check_writable
+from kineme.cli.segment import load_or_find_segments, show_envelopes
+from kineme.formats import read
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions
 
 
-@asks(READING | SEGMENTING)
+@add_options(READING | SEGMENTING)
 def report(
     files: Files,
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
     output: Annotated[
         Path,
         option(
@@ -41,19 +47,19 @@ def report(
     pages = batch.files("--output", output, ".html")
     batch.tables("--segments", segments)  # whether there are any
 
-    def work(path: Path, asked: Request, table: Path | None, page: Path) -> None:
+    def work(path: Path, options: ReadOptions, table: Path | None, page: Path) -> None:
         check_writable(page=page)
         with batch.progress(path) as stage:
             stage("reading")
-            recording = asked.read(path)
-            result = asked.segments(recording, table, stage)
+            recording = read(path, **vars(options))
+            result = load_or_find_segments(recording, table, segment_options, stage)
         from kineme.report.page import write_report
 
-        drawn = asked.drawn(recording)
-        write_report(drawn, result, page, name=path.name, effectors=asked.effectors)
+        drawn = show_envelopes(recording, segment_options)
+        write_report(drawn, result, page, name=path.name, effectors=segment_options.effectors)
         if not quiet:
             typer.echo(page)
 
     for path, page in zip(batch.paths, pages, strict=True):
-        batch.each_person(path, request, work, page, tables=("--segments", segments))
+        batch.each_person(path, read_options, work, page, tables=("--segments", segments))
     batch.exit()

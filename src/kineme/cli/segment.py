@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from kineme._util.parallel import announce_compilation
 from kineme.cli.help import OUTPUT, TABLES, option
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, FilesOfFormats, Recursive
+from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import READING, Json, Quiet
-from kineme.cli.options.request import SEGMENTING, Request, Stage, asks
 from kineme.cli.options.targets import check_writable
+from kineme.formats import read
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
+    from kineme.methods import Progress
     from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
@@ -25,10 +32,11 @@ PrintedLevel = Annotated[
 ]
 
 
-@asks(READING | SEGMENTING)
+@add_options(READING | SEGMENTING)
 def segment(
     files: FilesOfFormats,
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
     output: Annotated[
         Path | None,
         option(
@@ -70,37 +78,77 @@ def segment(
     pictures = batch.targets("--plot", plot, ".png")
     pages = batch.targets("--report", report, ".html")
 
-    def work(path: Path, asked: Request, _: None, *targets: Path | None) -> None:
+    def work(path: Path, options: ReadOptions, _: None, *targets: Path | None) -> None:
         check_writable(*targets)
         with batch.progress(path) as stage:
             stage("reading")
-            recording = asked.read(path)
-            result = _segment_one(recording, asked, targets, stage)
+            recording = read(path, **vars(options))
+            result = _segment_one(recording, segment_options, targets, stage)
         print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
-        batch.each_person(path, request, work, *targets)
+        batch.each_person(path, read_options, work, *targets)
     batch.exit()
 
 
+def find_segments(
+    recording: Motion | Signals, options: SegmentOptions, stage: Progress
+) -> Segmentation:
+    """Return the segments that are found in a recording."""
+    with announce_compilation(stage):
+        return segment_with_options(recording, options, progress=stage)[0]
+
+
+def load_or_find_segments(
+    recording: Motion | Signals, table: Path | None, options: SegmentOptions, stage: Progress
+) -> Segmentation:
+    """Return the segments in a table or label file; without one those that are found."""
+    if table is None:
+        return find_segments(recording, options, stage)
+    from kineme.labels.collections import labels_for
+
+    return labels_for(
+        Path(recording.provenance.path or ""),
+        table,
+        n_frames=recording.n_frames,
+        fps=recording.fps,
+        clock=recording.provenance.clock,
+    )
+
+
+def show_envelopes(recording: Motion | Signals, options: SegmentOptions) -> Motion | Signals:
+    """Return the recording as pages and pictures show it: muscle signals by their envelopes."""
+    from kineme.recordings import Signals
+
+    if not (options.emg and isinstance(recording, Signals)):
+        return recording
+    from kineme.features.emg import emg_envelope
+
+    return replace(recording, values=emg_envelope(recording.values, recording.fps))
+
+
 def _segment_one(
-    recording: Motion | Signals, request: Request, targets: Sequence[Path | None], stage: Stage
+    recording: Motion | Signals,
+    options: SegmentOptions,
+    targets: Sequence[Path | None],
+    stage: Progress,
 ) -> Segmentation:
     """Return the segments of a recording; write table, picture and page where these are wanted."""
     table, picture, page = targets
-    result = request.segment(recording, stage)
-    write_results(result, recording, request, table, picture)
+    result = find_segments(recording, options, stage)
+    write_results(result, recording, options, table, picture)
     if page is not None:
         from kineme.report.page import write_report
 
-        write_report(request.drawn(recording), result, page, effectors=request.effectors)
+        drawn = show_envelopes(recording, options)
+        write_report(drawn, result, page, effectors=options.effectors)
     return result
 
 
 def write_results(
     result: Segmentation,
     recording: Motion | Signals,
-    request: Request,
+    options: SegmentOptions,
     table: Path | None,
     picture: Path | None,
 ) -> None:
@@ -112,7 +160,8 @@ def write_results(
     if picture is not None:
         from kineme.plot import plot_segmentation
 
-        plot_segmentation(result, request.drawn(recording), picture, effectors=request.effectors)
+        drawn = show_envelopes(recording, options)
+        plot_segmentation(result, drawn, picture, effectors=options.effectors)
 
 
 def print_segments(

@@ -9,17 +9,23 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
+from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.request import SEGMENTING, Request, asks
 from kineme.cli.options.targets import make_folder_of
+from kineme.cli.segment import load_or_find_segments
+from kineme.formats import read
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.table import Level
 
 
-@asks(READING | SEGMENTING)
+@add_options(READING | SEGMENTING)
 def split(
     files: Files,
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
     output: Annotated[
         Path,
         option(
@@ -67,11 +73,11 @@ def split(
     folders = batch.folders("--output", output)
     batch.tables("--segments", segments)  # whether there are any
 
-    def work(path: Path, asked: Request, table: Path | None, folder: Path) -> None:
+    def work(path: Path, options: ReadOptions, table: Path | None, folder: Path) -> None:
         with batch.progress(path) as stage:
             stage("reading")
-            recording = asked.read(path)
-            cuts = asked.segments(recording, table, stage)
+            recording = read(path, **vars(options))
+            cuts = load_or_find_segments(recording, table, segment_options, stage)
         from kineme.clips.split import split as write_clips
 
         if not batch.single:
@@ -95,5 +101,5 @@ def split(
             typer.echo(f"{format_count(len(clips), 'clip')} in {folder}{where}")
 
     for path, folder in zip(batch.paths, folders, strict=True):
-        batch.each_person(path, request, work, folder, tables=("--segments", segments))
+        batch.each_person(path, read_options, work, folder, tables=("--segments", segments))
     batch.exit()

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
-from kineme.cli.options.reading import BODY, Effectors
-from kineme.cli.options.request import Request, asks, split_everybody
+from kineme.cli.options.declare import add_options, are_given
+from kineme.cli.options.method import Effectors
+from kineme.cli.options.reading import ALL_PEOPLE, BODY
 from kineme.errors import ParameterError
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions
 
-if TYPE_CHECKING:
-    from kineme.studio.reading import ReadingOptions
+OPTIONS = {"effectors": Effectors} | BODY
 
 
-@asks({"effectors": Effectors} | BODY)
+@add_options(OPTIONS)
 def studio(
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
+    context: typer.Context,
     files: Annotated[
         list[Path] | None,
         typer.Argument(
@@ -59,36 +64,33 @@ def studio(
     failures = Failures()
     with failures.caught("studio"):
         root, recordings = _open_folder(files or [Path()])
-        from kineme.formats import ReadOptions
         from kineme.library.storage.layout import HEAD
-        from kineme.studio.reading import ReadingOptions
         from kineme.studio.server import serve
 
-        everybody, reading = split_everybody(request.reading)
-        options = ReadingOptions(ReadOptions(**reading), request.effectors)
-        if everybody:
-            _tell_apart(recordings, options)
+        if read_options.person == ALL_PEOPLE:
+            read_options = replace(read_options, person=None)
+            _tell_apart(recordings, read_options)
 
         library = None
         if recordings is None and (root / HEAD).is_file():
-            if not request.is_default:
+            if are_given(context, OPTIONS):
                 raise ParameterError(f"{root} is a library, read as it was built: no such options")
             from kineme.studio.library import ShownLibrary
 
             library = ShownLibrary(root)
-            options = library.options()
+            read_options, segment_options = library.options()
 
         def announce(address: str) -> None:
             typer.echo(f"kineme studio: {address} (Ctrl+C ends it)")
 
         serve(
-            root, recordings, options=options, port=port, browser=browser, announce=announce,
-            library=library, development=dev,
+            root, recordings, read_options=read_options, segment_options=segment_options,
+            port=port, browser=browser, announce=announce, library=library, development=dev,
         )  # fmt: skip
     failures.exit()
 
 
-def _tell_apart(recordings: list[Path] | None, options: ReadingOptions) -> None:
+def _tell_apart(recordings: list[Path] | None, options: ReadOptions) -> None:
     """Have each of the people in the files that were named be a recording of its own."""
     if recordings is None:
         raise ParameterError("--person all is for files: name them, or choose in the page")

@@ -9,22 +9,28 @@ import typer
 
 from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
 from kineme.cli.messages import Failures
+from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import BODY, Json, Quiet
-from kineme.cli.options.request import SEGMENTING, Request, Stage, asks
 from kineme.cli.options.targets import check_writable
-from kineme.cli.segment import PrintedLevel, print_segments
+from kineme.cli.segment import PrintedLevel, find_segments, print_segments
+from kineme.formats import read_motion
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
+    from kineme.methods import Progress
     from kineme.recordings import Motion
     from kineme.segments.segmentation import Segmentation
     from kineme.transfer import KnowledgeBase
 
 
-@asks(BODY | SEGMENTING)
+@add_options(BODY | SEGMENTING)
 def transfer(
     files: Files,
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
     knowledge: Annotated[
         list[Path],
         option(
@@ -85,8 +91,8 @@ def transfer(
             check_writable(table)
             with batch.progress(path) as stage:
                 stage("reading")
-                motion = request.read_motion(path)
-                result = _name_segments(request, motion, base, options, stage)
+                motion = read_motion(path, **vars(read_options))
+                result = _name_segments(motion, segment_options, base, options, stage)
             if table is not None:
                 from kineme.labels import write_segments
 
@@ -96,12 +102,16 @@ def transfer(
 
 
 def _name_segments(
-    request: Request, motion: Motion, base: KnowledgeBase, options: dict[str, Any], stage: Stage
+    motion: Motion,
+    segment_options: SegmentOptions,
+    base: KnowledgeBase,
+    options: dict[str, Any],
+    stage: Progress,
 ) -> Segmentation:
     """Return the segments of a recording, labelled."""
     from kineme.transfer import transfer_features, transfer_labels
 
-    found = request.segment(motion, stage)
+    found = find_segments(motion, segment_options, stage)
     stage("labels")
-    features = transfer_features(motion, effectors=request.effectors)
+    features = transfer_features(motion, effectors=segment_options.effectors)
     return transfer_labels(found, features, base, **options)

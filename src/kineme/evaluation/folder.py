@@ -17,9 +17,10 @@ from typing import Any, Literal
 from kineme._version import __version__
 from kineme.errors import MotionError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
-from kineme.evaluation.recordings import Answer, Job, Reading, Sides, answers_to, check_method
+from kineme.evaluation.recordings import Answer, Job, Sides, answers_to, check_method
 from kineme.evaluation.score import Ratio, pool_scores, results_of, scores, value_of
 from kineme.evaluation.tables import plain
+from kineme.formats import ReadOptions
 from kineme.labels.collections import LabelSource
 from kineme.recordings.motion import Motion
 from kineme.segments.editing.rows import renumber_clusters
@@ -122,7 +123,8 @@ def evaluate_folder(
     *,
     mapping: Mapped = "recording",
     n_clusters: int | None = None,
-    reading: Reading | None = None,
+    read_options: ReadOptions | None = None,
+    without: Sequence[str] = (),
     constants: Mapping[str, Any] | None = None,
     processes: int = 2,
     progress: Progress | None = None,
@@ -140,8 +142,10 @@ def evaluate_folder(
         over which they are joined before.
     n_clusters : int, optional
         How many clusters signals of the folder are joined to; found out by default.
-    reading : Reading, optional
-        How the recordings are read.
+    read_options : ReadOptions, optional
+        How the recordings are read. Of its columns, which may be patterns, each takes those it has.
+    without : sequence of str
+        Patterns of columns to leave out of signals.
     constants : mapping, optional
         Of every method that are to be others, such as ``{"min_action": 2.0}``. Which there are
         depends on the recording; one that cannot be taken is an error of it.
@@ -168,11 +172,11 @@ def evaluate_folder(
     >>> 0 < found.pool_scores("voegele2014")["mof"] < 1
     True
     """
-    others = dict(constants or {})
+    options, others = read_options or ReadOptions(), dict(constants or {})
     for name in methods:
         check_method(name)
     jobs = [
-        Job(path, source, name, reading or Reading(), mapping == "folder", others)
+        Job(path, source, name, options, without, mapping == "folder", others)
         for path, source in labels.items()
         for name in methods
     ]
@@ -259,7 +263,7 @@ def _share_clusters(
     if samples:
         return share_by_samples(samples, segmentations, n_clusters=n_clusters)
     # Motions are read again: to keep them all would take much memory.
-    motions = [motion for job in jobs if isinstance(motion := job.reading.read(job.path), Motion)]
+    motions = [motion for job in jobs if isinstance(motion := job.read(), Motion)]
     try:
         return share_clusters(motions, segmentations)
     except MotionError:  # no body whose movements could be compared

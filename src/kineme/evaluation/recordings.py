@@ -11,7 +11,6 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, as_completed
 from dataclasses import dataclass, field, replace
-from fnmatch import filter as filter_names
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ from typing import Any
 from kineme._util.parallel import defer_interrupt, make_process_pool
 from kineme.errors import KinemeError, KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, compare
+from kineme.formats import ReadOptions, read
 from kineme.labels.collections import LabelSource
 from kineme.methods.presets import PRESETS
 from kineme.recordings.motion import Motion
@@ -32,50 +32,35 @@ NUMBER_OF_CLASSES = "n_classes"
 """Constant of presets that take the true number of classes."""
 
 
-@dataclass(frozen=True)
-class Reading:
-    """How recordings are read, the same for all.
+def read_selected(
+    path: Path, options: ReadOptions, without: Sequence[str] = ()
+) -> Motion | Signals:
+    """Return the recording in a file; where columns are named or left out, its channels.
 
     Parameters
     ----------
-    columns : tuple of str
-        Patterns (``acc*``) of the columns to take as signals; none: what the file says.
-    without : tuple of str
-        Patterns of columns to leave out of signals.
-    options : dict
-        For `kineme.read`, such as ``fps``, ``unit`` and ``up``.
+    path : Path
+    options : ReadOptions
+        Its columns may be patterns (``acc*``), of which a recording takes those it has.
+    without : sequence of str
+        Patterns of columns to leave out. Capitals and small letters are the same.
     """
+    if not (options.columns or without):
+        return read(path, **vars(options))
+    signals = read(path, **vars(replace(options, columns=())))
+    if not isinstance(signals, Signals):
+        raise ParameterError(f"{path}: has no columns to choose from")
+    columns = options.columns or ("*",)
+    kept = [name for name in signals.names if _fits(name, *columns) and not _fits(name, *without)]
+    if not kept:
+        names = ", ".join(signals.names)
+        raise ParameterError(f"{path}: no column is left of {names:.200}")
+    unmet = [p for p in (*columns, *without) if not any(_fits(name, p) for name in signals.names)]
+    return signals.select(kept).noted(*(f"{UNMET} {pattern!r:.60}" for pattern in unmet))
 
-    columns: tuple[str, ...] = ()
-    without: tuple[str, ...] = ()
-    options: dict[str, Any] = field(default_factory=dict)
 
-    def read(self, path: Path) -> Motion | Signals:
-        """Return the recording in a file."""
-        from kineme.formats import read
-
-        if not (self.columns or self.without):
-            return read(path, **self.options)
-        signals = read(path, columns=(), **self.options)
-        if not isinstance(signals, Signals):
-            raise ParameterError(f"{path}: has no columns to choose from")
-        kept = [name for name in signals.names if self.takes(name)]
-        if not kept:
-            names = ", ".join(signals.names)
-            raise ParameterError(f"{path}: no column is left of {names:.200}")
-        return signals.select(kept).noted(*self._unmet(signals.names))
-
-    def _unmet(self, names: Sequence[str]) -> list[str]:
-        """Return what is said of patterns that no column fits."""
-        lower = [name.lower() for name in names]
-        unmet = [p for p in (*self.columns, *self.without) if not filter_names(lower, p.lower())]
-        return [f"{UNMET} {pattern!r:.60}" for pattern in unmet]
-
-    def takes(self, name: str) -> bool:
-        """Whether a column is one of those to take; capitals and small letters are the same."""
-        small = name.lower()
-        fits = not self.columns or any(fnmatchcase(small, p.lower()) for p in self.columns)
-        return fits and not any(fnmatchcase(small, p.lower()) for p in self.without)
+def _fits(name: str, *patterns: str) -> bool:
+    return any(fnmatchcase(name.lower(), pattern.lower()) for pattern in patterns)
 
 
 def recordings_below(folder: Path) -> list[Path]:
@@ -122,7 +107,9 @@ class Job:
     path: Path
     source: LabelSource
     method: str
-    reading: Reading
+    read_options: ReadOptions
+    without: Sequence[str] = ()
+    """Columns of signals to leave out."""
     joins: bool = False
     """Whether clusters will be joined with those of other recordings."""
     constants: Mapping[str, Any] = field(default_factory=dict)
@@ -130,6 +117,10 @@ class Job:
 
     def __hash__(self) -> int:
         return hash((self.path, self.method))
+
+    def read(self) -> Motion | Signals:
+        """Return the recording."""
+        return read_selected(self.path, self.read_options, self.without)
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +178,7 @@ def _answer(job: Job) -> Answer:
 
 def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
     """Return what comes out of a job; raises what its method raises, and times it by this clock."""
-    recording = job.reading.read(job.path)
+    recording = job.read()
     truth = job.source.of(
         n_frames=recording.n_frames, fps=recording.fps, clock=recording.provenance.clock
     )

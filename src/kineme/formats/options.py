@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from os import PathLike
+from os import PathLike, fspath
 
-from kineme._util.checks import as_texts, check_path, is_number, is_one_of
+from kineme._util.checks import as_texts, check_flag, check_path, is_number, is_one_of
 from kineme.errors import ParameterError
 from kineme.formats.units import AXES, UNITS
 
@@ -17,7 +17,8 @@ AnyPath = str | PathLike[str]
 class ReadOptions:
     """What the user knows better than the file; None where the file is right.
 
-    They are the keywords of `kineme.read`, which says what each means.
+    They are the keywords of `kineme.read`, which says what each means and takes them as
+    ``read(path, **vars(options))``.
 
     Raises
     ------
@@ -30,7 +31,7 @@ class ReadOptions:
     (False, True)
     """
 
-    skeleton: AnyPath | None = None
+    skeleton: str | None = None
     fps: float | None = None
     unit: str | float | None = None
     up: str | None = None
@@ -43,6 +44,11 @@ class ReadOptions:
     def __post_init__(self) -> None:
         if self.skeleton is not None:
             check_path(self.skeleton, "skeleton")
+            object.__setattr__(self, "skeleton", fspath(self.skeleton))
+        for name, value in (("person", self.person), ("take", self.take)):
+            if value is not None and not isinstance(value, str):
+                raise ParameterError(f"{name} is {value!r:.60}: give a name, or a number as text")
+        check_flag(self.emg, "emg")
         if self.columns is not None:
             object.__setattr__(self, "columns", as_texts(self.columns, "columns"))
         if self.fps is not None and not (is_number(self.fps) and self.fps > 0):
@@ -50,11 +56,11 @@ class ReadOptions:
         if isinstance(self.unit, str):
             if self.unit not in UNITS:
                 names = ", ".join(UNITS)
-                raise ParameterError(f"unit is {self.unit!r}: give metres or one of {names}")
+                raise ParameterError(f"unit is {self.unit!r:.60}: give metres or one of {names}")
         elif self.unit is not None and not (is_number(self.unit) and self.unit > 0):
             raise ParameterError(f"unit is {self.unit!r:.60}: give the metres in one unit, above 0")
         if self.up is not None and not is_one_of(self.up, AXES):
-            raise ParameterError(f"up is {self.up!r}: give one of {', '.join(AXES)}")
+            raise ParameterError(f"up is {self.up!r:.60}: give one of {', '.join(AXES)}")
         if self.confidence is not None and not is_number(self.confidence):
             raise ParameterError(
                 f"confidence is {self.confidence!r:.60}: give a number, such as 0.5"

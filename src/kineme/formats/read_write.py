@@ -86,9 +86,10 @@ def read(
     >>> kineme.read(kineme.bundled_recording())
     <Motion of 2898 frames (48.3 s) at 60 Hz: 26 joints, 5 of them end sites>
     """
-    who = None if person is None else str(person)
-    take_name = None if take is None else str(take)
-    options = ReadOptions(skeleton, fps, unit, up, who, confidence, columns, emg, take_name)
+    if skeleton is not None:
+        check_path(skeleton, "skeleton")
+    asf, who, name = (None if each is None else str(each) for each in (skeleton, person, take))
+    options = ReadOptions(asf, fps, unit, up, who, confidence, columns, emg, name)
     recording = read_quietly(path, options)
     if remarks := recording.provenance.warnings:
         warn(f"{path}: {'; '.join(remarks)}")

@@ -3,8 +3,8 @@
 A library is a folder. `build` fills it from recordings; `Library` opens it.
 
 ============================= ==================================================================
-``library.json``              its head: schema, version, settings, sources, what failed, and the
-                              name of the tables that are valid; written last
+``library.json``              its head: schema, version, options of reading and segmenting, sources,
+                              what failed, and the name of the tables that are valid; written last
 ``tables/NAME/``              Parquet: ``recordings``, ``segments``, ``embeddings``, ``clusters``;
                               NAME is a digest of what they hold; of large libraries the index
 ``pieces/KEY.parquet``        segments and embeddings of one recording, as it was found alone

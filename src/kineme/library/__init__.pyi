@@ -15,6 +15,3 @@ from .searching import (
 from .searching import (
     Hit as Hit,
 )
-from .settings import (
-    Settings as Settings,
-)

@@ -12,13 +12,14 @@ import numpy as np
 
 from kineme._util.checks import check_type, is_number
 from kineme._util.files import OwnedFolder, is_draft
+from kineme._util.json import options_to_json
 from kineme._version import __version__
 from kineme.errors import ParameterError, ReadError
+from kineme.formats import ReadOptions
 from kineme.library.edits import read_edits
 from kineme.library.executors import Executor, Progress, connect, processes
 from kineme.library.gathering import gather
 from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, open_folder, plan_of
-from kineme.library.settings import Settings
 from kineme.library.sources import list_recordings, names_of
 from kineme.library.storage.analyses import KEY_LENGTH, has_analysis, is_analysis
 from kineme.library.storage.index import write_index
@@ -36,6 +37,7 @@ from kineme.library.storage.layout import (
 )
 from kineme.library.storage.places import lies_in, place, reaching
 from kineme.library.storage.tables import is_table, is_tables, read_table, write_tables
+from kineme.methods.segmenter import SegmentOptions
 from kineme.transfer.clusters import CONSTANTS, Spans
 
 Head = Mapping[str, Any]
@@ -86,7 +88,8 @@ def build(
     *,
     remove: Iterable[AnyPath] = (),
     recursive: bool | None = None,
-    settings: Settings | None = None,
+    read_options: ReadOptions | None = None,
+    segment_options: SegmentOptions | None = None,
     jobs: int = 1,
     client: Any = None,
     progress: Progress | None = None,
@@ -107,9 +110,11 @@ def build(
         Sources to take out, with their recordings.
     recursive : bool, optional
         Look into the folders of a folder, too; as the last time by default.
-    settings : Settings, optional
-        How recordings are read and segmented; as the last time by default. Others than those mean
-        that everything is done anew.
+    read_options : ReadOptions, optional
+        How recordings are read; as the last time by default. Others than those mean that
+        everything is done anew, as with others of these:
+    segment_options : SegmentOptions, optional
+        How recordings are segmented; as the last time by default.
     jobs : int
         Processes at most. With more than 1, a script must guard what it runs with
         ``if __name__ == "__main__"``, as always with processes.
@@ -147,13 +152,15 @@ def build(
     if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
     check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
-    check_type(settings, (Settings, type(None)), "build", "kineme.library.Settings() makes one")
+    made = ((read_options, ReadOptions), (segment_options, SegmentOptions))
+    for options, kind in made:
+        check_type(options, (kind, type(None)), "build", f"{kind.__name__}() makes one")
     with processes(int(jobs)) if client is None else connect(client) as executor:
         added, removed = as_paths(sources), as_paths(remove)
         folder = open_folder(into, [*added, *removed])
         with writer_lock(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
-            plan = plan_of(folder, head, added, removed, recursive, settings)
+            plan = plan_of(folder, head, added, removed, recursive, read_options, segment_options)
             return _built(plan, head, executor, progress or (lambda _: None))
 
 
@@ -167,7 +174,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     absent = _group_missing(plan, not_found, missing_sources)
     gathered = gather(plan, list(found), executor, progress)
     failed = dict.fromkeys(missing_sources, NOT_FOUND) | gathered.failed
-    keys = {path: plan.settings.key(digest) for path, digest in gathered.digests.items()}
+    keys = {path: plan.key(digest) for path, digest in gathered.digests.items()}
     keys |= {path: before[path][1] for path in absent}
     names = names_of(
         {path: source for path, source in {**found, **absent}.items() if path in keys},
@@ -220,7 +227,8 @@ def _written(
     content = {
         "schema": SCHEMA,
         "kineme": __version__,
-        "settings": plan.settings.to_json(),
+        "read_options": options_to_json(plan.read_options),
+        "segment_options": options_to_json(plan.segment_options),
         "sources": [str(source) for source in plan.sources],
         "recursive": plan.recursive,
         "clustering": asdict(CONSTANTS),

@@ -5,8 +5,8 @@ described by their posture and energy (`kineme.features.channels`), in half the 
 deviation of each in the recording, so that one threshold serves both, whatever the number of
 channels; they compare with recordings of the same channels only.
 
-Everything of the library that knows what features are is here. What segments and samples channels
-is imported only where an analysis is made: a search does not wait for it.
+Everything of the library that knows what features are is here. What samples channels is imported
+only where an analysis is made: a search does not wait for it.
 """
 
 from __future__ import annotations
@@ -22,12 +22,11 @@ from kineme._util.checks import format_count
 from kineme.errors import MotionError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.features.channels import channel_statistics, resample_channels, standardize_channels
-from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
-from kineme.library.settings import Settings
 from kineme.library.storage.analyses import LARGEST_SAMPLE, Analysis
 from kineme.library.storage.layout import BODIES, EMBEDDED
 from kineme.methods.kineme.preset import SENSORS
+from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals
 from kineme.transfer.embeddings import course, embedding
 
@@ -80,24 +79,15 @@ class Description:
         return slice(first, max(round(stop_s * self.fps), first + 1))
 
 
-def describe(
-    recording: Motion | Signals,
-    *,
-    effectors: Names | None = None,
-    emg: bool = False,
-) -> Description:
-    """Return the features of a recording; none, with the reason, where it has no body.
-
-    ``effectors`` are joints to take for head, hands and feet where names do not tell. With ``emg``
-    the envelopes of muscle signals are taken.
-    """
+def describe(recording: Motion | Signals, options: SegmentOptions) -> Description:
+    """Return the features of a recording; none, with the reason, where it has no body."""
     if isinstance(recording, Signals):
         vocabulary = sha256("\0".join(recording.names).encode()).hexdigest()[:8]
-        features = signal_features(recording, emg=emg)
+        features = signal_features(recording, emg=options.emg)
         named = f"{format_count(recording.n_channels, 'channel')}, {vocabulary}"
         return Description(named, features, SENSORS.rate)
     try:
-        features, poses = features_and_poses(recording, effectors=effectors)
+        features, poses = features_and_poses(recording, effectors=options.effectors)
     except MotionError as error:
         return Description("", np.empty((0, 0), np.float32), MATCHING_FPS, str(error))
     return Description(BODIES, features, MATCHING_FPS, poses=poses)
@@ -133,24 +123,16 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
 
 
 def analysis_of(
-    recording: Motion | Signals, settings: Settings
+    recording: Motion | Signals, options: SegmentOptions
 ) -> tuple[Analysis, NDArray[np.float32], NDArray[np.float32] | None]:
     """What is kept of a recording, its features (samples, dims), and samples of its channels.
 
     These are of signals only: a row each of second, means and deviations.
     """
-    from kineme.methods.segmenter import segment
     from kineme.transfer.channel_samples import channel_samples
 
-    emg = settings.options().emg
-    found = segment(
-        recording,
-        preset=settings.preset,
-        effectors=settings.effectors,
-        emg=emg,
-        **settings.constants,
-    ).at_detail(settings.detail)
-    described = describe(recording, effectors=settings.effectors, emg=emg)
+    found, _ = segment_with_options(recording, options)
+    described = describe(recording, options)
     embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
     for row, each in enumerate(found.table):
         if each.kind != "transition":

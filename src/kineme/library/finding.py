@@ -192,7 +192,7 @@ def one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
 
 def _description(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Description:
     """Return the features of a recording, from the library where it is one of it."""
-    recordings, settings = tables.recordings, tables.settings
+    recordings, (read_options, segment_options) = tables.recordings, tables.options
     if isinstance(recording, str) and (
         isinstance(recording, Named) or not place(recording).exists()
     ):
@@ -206,9 +206,8 @@ def _description(tables: OpenTables, recording: AnyPath | Motion | Signals) -> D
         return _comparable(described, recording)
     example = recording
     if not isinstance(example, Motion | Signals):
-        example = read_at(place(example), settings.reading)
-    emg = settings.options().emg
-    described = describe(example, effectors=settings.effectors, emg=emg)
+        example = read_at(place(example), read_options)
+    described = describe(example, segment_options)
     return _comparable(described, example.provenance.path or "the example")
 
 

@@ -25,15 +25,16 @@ from kineme._util.checks import is_text
 from kineme._util.files import refuse_pipe
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
-from kineme.formats import read_quietly
+from kineme.formats import ReadOptions, read_quietly
 from kineme.formats.options import AnyPath
 from kineme.library.executors import Executor, InProcess, Progress, Watch
+from kineme.library.options import analysis_key
 from kineme.library.planning import Plan
-from kineme.library.settings import Settings
 from kineme.library.sources import content_digest, fetch, size_of, states_of
 from kineme.library.storage.analyses import has_analysis, write_analysis
 from kineme.library.storage.layout import STATES, read_json, write_json
 from kineme.library.storage.places import is_remote
+from kineme.methods.segmenter import SegmentOptions
 
 States = dict[str, tuple[str, str]]
 UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
@@ -71,7 +72,7 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     """
     former = _former_states(plan.folder / STATES, progress)
     readable = [path for path in found if is_text(str(path))]
-    states = states_of(readable, plan.settings.options().skeleton)
+    states = states_of(readable, plan.read_options.skeleton)
     unreadable = [path for path in found if path not in states]
     gathered = Gathered(
         _find_unchanged(plan, states, former), failed=dict.fromkeys(unreadable, UNNAMED)
@@ -100,7 +101,7 @@ def _find_unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> d
     complete = {path.stem for path in plan.analyses.glob("*.parquet")}
     for path, state in states.items():
         former_state, digest = former.get(str(path), ("", ""))
-        if former_state and former_state == state and plan.settings.key(digest) in complete:
+        if former_state and former_state == state and plan.key(digest) in complete:
             digests[path] = digest
     return digests
 
@@ -113,9 +114,9 @@ def _make(
     into: Gathered,
 ) -> None:
     """Make the analyses of recordings; what came of each is noted."""
-    tasks = tasks_for(waiting, plan.analyses, plan.settings)
+    tasks = tasks_for(waiting, plan)
     groups = {
-        group.tasks[0]: group for group in group_by_content(tasks, plan.settings.options().skeleton)
+        group.tasks[0]: group for group in group_by_content(tasks, plan.read_options.skeleton)
     }
     if not isinstance(executor, InProcess):  # what comes next is imported while others work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
@@ -205,14 +206,18 @@ class Task:
     path : Path
     analyses : Path
         Where its analysis goes.
-    settings : Settings
+    read_options : ReadOptions
+    segment_options : SegmentOptions
+    options_digest : str
     size : int
         Bytes of the recording.
     """
 
     path: Path
     analyses: Path
-    settings: Settings
+    read_options: ReadOptions
+    segment_options: SegmentOptions
+    options_digest: str
     size: int
 
     def __hash__(self) -> int:
@@ -239,9 +244,10 @@ class Outcome:
     fatal: bool = False
 
 
-def tasks_for(paths: Iterable[Path], analyses: Path, settings: Settings) -> list[Task]:
+def tasks_for(paths: Iterable[Path], plan: Plan) -> list[Task]:
     """Return the tasks of recordings, the largest first: the last ones to be done are short."""
-    tasks = [Task(path, analyses, settings, size_of(path)) for path in paths]
+    common = plan.analyses, plan.read_options, plan.segment_options, plan.options_digest
+    tasks = [Task(path, *common, size_of(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 
@@ -263,14 +269,14 @@ def work_on(task: Task) -> Outcome:
 
         with warnings.catch_warnings(), threadpool_limits(1):  # sums do not depend on threads
             warnings.simplefilter("ignore", KinemeWarning)
-            options = task.settings.options()
+            options = task.read_options
             with fetch(task.path, options.skeleton) as path:
                 digest = content_digest(path, options.skeleton)
-                key = task.settings.key(digest)
+                key = analysis_key(task.options_digest, digest)
                 if has_analysis(task.analyses, key):
                     return Outcome(digest)
                 recording = read_quietly(path, options)
-            write_analysis(task.analyses, key, *analysis_of(recording, task.settings))
+            write_analysis(task.analyses, key, *analysis_of(recording, task.segment_options))
     except (WriteError, MissingDependencyError) as error:
         return Outcome(error=_reason(error), fatal=isinstance(error, WriteError))
     except Exception as error:  # noqa: BLE001 (one recording never ends a build)

@@ -12,14 +12,15 @@ import numpy as np
 
 from kineme._util.checks import check_flag, check_path, format_count
 from kineme.errors import ParameterError
+from kineme.formats import ReadOptions
 from kineme.library.executors import connect
 from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
 from kineme.library.finding import as_examples, hits_like, typical_examples
 from kineme.library.open_library import Cluster, OpenTables, clusters_of, numbers_of
 from kineme.library.searching import Example, Hit
-from kineme.library.settings import Settings
 from kineme.library.storage.layout import arrow, as_column
 from kineme.library.storage.places import place, reaching
+from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import THRESHOLD
 
@@ -60,13 +61,18 @@ class Library:
 
     @property
     def head(self) -> dict[str, Any]:
-        """Return what ``library.json`` says: settings, sources, constants."""
+        """Return what ``library.json`` says: options, sources, constants."""
         return self._tables.head
 
     @property
-    def settings(self) -> Settings:
-        """How its recordings are read and segmented."""
-        return self._tables.settings
+    def read_options(self) -> ReadOptions:
+        """Return how its recordings are read."""
+        return self._tables.options[0]
+
+    @property
+    def segment_options(self) -> SegmentOptions:
+        """Return how its recordings are segmented."""
+        return self._tables.options[1]
 
     @property
     def failed(self) -> dict[str, str]:

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
+from kineme.formats import ReadOptions
 from kineme.library.edits import Edits, apply_edits, read_edits
-from kineme.library.settings import Settings
+from kineme.library.options import options_in
 from kineme.library.sources import read_at
 from kineme.library.storage.layout import (
     LOCK_EDITS,
@@ -26,6 +27,7 @@ from kineme.library.storage.layout import (
 )
 from kineme.library.storage.places import place
 from kineme.library.storage.tables import DESCRIBED, read_table
+from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 
 Columns = dict[str, NDArray[Any]]
@@ -48,9 +50,9 @@ class OpenTables:
         self._take(read_edits(folder))
 
     @property
-    def settings(self) -> Settings:
-        """How its recordings are read and segmented."""
-        return Settings.from_json(self.head["settings"])
+    def options(self) -> tuple[ReadOptions, SegmentOptions]:
+        """Return how its recordings are read and segmented."""
+        return options_in(self.folder, self.head)
 
     @cached_property
     def recordings(self) -> dict[str, list[Any]]:
@@ -68,7 +70,7 @@ class OpenTables:
 
     def read(self, recording: str) -> Motion | Signals:
         """Return a recording of the library, read as it was when the library was built."""
-        return read_at(self.path_of(recording), self.settings.reading)
+        return read_at(self.path_of(recording), self.options[0])
 
     def table(self, name: str) -> Any:
         """Return a table, one of `kineme.library.storage.tables.DESCRIBED`, as a pyarrow.Table."""

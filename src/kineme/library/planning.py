@@ -5,15 +5,18 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from kineme._util.files import OwnedFolder
 from kineme.errors import ParameterError, WriteError
-from kineme.library.settings import Settings
+from kineme.formats import ReadOptions
+from kineme.library.options import analysis_key, digest_options, options_in
 from kineme.library.storage.layout import ANALYSES, HEAD, TABLES, read_head, read_json
 from kineme.library.storage.places import is_remote, place
+from kineme.methods.segmenter import SegmentOptions
 
 AnyPath = str | PathLike[str]
 Entry = tuple[str, Path, str]
@@ -37,18 +40,28 @@ class Plan:
         Those named that are not there, and never were.
     recursive : bool
         Whether folders in folders are looked into.
-    settings : Settings
+    read_options : ReadOptions
+    segment_options : SegmentOptions
     """
 
     folder: Path
     sources: tuple[Path, ...]
     missing: tuple[Path, ...]
     recursive: bool
-    settings: Settings
+    read_options: ReadOptions
+    segment_options: SegmentOptions
 
     @property
     def analyses(self) -> Path:
         return self.folder / ANALYSES
+
+    @cached_property
+    def options_digest(self) -> str:
+        return digest_options(self.read_options, self.segment_options)
+
+    def key(self, digest: str) -> str:
+        """Return the name of the analysis of a recording whose files have this digest."""
+        return analysis_key(self.options_digest, digest)
 
 
 def plan_of(
@@ -57,7 +70,8 @@ def plan_of(
     sources: Iterable[Path],
     remove: Iterable[Path],
     recursive: bool | None,
-    settings: Settings | None,
+    read_options: ReadOptions | None,
+    segment_options: SegmentOptions | None,
 ) -> Plan:
     """Return the plan of a build; what was not said is as it was the last time."""
     every = sources_after(folder, sources, remove)
@@ -65,12 +79,14 @@ def plan_of(
         raise ParameterError(NOTHING.format(folder))
     before = head.get("sources", ())
     missing = [each for each in every if not each.exists() and str(each) not in before]
+    former = options_in(folder, head) if head else (ReadOptions(), SegmentOptions())
     return Plan(
         folder,
         tuple(each for each in every if each not in missing),
         tuple(missing),
         bool(head.get("recursive")) if recursive is None else recursive,
-        settings or (Settings.from_json(head["settings"]) if head else Settings()),
+        read_options or former[0],
+        segment_options or former[1],
     )
 
 

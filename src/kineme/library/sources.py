@@ -13,7 +13,7 @@ from typing import Any
 
 from kineme._util.files import refuse_pipe
 from kineme.errors import FileError, ReadError
-from kineme.formats import read
+from kineme.formats import ReadOptions, read
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.listing import holds_recording, recordings_in
 from kineme.formats.options import AnyPath
@@ -170,10 +170,10 @@ def fetch(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
             raise ReadError(path, error.reason) from error
 
 
-def read_at(path: Path, reading: Mapping[str, Any]) -> Motion | Signals:
-    """Return the recording at a place, with keywords of `kineme.read`."""
+def read_at(path: Path, options: ReadOptions) -> Motion | Signals:
+    """Return the recording at a place, with a warning as `kineme.read` gives it."""
     if not is_remote(path):
-        return read(path, **reading)
-    with fetch(path, reading.get("skeleton")) as here:
-        found = read(here, **reading)
+        return read(path, **vars(options))
+    with fetch(path, options.skeleton) as here:
+        found = read(here, **vars(options))
     return replace(found, provenance=replace(found.provenance, path=str(path)))

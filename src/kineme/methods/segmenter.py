@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._util.checks import as_features, is_number
+from kineme._util.checks import as_features, check_flag, is_number
 from kineme._version import __version__
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.features.effectors import Names
@@ -24,7 +24,7 @@ from kineme.methods.prepare import Prepared, RecordedSpan, prepare_motion, prepa
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.methods.stages import Progress, stopwatch
 from kineme.recordings import Motion, Signals
-from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy
+from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import segment_table
 
@@ -37,6 +37,7 @@ def segment(
     *,
     preset: str | Preset = DEFAULT,
     effectors: Names | None = None,
+    detail: float = DEFAULT_DETAIL,
     emg: bool = False,
     features: ArrayLike | None = None,
     feature_fps: float | None = None,
@@ -60,6 +61,9 @@ def segment(
     effectors : joints, optional
         Of a motion, to take for head, hands and feet where names do not tell. Where these are
         not found either, the distances between points are looked at instead of a body.
+    detail : float
+        Above 1 for more, shorter segments, below for fewer, longer ones. The result keeps the
+        other details: see `Segmentation.at_detail`.
     emg : bool
         Of signals: take the envelopes of muscle signals, see `kineme.features.emg_envelope`.
     features : (rows, dims) array, optional
@@ -102,6 +106,7 @@ def segment(
         preset=preset,
         constants=constants,
         effectors=effectors,
+        detail=detail,
         emg=emg,
         features=features,
         feature_fps=feature_fps,
@@ -196,7 +201,10 @@ def segment_with_options(
     found = chosen.analyze(
         np.concatenate(view.features), mirror=view.mirror, progress=progress, **facts
     )
-    return _make_segmentation(recording, chosen, view, found, timings), found
+    segmentation = _make_segmentation(recording, chosen, view, found, timings)
+    if options.detail != DEFAULT_DETAIL:
+        segmentation = segmentation.at_detail(options.detail)
+    return segmentation, found
 
 
 def analyze(
@@ -297,6 +305,8 @@ class SegmentOptions:
         Of the preset, to change.
     effectors : joints, optional
         Of a motion, to take for head, hands and feet where names do not tell.
+    detail : float
+        Above 1 for more, shorter segments, below for fewer, longer ones.
     emg : bool
         Of signals: take the envelopes of muscle signals.
     features : (rows, dims) array, optional
@@ -312,12 +322,14 @@ class SegmentOptions:
     Raises
     ------
     ParameterError
-        A unit or rate that is no number above 0, or a detail, which a result is asked for.
+        A unit, rate or detail that is no number above 0, a flag that is none, or constants
+        without names.
     """
 
     preset: str | Preset = DEFAULT
     constants: Mapping[str, Any] = field(default_factory=dict)
     effectors: Names | None = None
+    detail: float = DEFAULT_DETAIL
     emg: bool = False
     features: ArrayLike | None = None
     feature_fps: float | None = None
@@ -325,8 +337,13 @@ class SegmentOptions:
     standardize: bool | None = None
 
     def __post_init__(self) -> None:
-        if "detail" in self.constants:
-            raise ParameterError("detail is asked of what comes out: segment(...).at_detail(0.5)")
+        given: Any = self.constants
+        if not (isinstance(given, Mapping) and all(isinstance(name, str) for name in given)):
+            raise ParameterError(f"constants must be values by their names, not {given!r:.60}")
+        check_detail(self.detail)
+        check_flag(self.emg, "emg")
+        if self.standardize is not None:
+            check_flag(self.standardize, "standardize")
         for name, value in (("unit", self.unit), ("feature_fps", self.feature_fps)):
             if value is not None and not (is_number(value) and value > 0):
                 raise ParameterError(f"{name} must be a number above 0, not {value!r:.60}")

@@ -23,12 +23,14 @@ from threadpoolctl import threadpool_limits
 from kineme._util.checks import format_count
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, ParameterError
+from kineme.formats import ReadOptions
 from kineme.labels import read_segments
 from kineme.library import Example, Library
 from kineme.library.edits import read_edits
 from kineme.library.searching import Named
 from kineme.library.storage.layout import EDITS, HEAD
 from kineme.library.storage.places import is_remote
+from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 from kineme.studio.folder import Folder, progress
@@ -36,7 +38,7 @@ from kineme.studio.library_history import LibraryHistory
 from kineme.studio.library_tables import LibraryTables, as_in_library, select_library_clusters
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
-from kineme.studio.reading import ReadingOptions, stamp_of
+from kineme.studio.reading import stamp_of
 from kineme.studio.storage.listed import ListedRecording, file_id
 from kineme.studio.storage.tables import usual_table
 from kineme.web.library_messages import (
@@ -100,10 +102,10 @@ class ShownLibrary:
             tables = self._tables
         return tables.of(path)
 
-    def options(self) -> ReadingOptions:
-        """How its recordings are read."""
-        settings = self.library().settings
-        return ReadingOptions(settings.options(), settings.effectors)
+    def options(self) -> tuple[ReadOptions, SegmentOptions]:
+        """Return how its recordings are read and segmented."""
+        library = self.library()
+        return library.read_options, library.segment_options
 
     def files(self) -> list[Path]:
         """Return the files of its recordings, without those at URLs."""

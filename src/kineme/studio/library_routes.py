@@ -106,7 +106,7 @@ class Figures:
         span = self._read(library, name).seconds(start_s, stop_s)
         if isinstance(span, Signals):
             return LibraryFigure(motion=None, numbers="", curves=_curves(span))
-        names = library.settings.effectors
+        names = library.segment_options.effectors
         try:
             head, numbers = display_motion(span, effectors=names)
         except KinemeError:  # names of effectors that this skeleton does not have

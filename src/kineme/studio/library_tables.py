@@ -64,15 +64,15 @@ class LibraryTables:
         }
         labels = zip(columns["cluster"].tolist(), columns["label"].tolist(), strict=True)
         names = {cluster: label for cluster, label in labels if cluster >= 0 and label}
-        settings, home = self._library.settings, self._library.folder
+        options, home = self._library.segment_options, self._library.folder
         return Segmentation.from_columns(
             columns,
             n_frames=int(n_frames),
             fps=float(fps),
             provenance={
                 "kineme": __version__,
-                "preset": settings.preset,
-                "parameters": dict(settings.constants),
+                "preset": options.preset,
+                "parameters": dict(options.constants),
                 "input": {"path": str(path), "format": kind},
                 "notes": [f"segments, clusters and names are those of the library {home.name}"],
             },

@@ -45,7 +45,7 @@ class LoadedRecording:
     def __init__(self, listed: ListedRecording, cache: RecordingCache):
         self.listed, self.path = listed, listed.path
         self._cache = cache
-        self.effectors = cache.options.effectors
+        self.effectors = cache.segment_options.effectors
         self._stamp = stamp_of(self.path)
         found = cache.read(listed)
         self.n_frames, self.fps = found.n_frames, found.fps
@@ -139,7 +139,7 @@ class LoadedRecording:
         Those found last are kept: what was looked at is often taken, or looked at in another
         detail. CancelledError where ``run`` was cancelled, or all of them (`runs`).
         """
-        from kineme.methods.segmenter import segment
+        from kineme.methods.segmenter import segment_with_options
 
         changed = dict[str, Any](parameters or {})
         check_offered(preset, changed, signals=not self.is_motion)
@@ -155,13 +155,13 @@ class LoadedRecording:
                 cancellable(present.go_on),
                 announce_compilation(present.stage),
             ):
-                segments = segment(
-                    found,
+                options = replace(
+                    self._cache.segment_options,
                     preset=preset,
-                    effectors=self.effectors,
-                    progress=present.stage,
-                    **changed,
+                    constants=changed,
+                    detail=DEFAULT_DETAIL,
                 )
+                segments, _ = segment_with_options(found, options, progress=present.stage)
             self._found = key, segments
         return segments if detail == DEFAULT_DETAIL else segments.at_detail(detail)
 

@@ -21,6 +21,7 @@ from pathlib import Path
 
 from msgspec import UNSET, structs
 
+from kineme._util.json import options_to_json
 from kineme.errors import KinemeError, ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments import editing
@@ -145,7 +146,7 @@ class OpenRecording:
                 ids=self._journal.ids.of(self._table),
                 saved=self._saved,
                 video=video_message(self.path),
-                reading=options_of(self.path),
+                read_options=options_to_json(options_of(self.path)),
                 take=read.take,
                 takes=[*read.takes],
                 file=file_id(self.path),

@@ -7,19 +7,21 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from msgspec import UNSET
 
 from kineme.errors import KinemeError, ParameterError, ReadError
+from kineme.formats import ReadOptions
 from kineme.labels.collections import Extent
+from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.choices import same_again
 from kineme.studio.folder import Folder
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.overview import brief_of, saved_brief
 from kineme.studio.reader import Reader
-from kineme.studio.reading import ReadingOptions, RecordingCache
+from kineme.studio.reading import RecordingCache
 from kineme.studio.running import NOTHING, READING
 from kineme.studio.sketches import SKETCH_REVISION, Sketch, Sketcher
 from kineme.studio.storage.listed import ListedRecording
@@ -38,7 +40,6 @@ Listener = Callable[[str, int], None]
 File = TypeVar("File", Path, ListedRecording)
 MOST_DRAWN = 6
 """Recordings whose pictures stay in memory: those asked for last."""
-NO_OPTIONS = ReadingOptions()
 
 
 class UnknownError(Exception):
@@ -55,14 +56,20 @@ class OpenRecordings:
     ``changed`` is called with id and revision when a table has changed.
     """
 
-    def __init__(self, folder: Folder, changed: Listener, options: ReadingOptions = NO_OPTIONS):
+    def __init__(
+        self,
+        folder: Folder,
+        changed: Listener,
+        read_options: ReadOptions | None = None,
+        segment_options: SegmentOptions | None = None,
+    ):
         self.folder = folder
         self._changed = changed
-        self._cache = RecordingCache(options)
+        self._cache = RecordingCache(read_options, segment_options)
         self._open: dict[str, OpenRecording] = {}
         self._asked: OrderedDict[str, None] = OrderedDict()
         self._reader = Reader(folder, self._cache)
-        self._sketcher = Sketcher(options)
+        self._sketcher = Sketcher(self._cache)
         self._lock = threading.Lock()
         self._opening: dict[str, threading.Lock] = {}
 
@@ -216,13 +223,13 @@ class OpenRecordings:
         self._changed(name, result.revision)
         return result
 
-    def read_as(self, name: str, options: dict[str, Any], *, everybody: bool = False) -> list[str]:
+    def read_as(self, name: str, options: ReadOptions, *, everybody: bool = False) -> list[str]:
         """Read a file otherwise from now on; the ids of the recordings that are asked for.
 
         Tables are made anew, those before kept. Another take of the file has a table of its own,
         and so has each of several people in it, once one or ``everybody`` was chosen: these are as
-        they were left. Options have the names of `kineme.formats.ReadOptions`; others are as for
-        all. KinemeError where it cannot be read so: it is read as before.
+        they were left. What ``options`` leave out is as for all. KinemeError where it cannot be
+        read so: it is read as before.
         """
         listed = _find_or_raise(self.folder.recordings(), name, "recording")
         changed, person = self._reader.change_options(listed, options, everybody=everybody)

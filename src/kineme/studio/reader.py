@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import fields, replace
 
 from kineme._util.checks import format_count
 from kineme.errors import KinemeError, SeveralPeopleError
+from kineme.formats import ReadOptions
 from kineme.studio.folder import Folder
 from kineme.studio.reading import RecordingCache
 from kineme.studio.storage.listed import ListedRecording
-from kineme.studio.storage.sidecars import (
-    Reading,
-    keep_given,
-    keep_reading,
-    options_of,
-    read_options,
-    reading_of,
-)
+from kineme.studio.storage.sidecars import keep_reading, options_of, read_options, reading_of
 from kineme.studio.storage.tables import usual_table
 
 
@@ -32,7 +26,7 @@ class Reader:
         Markers are read without being told; but which are whose people should know. Where a table
         of them has been saved, or a library was made of them, it is that person.
         """
-        person = listed.person or read_options(listed, self._cache.options.file).person
+        person = listed.person or read_options(listed, self._cache.read_options).person
         if person or self._folder.of_library or usual_table(listed):
             return
         people = self._cache.read(listed).provenance.people
@@ -41,42 +35,47 @@ class Reader:
             raise SeveralPeopleError(listed.path, reason, people)
 
     def change_options(
-        self, listed: ListedRecording, options: dict[str, Any], *, everybody: bool
+        self, listed: ListedRecording, options: ReadOptions, *, everybody: bool
     ) -> tuple[set[str], str]:
         """Read a file with these options from now on; KinemeError where it cannot be read so.
 
         Return the options that differ from those before, and which of several people was read.
         """
-        before = reading_of(listed.path)
-        after, person = self._read(listed, Reading(keep_given(options), before.people), everybody)
-        keep_reading(listed.path, after)
-        return after.differs_from(before), person
+        before, people = reading_of(listed.path)
+        after, people, person = self._read(listed, options, people, everybody)
+        keep_reading(listed.path, after, people)
+        # Another person is another recording, with a table of its own.
+        names = {each.name for each in fields(after)} - ({"person"} if people else set())
+        return {name for name in names if getattr(after, name) != getattr(before, name)}, person
 
     def _read(
-        self, listed: ListedRecording, choice: Reading, everybody: bool
-    ) -> tuple[Reading, str]:
-        """Return how a file is read from now on, and which of several people was read.
+        self,
+        listed: ListedRecording,
+        choice: ReadOptions,
+        known: tuple[str, ...],
+        everybody: bool,
+    ) -> tuple[ReadOptions, tuple[str, ...], str]:
+        """Return how a file is read from now on, who is in it, and which of them was read.
 
-        ``choice`` has the people of before.
+        ``known`` are the people of before.
         """
         people = self._cache.people(listed.path, choice) if everybody else ()
-        person = people[0] if people else choice.options.get("person") or listed.person
+        person = people[0] if people else choice.person or listed.person
         found = self._cache.read(ListedRecording(listed.path, person), choice).provenance
         people = people or found.people
         if self._folder.of_library:
-            return choice, ""
+            return choice, known, ""
         if len(people) < 2:
-            return Reading(choice.options), ""
-        before = options_of(listed.path).get("person", "")
-        first = before if listed.person else self._first_person(listed)
-        kept = choice.people if {*people} <= {*choice.people} and not everybody else people
-        return Reading({**choice.options, "person": first}, kept), found.person or ""
+            return choice, (), ""
+        first = options_of(listed.path).person if listed.person else self._first_person(listed)
+        kept = known if {*people} <= {*known} and not everybody else people
+        return replace(choice, person=first), kept, found.person or ""
 
-    def _first_person(self, listed: ListedRecording) -> str:
+    def _first_person(self, listed: ListedRecording) -> str | None:
         """Return whose the table of a file is, if one was saved before people were told apart."""
         if usual_table(listed) is None:
-            return ""
+            return None
         try:
-            return self._cache.read(listed).provenance.person or ""
+            return self._cache.read(listed).provenance.person
         except KinemeError:
-            return ""
+            return None

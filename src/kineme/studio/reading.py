@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import threading
 from collections import OrderedDict
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError
 from kineme.formats import ReadOptions, people_in, read_analog, read_quietly
 from kineme.labels.collections import Extent
+from kineme.methods.segmenter import SegmentOptions
 from kineme.studio.storage.listed import ListedRecording
-from kineme.studio.storage.sidecars import Reading, read_options
+from kineme.studio.storage.sidecars import read_options
 
 if TYPE_CHECKING:
-    from kineme.features import Names
     from kineme.recordings import Motion, Signals
 
 MOST_IN_MEMORY = 3
@@ -23,31 +22,29 @@ MOST_IN_MEMORY = 3
 Stamp = tuple[int, int]
 
 
-@dataclass(frozen=True)
-class ReadingOptions:
-    """What the files do not say themselves, and how head, hands and feet are called."""
-
-    file: ReadOptions = field(default_factory=ReadOptions)
-    effectors: Names | None = None
-
-
 class RecordingCache:
-    """Recordings used last; several can be read at once."""
+    """Recordings used last; several can be read at once.
 
-    def __init__(self, options: ReadingOptions) -> None:
-        self.options = options
+    They are read and segmented with these options where people say nothing else of one.
+    """
+
+    def __init__(
+        self, read_options: ReadOptions | None = None, segment_options: SegmentOptions | None = None
+    ) -> None:
+        self.read_options = read_options or ReadOptions()
+        self.segment_options = segment_options or SegmentOptions()
         self._lock = threading.Lock()
         self._reading: dict[tuple[Path, Stamp, str], threading.Lock] = {}
         self._recent: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
         self._extents: dict[tuple[Path, Stamp, str], Extent] = {}
 
-    def read(self, listed: ListedRecording, choice: Reading | None = None) -> Motion | Signals:
+    def read(self, listed: ListedRecording, choice: ReadOptions | None = None) -> Motion | Signals:
         """A recording, read from its file if it is not in memory; ReadError where it cannot be.
 
         It is read as people said of it, or as a ``choice`` says. Its provenance has what there is
         to warn of.
         """
-        path, options = listed.path, read_options(listed, self.options.file, choice)
+        path, options = listed.path, read_options(listed, self.read_options, choice)
         key = path, stamp_of(path), repr(options)
         with self._lock:
             reading = self._reading.setdefault(key, threading.Lock())
@@ -65,23 +62,23 @@ class RecordingCache:
 
     def extent(self, listed: ListedRecording) -> Extent:
         """How long a recording is, for which it is read once."""
-        options = read_options(listed, self.options.file)
+        options = read_options(listed, self.read_options)
         key = listed.path, stamp_of(listed.path), repr(options)
         if key not in self._extents:
             found = self.read(listed)
             self._extents[key] = Extent(found.n_frames, found.fps, found.provenance.clock)
         return self._extents[key]
 
-    def people(self, path: Path, choice: Reading) -> tuple[str, ...]:
+    def people(self, path: Path, choice: ReadOptions) -> tuple[str, ...]:
         """Those in a file that is read so, where there are several; it is read for it."""
-        return people_in(path, read_options(ListedRecording(path), self.options.file, choice))
+        return people_in(path, read_options(ListedRecording(path), self.read_options, choice))
 
     def analog(self, listed: ListedRecording) -> Signals | None:
         """Return the channels beside the motion in a file, read each time.
 
         None where there are none.
         """
-        return read_analog(listed.path, read_options(listed, self.options.file))
+        return read_analog(listed.path, read_options(listed, self.read_options))
 
 
 def stamp_of(path: Path) -> Stamp:

@@ -10,15 +10,17 @@ from __future__ import annotations
 from pathlib import Path
 from typing import cast, get_args
 
-from msgspec import UNSET, structs
+from msgspec import UNSET
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 from starlette.routing import Route
 
 from kineme._util.files import find_video
+from kineme._util.json import options_from_json
 from kineme._version import __version__
 from kineme.errors import ParameterError
+from kineme.formats import ReadOptions
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
@@ -74,7 +76,7 @@ from kineme.web.requests import (
     KnowledgeRequest,
     LabelsRequest,
     PreviewRequest,
-    ReadingRequest,
+    ReadRequest,
     VideoRequest,
 )
 
@@ -120,7 +122,7 @@ class Api:
             route(f"{one}/loops/{{number}}", self.loop),
             route(f"{one}/video", self.video),
             route(f"{one}/video", self.offset, VideoRequest),
-            route(f"{one}/reading", self.reading, ReadingRequest),
+            route(f"{one}/reading", self.reading, ReadRequest),
             Route("/api/events", self.events),
             Route("/api{rest:path}", self.unknown),
         ]
@@ -342,10 +344,10 @@ class Api:
         set_offset(self._opened(request).path, sent.offset_s)
         return sent
 
-    def reading(self, request: Request, sent: ReadingRequest) -> list[str]:
-        options = structs.asdict(sent)
-        everybody = options.pop("everybody")
-        return self._recordings.read_as(request.path_params["id"], options, everybody=everybody)
+    def reading(self, request: Request, sent: ReadRequest) -> list[str]:
+        options = options_from_json(ReadOptions, sent.options)
+        name = request.path_params["id"]
+        return self._recordings.read_as(name, options, everybody=sent.everybody)
 
     async def events(self, _: Request) -> Response:
         # sse-starlette would be one more dependency for the few lines of Hub.stream, no shorter.

@@ -20,9 +20,10 @@ from kineme.studio.http.events import Hub
 from kineme.studio.http.security import DEVELOPMENT, HeadersInTime, new_token
 
 if TYPE_CHECKING:
+    from kineme.formats import ReadOptions
+    from kineme.methods.segmenter import SegmentOptions
     from kineme.studio.library import ShownLibrary
     from kineme.studio.open_recordings import OpenRecordings
-    from kineme.studio.reading import ReadingOptions
 
 HOST = "127.0.0.1"
 PORT = 8750
@@ -52,7 +53,8 @@ def serve(
     root: Path,
     files: Iterable[Path] | None,
     *,
-    options: ReadingOptions,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
     port: int | None,
     browser: bool,
     announce: Callable[[str], None],
@@ -83,7 +85,7 @@ def serve(
 
         hub = Hub()
         folder = Folder(root, files) if library is None else library.as_folder()
-        recordings = OpenRecordings(folder, hub.tell, options)
+        recordings = OpenRecordings(folder, hub.tell, read_options, segment_options)
         forget_drafts(folder.root)
         config = uvicorn.Config(
             create_app(

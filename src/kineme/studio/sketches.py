@@ -7,10 +7,11 @@ from collections.abc import Callable
 
 from msgspec import Struct
 
+from kineme._util.json import options_to_json
 from kineme.errors import KinemeError
 from kineme.formats import sketch
 from kineme.studio.loading import one_segment
-from kineme.studio.reading import ReadingOptions
+from kineme.studio.reading import RecordingCache
 from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import options_of, read_options, video_message
 from kineme.web.messages import MatrixHead, Recording
@@ -38,8 +39,8 @@ class Sketch(Struct):
 class Sketcher:
     """Sketches of recordings, by their ids."""
 
-    def __init__(self, options: ReadingOptions):
-        self._options = options
+    def __init__(self, cache: RecordingCache):
+        self._cache = cache
         self._sketches: dict[str, Sketch | None] = {}
         self._lock = threading.Lock()
 
@@ -50,7 +51,7 @@ class Sketcher:
         """
         with self._lock:
             if listed.id not in self._sketches:
-                made = self._sketches[listed.id] = draw_sketch(listed, self._options)
+                made = self._sketches[listed.id] = draw_sketch(listed, self._cache)
                 if made is not None:
                     read(made)
             present = self._sketches[listed.id]
@@ -74,7 +75,7 @@ class Sketcher:
             return not made.is_open
 
 
-def draw_sketch(listed: ListedRecording, options: ReadingOptions) -> Sketch | None:
+def draw_sketch(listed: ListedRecording, cache: RecordingCache) -> Sketch | None:
     """Return what can be shown of a recording before it is read.
 
     None for a file that is soon read, or whose format has no shorter way.
@@ -86,10 +87,11 @@ def draw_sketch(listed: ListedRecording, options: ReadingOptions) -> Sketch | No
     try:
         if path.stat().st_size < LARGE:
             return None
-        found = sketch(path, read_options(listed, options.file), POSES)
+        found = sketch(path, read_options(listed, cache.read_options), POSES)
         if found is None:
             return None
-        head, binary = display_motion(found.motion, effectors=options.effectors)
+        effectors = cache.segment_options.effectors
+        head, binary = display_motion(found.motion, effectors=effectors)
     except (OSError, KinemeError):  # reading will say what is wrong
         return None
     table = one_segment("transition", found.n_frames, found.fps)
@@ -103,7 +105,7 @@ def draw_sketch(listed: ListedRecording, options: ReadingOptions) -> Sketch | No
         segmentation=segments_message(table),
         levels=[],
         video=video_message(path),
-        reading=options_of(path),
+        read_options=options_to_json(options_of(path)),
         revision=SKETCH_REVISION,
         can_undo=False,
         can_redo=False,

@@ -13,7 +13,6 @@ as in Motion Graphs++ (Min and Chai 2012). Transition phases have no name.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -22,6 +21,7 @@ import numpy as np
 
 from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
+from kineme.formats import ReadOptions
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,8 @@ class Source:
     path, sha256 : str or None
         The file, and its digest; None for a motion that came from no file.
     n_frames : int
-    options : mapping
-        The keywords that it was read with.
+    options : ReadOptions
+        How it was read.
 
     Examples
     --------
@@ -46,7 +46,7 @@ class Source:
     path: str | None
     sha256: str | None
     n_frames: int
-    options: Mapping[str, Any] = field(default_factory=dict)
+    options: ReadOptions = field(default_factory=ReadOptions)
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ One object:
 
 Paths are relative to the graph's folder. The recordings are not in the file:
 they are read again, with ``options``, and must be the same byte for byte. A
-reader must ignore names it does not know; a change that old readers would
-misunderstand gets the next number.
+reader must ignore names it does not know, but for those of ``options``; a change
+that old readers would misunderstand gets the next number.
 """
 
 from __future__ import annotations
@@ -28,14 +28,13 @@ from pathlib import Path
 from typing import Any
 
 from kineme._util.files import atomic_write, translate_read_errors
-from kineme._util.json import convert_json, load_json
+from kineme._util.json import convert_json, load_json, options_from_json, options_to_json
 from kineme.errors import ParameterError, ReadError
-from kineme.formats import read_motion
+from kineme.formats import ReadOptions, read_motion
 from kineme.recordings import Motion
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 
 SCHEMA = "kineme.motion-graph/1"
-OPTIONS = ("skeleton", "fps", "unit", "up")
 
 _MOST = 1e9  # metres, radians
 _FASTEST = 1e6  # frames per second; also metres and seconds
@@ -162,17 +161,18 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
         # Digests must match: spans of frames mean nothing in a changed file.
         if digest != source.sha256:
             raise ReadError(path, "has changed since the graph was built on it: build it anew")
-        motions.append(read_motion(path, **source.options))
+        motions.append(read_motion(path, **vars(source.options)))
     return motions
 
 
 def _source_cells(source: Source, folder: Path) -> dict[str, Any]:
     if source.path is None or source.sha256 is None:
         raise ParameterError("a graph can be written if its motions were read from files")
-    options = dict(source.options)
-    if "skeleton" in options:
-        options["skeleton"] = _relative(options["skeleton"], folder)
-    return asdict(replace(source, path=_relative(source.path, folder), options=options))
+    options = source.options
+    if options.skeleton is not None:
+        options = replace(options, skeleton=_relative(options.skeleton, folder))
+    path = _relative(source.path, folder)
+    return {**vars(source), "path": path, "options": options_to_json(options)}
 
 
 def _relative(path: str, folder: Path) -> str:
@@ -189,6 +189,8 @@ def _graph(data: dict[str, Any]) -> MotionGraph:
     for name, kind in (("sources", Source), ("nodes", Node), ("edges", Edge)):
         for row in data[name]:
             _check_complete(row, kind)
+    for row in data["sources"]:
+        options_from_json(ReadOptions, row["options"])  # refuses options it does not know
     for part, sound in _sound(graph):
         if not sound:
             raise ValueError(str(part))
@@ -203,10 +205,9 @@ def _check_complete(row: dict[str, Any], kind: Any) -> None:
 
 def _resolve_source(source: Source, folder: Path) -> Source:
     """Return a source whose paths, in the file relative to its folder, are found from anywhere."""
-    # Unknown options of a newer version are left out.
-    options = {name: value for name, value in source.options.items() if name in OPTIONS}
-    if "skeleton" in options:
-        options["skeleton"] = str(folder / options["skeleton"])
+    options = source.options
+    if options.skeleton is not None:
+        options = replace(options, skeleton=str(folder / options.skeleton))
     return replace(source, path=str(folder / str(source.path)), options=options)
 
 
@@ -216,8 +217,8 @@ def _sound(graph: MotionGraph) -> Iterator[tuple[object, bool]]:
         value = getattr(graph, name)
         yield f"{name} is {value}", 0 < value < _FASTEST
     for source in graph.sources:
-        names = (source.path, source.sha256, source.options.get("skeleton", ""))
-        yield source, source.n_frames > 0 and all(isinstance(name, str) for name in names)
+        named = isinstance(source.path, str) and isinstance(source.sha256, str)
+        yield source, source.n_frames > 0 and named
     frames = [source.n_frames for source in graph.sources]
     for node in graph.nodes:
         placed = node.source in range(len(frames)) and node.cluster >= -1

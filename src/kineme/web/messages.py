@@ -200,7 +200,7 @@ class Video(Struct, frozen=True, kw_only=True):
 class Recording(Struct, frozen=True, kw_only=True):
     """Everything a page needs of one recording but the binary parts.
 
-    ``reading`` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+    ``read_options`` has what people said of how it is read (`kineme.web.requests.ReadRequest`),
     ``takes`` the animations in its file, of which ``take`` is this one, ``people`` those in it,
     where there are several, of whom ``person`` is this one: what has the same ``file`` is of the
     same time and space. ``levels`` are the tables at all details, coarsest first, in a report; the
@@ -219,7 +219,7 @@ class Recording(Struct, frozen=True, kw_only=True):
     segmentation: Segments
     levels: list[TableAtDetail]
     video: Video | None
-    reading: dict[str, Any]
+    read_options: dict[str, Any]
     take: str | None = None
     takes: list[str] = []
     file: str = ""

@@ -97,7 +97,7 @@ def recording_message(
         segmentation=segments_message(segmentation),
         levels=_levels(segmentation) if levels else [],
         video=None,
-        reading={},
+        read_options={},
         revision=0,
         can_undo=False,
         can_redo=False,

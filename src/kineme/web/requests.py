@@ -253,18 +253,14 @@ class VideoRequest(Request, frozen=True, kw_only=True):
     offset_s: Number
 
 
-class ReadingRequest(Request, frozen=True, kw_only=True):
-    """How a recording is read; empty: as the file says.
+class ReadRequest(Request, frozen=True, kw_only=True):
+    """How a recording is read: what is to be other than the file says, by its name.
 
-    Of several people in it ``person`` is to be shown, or ``everybody``.
+    The names are those of `kineme.formats.ReadOptions`. ``everybody`` shows all people in it.
     """
 
-    person: Text = ""
+    options: dict[Text, Text | Number | bool | list[Text]]
     everybody: bool = False
-    take: Text = ""
-    fps: Number = 0
-    unit: Text = ""
-    up: Text = ""
 
 
 class CompareRequest(Request, frozen=True, kw_only=True):

@@ -11,8 +11,9 @@ import typer
 from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.method import SET, Constants, constants_of
-from kineme.cli.options.reading import Quiet
+from kineme.cli.options.reading import Quiet, split_names
 from kineme.errors import KinemeError, ReadError, WriteError
+from kineme.formats.options import ReadOptions
 from kineme.methods.presets import DEFAULT
 
 BENCHMARK = "cmu86"
@@ -139,7 +140,7 @@ def evaluate(
     failures = Failures()
     with failures.caught(what):
         _check_output(output)
-        names = [*_split_names(*(method or ()))]
+        names = [*split_names(*(method or ()))]
         if what != BENCHMARK and Path(what).is_dir():
             if not labels:
                 raise typer.BadParameter("--labels FILE or FOLDER is needed for a folder")
@@ -155,7 +156,6 @@ def evaluate(
             if clusters is not None and mapping != "folder":
                 raise typer.BadParameter("--clusters N is of --mapping folder")
             from kineme.cli.evaluate.folder import run_folder
-            from kineme.evaluation.recordings import Reading
 
             scored = run_folder(
                 Path(what),
@@ -163,7 +163,8 @@ def evaluate(
                 names or [DEFAULT],
                 mapping=mapping,
                 n_clusters=clusters,
-                reading=Reading(_split_names(columns), _split_names(without_columns)),
+                read_options=ReadOptions(columns=split_names(columns) or None),
+                without=split_names(without_columns),
                 constants=constants_of(names or [DEFAULT], constants) if constants else {},
                 output=output,
                 as_json=as_json,
@@ -208,12 +209,6 @@ def _benchmark() -> Callable[..., list[dict[str, Any]]]:
         f"{BENCHMARK} needs the package kineme-reproduction: in the folder of kineme's sources, "
         "pip install ./reproduction"
     )
-
-
-def _split_names(*texts: str | None) -> tuple[str, ...]:
-    """Return the names in texts with commas between them."""
-    names = (name.strip() for text in texts if text for name in text.split(","))
-    return tuple(name for name in names if name)
 
 
 def _check_output(output: Path | None) -> None:

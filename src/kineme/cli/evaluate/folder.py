@@ -14,9 +14,10 @@ from kineme.cli.tables import show_table
 from kineme.cli.terminal import harmless
 from kineme.errors import ParameterError
 from kineme.evaluation.folder import Evaluated, FolderScores, Mapped, evaluate_folder
-from kineme.evaluation.recordings import Reading, check_method, recordings_below
+from kineme.evaluation.recordings import check_method, recordings_below
 from kineme.evaluation.score import scores
 from kineme.evaluation.tables import explain_disagreement, format_score, score_rows, write_result
+from kineme.formats.options import ReadOptions
 from kineme.labels.collections import labels_and_strays
 
 NAMED = 5
@@ -30,7 +31,8 @@ def run_folder(
     *,
     mapping: Mapped,
     n_clusters: int | None,
-    reading: Reading,
+    read_options: ReadOptions,
+    without: Sequence[str],
     constants: Mapping[str, Any],
     output: Path | None,
     as_json: bool,
@@ -51,7 +53,8 @@ def run_folder(
             methods,
             mapping=mapping,
             n_clusters=n_clusters,
-            reading=reading,
+            read_options=read_options,
+            without=without,
             constants=constants,
             progress=stage,
         )

@@ -13,15 +13,21 @@ from kineme._util.parallel import count_threads
 from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
 from kineme.cli.library.commands import Scheduler, path_or_url
 from kineme.cli.messages import Failures, one_line, progress, say_skipped
+from kineme.cli.options.declare import add_options, are_given
 from kineme.cli.options.inputs import Batch
+from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.request import SEGMENTING, Request, asks
+from kineme.formats.options import ReadOptions
+from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
-    from kineme.library import Built, Settings
+    from kineme.library import Built
 
 
-@asks(READING | SEGMENTING)
+OPTIONS = READING | SEGMENTING
+
+
+@add_options(OPTIONS)
 def build(
     into: Annotated[
         Path,
@@ -33,7 +39,9 @@ def build(
             metavar="LIB",
         ),
     ],
-    request: Request,
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
+    context: typer.Context,
     files: Annotated[
         list[Path] | None,
         typer.Argument(
@@ -81,20 +89,11 @@ def build(
             from kineme.library.executors import start_soon
 
             start_soon()  # what is imported next takes a while as well
-        from kineme.library import Settings
         from kineme.library.building import build as build_library
         from kineme.library.planning import sources_after
         from kineme.library.storage.places import is_remote
 
-        settings: Settings | None = None
-        if not request.is_default:
-            settings = Settings(
-                str(request.options.preset),
-                request.options.constants,
-                request.reading,
-                request.effectors,
-                request.detail,
-            )
+        as_before = not are_given(context, OPTIONS)
         sources = sources_after(into, files or (), remove or ())
         with progress(into, quiet=quiet) as stage:
             built = build_library(
@@ -102,7 +101,8 @@ def build(
                 into,
                 remove=remove or (),
                 recursive=recursive,
-                settings=settings,
+                read_options=None if as_before else read_options,
+                segment_options=None if as_before else segment_options,
                 jobs=processes,
                 client=scheduler,
                 progress=stage,

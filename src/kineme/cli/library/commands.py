@@ -170,7 +170,8 @@ def _facts(library: Library) -> dict[str, Any]:
         "unsure": library.unsure(),
         "failed": library.failed,
         "sources": library.head["sources"],
-        "settings": library.head["settings"],
+        "read_options": library.head["read_options"],
+        "segment_options": library.head["segment_options"],
     }
 
 

@@ -17,11 +17,12 @@ import typer
 from kineme._util.files import add_person
 from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
+from kineme.cli.options.reading import options_by_person
 from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for
 from kineme.errors import KinemeError, ReadError, WriteError
 
 if TYPE_CHECKING:
-    from kineme.cli.options.request import Request
+    from kineme.formats.options import ReadOptions
 
 Files = Annotated[
     list[Path],
@@ -118,24 +119,24 @@ class Batch:
     def each_person(
         self,
         path: Path,
-        request: Request,
+        read_options: ReadOptions,
         work: Callable[..., None],
         *targets: Path | None,
         tables: tuple[str, Path | None] = ("", None),
     ) -> None:
         """Have work done for each of the people in a recording who are asked for; once by default.
 
-        It is called with the path, what is asked, the table of that person where ``tables`` are
-        given by option and place, and the targets, called after the person. What is wrong with one
-        person costs that one alone.
+        It is called with the path, how that person is read, the table of that person where
+        ``tables`` are given by option and place, and the targets, called after the person. What is
+        wrong with one person costs that one alone.
         """
         with self.caught(path):
             failures = []
-            for person, asked in request.of_each_person(path):
-                table = self.table(path, *tables, asked.person)
+            for person, options in options_by_person(path, read_options):
+                table = self.table(path, *tables, options.person or "")
                 places = [each and add_person(each, person) for each in targets]
                 try:
-                    work(path, asked, table, *places)
+                    work(path, options, table, *places)
                 except ReadError as error:
                     failures.append(error)
             if failures:

@@ -1,4 +1,4 @@
-"""How a command segments: ``--preset``, ``--set NAME=VALUE``, ``--detail``.
+"""How a command segments: ``--preset``, ``--set NAME=VALUE``, ``--detail``, ``--effectors``.
 
 All of it comes from the registered presets and what each `Constant` says of itself. A preset
 or a constant that is added, here or by another package, can be given to every command that
@@ -7,15 +7,17 @@ segments. Values are typed as they are shown: ``0.5``, ``none``, ``yes``, ``1,1 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from types import NoneType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin
 
 import typer
 
-from kineme.cli.help import METHOD, PRESETS, option
+from kineme.cli.help import METHOD, PRESETS, READING_OPTIONS, option
 from kineme.errors import ParameterError
-from kineme.methods.presets import resolve_preset
+from kineme.methods.presets import DEFAULT, resolve_preset
+from kineme.methods.segmenter import SegmentOptions
+from kineme.segments.hierarchy import DEFAULT_DETAIL
 
 if TYPE_CHECKING:
     from kineme.methods.constants import Constant
@@ -43,6 +45,56 @@ Detail = Annotated[
         metavar="NUMBER",
     ),
 ]
+Effectors = Annotated[
+    str | None,
+    option(
+        READING_OPTIONS,
+        "Joints at left and right ankle, head, left and right wrist; or some, as in "
+        "head=NAME,left_wrist=NAME.",
+        metavar="NAME,NAME,…",
+    ),
+]
+
+SEGMENTING: dict[str, Any] = {
+    "preset": PresetName,
+    "detail": Detail,
+    "constants": Constants,
+    "effectors": Effectors,
+}
+"""What `kineme.segment` takes besides the recording."""
+
+
+def make_segment_options(
+    *,
+    preset: str | None = None,
+    detail: float | None = None,
+    constants: Sequence[str] | None = None,
+    effectors: str | None = None,
+    emg: bool = False,
+) -> SegmentOptions:
+    """Return the options as they were typed; typer.BadParameter where one makes no sense."""
+    chosen = preset or DEFAULT
+    try:
+        return SegmentOptions(
+            preset=chosen,
+            constants=constants_of([chosen], constants or ()),
+            effectors=effector_names(effectors),
+            detail=DEFAULT_DETAIL if detail is None else detail,
+            emg=emg,
+        )
+    except ParameterError as error:
+        raise typer.BadParameter(str(error), param_hint="--detail") from error
+
+
+def effector_names(text: str | None) -> Mapping[str, str] | list[str] | None:
+    """Return joint names as `end_effectors` takes them."""
+    if text is None:
+        return None
+    names = text.split(",")
+    if "=" not in text:
+        return names
+    pairs = [name.partition("=") for name in names]
+    return {part.strip().replace(" ", "_"): name for part, _, name in pairs}
 
 
 def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:

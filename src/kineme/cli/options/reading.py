@@ -1,13 +1,13 @@
 """How a command reads recordings: what people say of them that their files do not.
 
-`BODY` and `READING` are the keywords of `kineme.read`; `kineme.cli.options.request.asks` gives
-them to a command.
+`BODY` and `READING` are the keywords of `kineme.read`; `kineme.cli.options.declare.add_options`
+gives them to a command.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -15,6 +15,7 @@ import typer
 
 from kineme.cli.help import INPUT, OUTPUT, READING_OPTIONS, option
 from kineme.errors import ParameterError
+from kineme.formats.options import ReadOptions
 
 Skeleton = Annotated[
     Path | None, option(READING_OPTIONS, "ASF skeleton of an AMC file.", metavar="FILE")
@@ -36,15 +37,6 @@ Confidence = Annotated[
 Take = Annotated[
     str | None,
     option(READING_OPTIONS, "Which of several animations, by name or number.", metavar="NAME"),
-]
-Effectors = Annotated[
-    str | None,
-    option(
-        READING_OPTIONS,
-        "Joints at left and right ankle, head, left and right wrist; or some, as in "
-        "head=NAME,left_wrist=NAME.",
-        metavar="NAME,NAME,…",
-    ),
 ]
 Columns = Annotated[
     str | None,
@@ -78,34 +70,40 @@ BODY: dict[str, Any] = {
 """What `kineme.read` takes besides the path, for a motion."""
 READING: dict[str, Any] = {**BODY, "columns": Columns, "emg": Emg}
 """And for either kind of recording."""
+ALL_PEOPLE = "all"
+"""With --person: each of the people in a recording."""
 
 
-def keywords_of(given: dict[str, Any]) -> dict[str, Any]:
-    """Keywords for `kineme.read`, before any file is opened."""
-    from kineme.formats import ReadOptions
-
-    keywords = {
-        name: value for name, value in given.items() if value is not None and value is not False
-    }
-    with suppress(KeyError, ValueError):
-        keywords["unit"] = float(keywords["unit"])
-    if "columns" in keywords:
-        keywords["columns"] = tuple(filter(None, map(str.strip, keywords["columns"].split(","))))
-        if not keywords["columns"]:
+def make_read_options(*, emg: bool | None = None, **given: Any) -> ReadOptions:
+    """Return the options as they were typed; typer.BadParameter where one makes no sense."""
+    with suppress(KeyError, TypeError, ValueError):
+        given["unit"] = float(given["unit"])
+    if (columns := given.get("columns")) is not None:
+        given["columns"] = split_names(columns)
+        if not given["columns"]:
             raise typer.BadParameter("names no column", param_hint="--columns")
     try:
-        ReadOptions(**keywords)
+        return ReadOptions(**given, emg=bool(emg))
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    return keywords
 
 
-def effector_names(text: str | None) -> Mapping[str, str] | list[str] | None:
-    """Joint names as `end_effectors` takes them."""
-    if text is None:
-        return None
-    names = text.split(",")
-    if "=" not in text:
-        return names
-    pairs = [name.partition("=") for name in names]
-    return {part.strip().replace(" ", "_"): name for part, _, name in pairs}
+def split_names(*texts: str | None) -> tuple[str, ...]:
+    """Return the names in texts with commas between them."""
+    names = (name.strip() for text in texts if text for name in text.split(","))
+    return tuple(name for name in names if name)
+
+
+def options_by_person(path: Path, options: ReadOptions) -> list[tuple[str, ReadOptions]]:
+    """Return the people in a file if all are asked for, and how each of them is read.
+
+    A single one, or the one who was named, goes without a name.
+    """
+    if options.person != ALL_PEOPLE:
+        return [("", options)]
+    from kineme.formats import people_in
+
+    people = people_in(path, options)
+    if not people:
+        return [("", replace(options, person=None))]
+    return [(who, replace(options, person=who)) for who in people]

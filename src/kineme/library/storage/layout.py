@@ -24,7 +24,7 @@ from kineme.library.storage.places import is_remote, place, written
 if sys.platform != "win32":
     import fcntl
 
-SCHEMA = "kineme.library/4"
+SCHEMA = "kineme.library/5"
 """Of the folder; a change that old readers would misunderstand gets the next number."""
 HEAD, EDITS, STATES = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"
@@ -39,7 +39,8 @@ _KINDS = {
     "clustering": dict,
     "failed": dict,
     "following": int,
-    "settings": dict,
+    "read_options": dict,
+    "segment_options": dict,
     "sources": list,
     "tables": str,
 }

@@ -13,16 +13,17 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, TypedDict, TypeVar
+from typing import Annotated, Any, TypeVar
 
 from msgspec import Meta, Struct
 
+from kineme._util.checks import as_texts
 from kineme._util.files import OwnedFolder, atomic_write, find_video
-from kineme._util.json import load_json
+from kineme._util.json import load_json, options_from_json, options_to_json
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
 from kineme.studio.storage.listed import ListedRecording
@@ -30,51 +31,26 @@ from kineme.web.messages import Video
 from kineme.web.requests import LARGEST
 
 FOLDER = ".kineme"
-OPTIONS = ("person", "take", "fps", "unit", "up")
-"""Of the reader, those that the page asks for."""
 LABELS = "labels.json"
 READING = "reading"
 Content = TypeVar("Content")
-
-
-class _Reading(TypedDict, total=False):
-    person: str | None
-    take: str | None
-    fps: float | None
-    unit: str | float | None
-    up: str | None
-    people: list[str]
 
 
 class _Offset(Struct):
     offset_s: Annotated[float, Meta(ge=-LARGEST, le=LARGEST)] = 0.0
 
 
-@dataclass(frozen=True)
-class Reading:
-    """How a file is read, as people said, and who is in it, where each is a recording of its own.
+def reading_of(recording: Path) -> tuple[ReadOptions, tuple[str, ...]]:
+    """Return how a file is read, as people said, and who is in it.
 
-    ``options`` have the names of `OPTIONS`.
+    These are named where each of several people is a recording of its own.
     """
-
-    options: dict[str, Any] = field(default_factory=dict)
-    people: Sequence[str] = ()
-
-    def differs_from(self, other: Reading) -> set[str]:
-        """Return the options that are others; another person of several is another recording."""
-        # Another person is another recording, with a table of its own.
-        names = {name for name in OPTIONS if name != "person" or not self.people}
-        return {name for name in names if self.options.get(name) != other.options.get(name)}
-
-
-def reading_of(recording: Path) -> Reading:
-    """Return what people said of how a recording is read."""
     return _reading(recording)[0]
 
 
-def options_of(recording: Path) -> dict[str, Any]:
+def options_of(recording: Path) -> ReadOptions:
     """Return the options alone."""
-    return reading_of(recording).options
+    return reading_of(recording)[0]
 
 
 def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
@@ -87,30 +63,24 @@ def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
         if folder not in present:
             present[folder] = _names_in(folder)
         is_present = _sidecar(path, READING).name in present[folder]
-        choice = reading_of(path) if is_present else Reading()
-        first = choice.options.get("person")
-        found += [ListedRecording(path, who, who == first) for who in choice.people]
-        found += [] if choice.people else [ListedRecording(path)]
+        options, people = reading_of(path) if is_present else (ReadOptions(), ())
+        found += [ListedRecording(path, who, who == options.person) for who in people]
+        found += [] if people else [ListedRecording(path)]
     return found
 
 
 def read_options(
-    listed: ListedRecording, general: ReadOptions, choice: Reading | None = None
+    listed: ListedRecording, general: ReadOptions, choice: ReadOptions | None = None
 ) -> ReadOptions:
-    """How a recording is read: as people said of it, or as a ``choice`` says; else as of all."""
-    options = replace(general, **(choice or reading_of(listed.path)).options)
+    """Return how a recording is read: by a ``choice``, or as people said of it; else as all."""
+    options = replace(general, **options_to_json(choice or options_of(listed.path)))
     return replace(options, person=listed.person) if listed.person else options
 
 
-def keep_reading(recording: Path, choice: Reading) -> None:
+def keep_reading(recording: Path, options: ReadOptions, people: Sequence[str]) -> None:
     """Keep what people say of how a file is read, and who is in it."""
-    content = {**keep_given(choice.options), "people": [*choice.people]}
+    content = {**options_to_json(options), "people": [*people]}
     write_file(_sidecar(recording, READING), json.dumps(content).encode())
-
-
-def keep_given(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Those of the options that say something."""
-    return {name: value for name, value in options.items() if name in OPTIONS and value}
 
 
 def video_message(recording: Path) -> Video | None:
@@ -183,16 +153,16 @@ def _root_of(path: Path) -> Path:
     return next(folder.parent for folder in path.parents if folder.name == FOLDER)
 
 
-def _reading(recording: Path) -> tuple[Reading, list[str]]:
+def _reading(recording: Path) -> tuple[tuple[ReadOptions, tuple[str, ...]], list[str]]:
     path = _sidecar(recording, READING)
-    content, notes = read_sidecar(path, _Reading, _Reading())
-    choice = Reading(keep_given(content), content.get("people", []))
+    people: tuple[str, ...] = ()
+    content, notes = read_sidecar(path, dict[str, Any], {})
     try:
-        ReadOptions(**choice.options)
+        people = as_texts(content.pop("people", ()), "people")
+        return (options_from_json(ReadOptions, content), people), notes
     except KinemeError as error:
         wrong = f"{path.name} was left alone: it holds a wrong option: {error}"
-        return replace(choice, options={}), [*notes, wrong]
-    return choice, notes
+        return (ReadOptions(), people), [*notes, wrong]
 
 
 def _video(recording: Path) -> tuple[_Offset, list[str]]:

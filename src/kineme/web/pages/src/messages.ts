@@ -227,7 +227,7 @@ export interface Video {
 /**
  * Everything a page needs of one recording but the binary parts.
  *
- * `reading` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+ * `read_options` has what people said of how it is read (`kineme.web.requests.ReadRequest`),
  * `takes` the animations in its file, of which `take` is this one, `people` those in it,
  * where there are several, of whom `person` is this one: what has the same `file` is of the
  * same time and space. `levels` are the tables at all details, coarsest first, in a report; the
@@ -246,7 +246,7 @@ export interface Recording {
   segmentation: Segments;
   levels: TableAtDetail[];
   video: Video | null;
-  reading: Record<string, unknown>;
+  read_options: Record<string, unknown>;
   take?: string | null;
   takes?: string[];
   file?: string;
@@ -729,17 +729,13 @@ export interface VideoRequest {
 }
 
 /**
- * How a recording is read; empty: as the file says.
+ * How a recording is read: what is to be other than the file says, by its name.
  *
- * Of several people in it `person` is to be shown, or `everybody`.
+ * The names are those of `kineme.formats.ReadOptions`. `everybody` shows all people in it.
  */
-export interface ReadingRequest {
-  person?: string;
+export interface ReadRequest {
+  options: Record<string, string | number | boolean | string[]>;
   everybody?: boolean;
-  take?: string;
-  fps?: number;
-  unit?: string;
-  up?: string;
 }
 
 /** Another result to lay beside the shown one: a preset's, or a file's of the folder. */

@@ -23,7 +23,7 @@ function page(): Store {
       warnings: [],
       levels: [],
       video: null,
-      reading: {},
+      read_options: {},
     },
   } satisfies Recording);
   store.add({ data: {} as RecordingData, recording, motion: signal(null) });

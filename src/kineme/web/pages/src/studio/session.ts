@@ -6,7 +6,7 @@
  */
 
 import { computed, effect, signal, untracked } from "@preact/signals";
-import type { Changed, ReadingRequest, Recording, State } from "../messages";
+import type { Changed, ReadRequest, Recording, State } from "../messages";
 import type { Motion } from "../motion";
 import { loadMotion, type OpenRecording } from "../opened";
 import type { Store } from "../store";
@@ -152,7 +152,7 @@ export class Session {
   }
 
   /** Reads a file otherwise from now on, and shows it, or the people of it who are asked for. */
-  async readAs(id: string, request: ReadingRequest): Promise<void> {
+  async readAs(id: string, request: ReadRequest): Promise<void> {
     let asked: string[];
     try {
       asked = await this.api.readAs(id, request);

@@ -58,7 +58,7 @@ export function recording(segmentation = table(), revision = 0): Recording {
     segmentation,
     levels: [],
     video: null,
-    reading: {},
+    read_options: {},
     revision,
     can_undo: false,
     can_redo: false,

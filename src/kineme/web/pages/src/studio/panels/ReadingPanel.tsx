@@ -15,31 +15,32 @@ export function ReadingPanel(): JSX.Element | null {
   const form = useRef<HTMLFormElement>(null);
   const busy = useSignal(false);
   const id = unread?.id ?? recording?.id;
-  const reading = (!unread && recording?.reading) || {};
+  const known = (!unread && recording?.read_options) || {};
   const takes = (!unread && recording?.takes) || [];
   const people = unread ? unread.people : (recording?.people ?? []);
   const shown = unread ? [] : session.store.people.value;
   const option = (name: string): string => {
-    const value = reading[name];
+    const value = known[name];
     return typeof value === "string" || typeof value === "number" ? String(value) : "";
   };
   const person = unread ? "" : (recording?.person ?? option("person"));
   if (!id) return null;
-  const read = async (chosen: { person?: string; everybody?: boolean } = {}): Promise<void> => {
-    const given = new FormData(form.current!);
+  const read = async (chosen = person, everybody = false): Promise<void> => {
+    const fields = new FormData(form.current!);
     const text = (name: string): string => {
-      const value = given.get(name);
+      const value = fields.get(name);
       return typeof value === "string" ? value.trim() : "";
     };
     busy.value = true;
-    await session.readAs(id, {
-      person: people.length ? person : text("person"),
+    const given = {
+      person: people.length ? chosen : text("person"),
       take: text("take"),
-      fps: Number(text("fps")) || 0,
+      fps: Number(text("fps")),
       unit: text("unit"),
       up: text("up"),
-      ...chosen,
-    });
+    };
+    const options = Object.fromEntries(Object.entries(given).filter(([, value]) => value));
+    await session.readAs(id, { options, everybody });
     busy.value = false;
   };
   return (
@@ -47,7 +48,7 @@ export function ReadingPanel(): JSX.Element | null {
       class="reading-panel"
       key={`${id} ${unread !== null}`}
       open={
-        unread !== null || Object.keys(reading).length > 0 || takes.length > 1 || people.length > 0
+        unread !== null || Object.keys(known).length > 0 || takes.length > 1 || people.length > 0
       }
     >
       <summary>How {unread ? unread.name : "this file"} is read</summary>
@@ -118,7 +119,7 @@ function People(props: {
   shown: readonly string[];
   /** Whether nobody was chosen yet. */
   question: boolean;
-  read: (chosen: { person?: string; everybody?: boolean }) => Promise<void>;
+  read: (person?: string, everybody?: boolean) => Promise<void>;
 }): JSX.Element {
   const { names, shown, question, read } = props;
   const { session } = useStudio();
@@ -132,7 +133,7 @@ function People(props: {
           type="button"
           aria-pressed={shown.includes(name)}
           title={`Show ${personCalled(name)} alone: each has a table of their own`}
-          onClick={() => void read({ person: name })}
+          onClick={() => void read(name)}
         >
           {personCalled(name)}
         </button>
@@ -143,7 +144,7 @@ function People(props: {
           class={question ? "primary" : ""}
           aria-pressed={all}
           title="Show all of them together, in the same time and space"
-          onClick={() => void read({ everybody: true })}
+          onClick={() => void read(undefined, true)}
         >
           All {names.length} people
         </button>

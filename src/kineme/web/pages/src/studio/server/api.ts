@@ -32,7 +32,7 @@ import type {
   Listing,
   PlayedLoop,
   Preview,
-  ReadingRequest,
+  ReadRequest,
   PreviewRequest,
   Progress,
   Recording,
@@ -206,7 +206,7 @@ export class Api {
   }
 
   /** How a file is read from now on; the recordings that are asked for. */
-  readAs(id: string, request: ReadingRequest): Promise<string[]> {
+  readAs(id: string, request: ReadRequest): Promise<string[]> {
     return this.post("/api/recordings/{id}/reading", { id }, request);
   }
 

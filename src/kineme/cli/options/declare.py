@@ -1,0 +1,50 @@
+"""Declare how a command reads and segments: its options reach it as two checked objects."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable, Mapping
+from functools import wraps
+from typing import Any
+
+import typer
+
+from kineme.cli.options.method import SEGMENTING, make_segment_options
+from kineme.cli.options.reading import make_read_options
+
+
+def add_options(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command options for reading, and for segmenting if these are among them.
+
+    They reach it as ``read_options``, a `ReadOptions`, and ``segment_options``, a `SegmentOptions`.
+    """
+    added = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=option)
+        for name, option in options.items()
+    ]
+
+    def decorate(command: Callable[..., None]) -> Callable[..., None]:
+        signature = inspect.signature(command, eval_str=True)
+        made = ("read_options", "segment_options")
+        own = [each for name, each in signature.parameters.items() if name not in made]
+
+        @wraps(command)
+        def wrapped(**values: Any) -> None:
+            given = {name: values.pop(name) for name in options}
+            method = {name: given.pop(name) for name in SEGMENTING if name in given}
+            values["read_options"] = read_options = make_read_options(**given)
+            if method:
+                emg = read_options.emg
+                values["segment_options"] = make_segment_options(**method, emg=emg)
+            command(**values)
+
+        # typer declares the options of a command by its signature.
+        wrapped.__signature__ = signature.replace(parameters=[*own, *added])  # type: ignore[attr-defined]
+        return wrapped
+
+    return decorate
+
+
+def are_given(context: typer.Context, options: Iterable[str]) -> bool:
+    """Return whether a user gave any of these options."""
+    return any(context.params[name] for name in options)
