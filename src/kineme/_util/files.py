@@ -19,6 +19,7 @@ from typing import Any
 
 from kineme.errors import FileError, KinemeError, LinkError, ReadError, WriteError
 
+AnyPath = str | os.PathLike[str]
 HEAD = 4096
 """Bytes by which a file is known without reading it whole."""
 TAIL = 1 << 16

@@ -15,7 +15,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, TypeVar, overload
 
-from kineme._util.files import refuse_pipe
+from kineme._util.files import AnyPath, refuse_pipe
 from kineme.errors import ParameterError, ReadError
 
 DEEPEST = 64
@@ -24,7 +24,6 @@ LARGEST = sys.float_info.max
 """Of any number; whole ones beyond are none that can be computed with."""
 TOO_DEEP = f"holds more than {DEEPEST} lists and objects inside one another"
 
-AnyPath = str | PathLike[str]
 Shape = TypeVar("Shape")
 Options = TypeVar("Options")
 
@@ -98,17 +97,9 @@ def sentence(problem: str, everything: str = "the whole of it") -> str:
 
 
 def options_to_json(options: object) -> dict[str, Any]:
-    """Return the options that differ from their defaults, as JSON holds them.
+    """Return the options of a dataclass that differ from their defaults, as JSON holds them.
 
-    Parameters
-    ----------
-    options : dataclass
-        Every field has a default, such as `kineme.formats.ReadOptions`.
-
-    Raises
-    ------
-    ParameterError
-        JSON cannot hold a value, such as an array or a preset of one's own.
+    ParameterError for a value that JSON cannot hold, such as an array or a preset of one's own.
 
     Examples
     --------
@@ -125,10 +116,7 @@ def options_to_json(options: object) -> dict[str, Any]:
 def options_from_json(kind: type[Options], content: object) -> Options:
     """Return the options that `options_to_json` gave, checked as all others of their kind.
 
-    Raises
-    ------
-    ParameterError
-        There is no such option, or it does not take this value.
+    ParameterError where there is no such option, or it does not take this value.
 
     Examples
     --------

@@ -17,9 +17,9 @@ from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import ALL_PEOPLE, READING, Quiet
-from kineme.cli.segment import load_or_find_segments
+from kineme.cli.segment import read_and_segment
 from kineme.errors import ParameterError
-from kineme.formats import read, read_analog
+from kineme.formats import read_analog
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 
@@ -128,11 +128,9 @@ def cycles(
 
     def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
         with batch.progress(path) as stage:
-            stage("reading")
-            recording = read(path, **vars(options))
-            found = _channels_of(recording, names) if len(batch.paths) > 1 else ()
-            segmented = load_or_find_segments(recording, table, segment_options, stage)
-            parts.append(_Part(path, recording, segmented, found))
+            part = read_and_segment(path, options, table, segment_options, stage)
+            found = _channels_of(part[0], names) if len(batch.paths) > 1 else ()
+            parts.append(_Part(path, *part, found))
 
     for path in batch.paths:
         batch.each_person(path, read_options, read_one, tables=("--segments", segments))

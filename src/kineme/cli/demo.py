@@ -11,8 +11,8 @@ from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.reading import Quiet
 from kineme.cli.options.targets import check_place, check_writable
-from kineme.cli.segment import find_segments, write_results
-from kineme.formats import read
+from kineme.cli.segment import read_and_segment, write_results
+from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 
 
@@ -41,8 +41,7 @@ def demo(
         check_writable(table, picture)
         options = SegmentOptions()
         with progress(path.name, quiet=quiet) as stage:
-            recording = read(path)
-            result = find_segments(recording, options, stage)
+            recording, result = read_and_segment(path, ReadOptions(), None, options, stage)
         write_results(result, recording, options, table, picture)
         if not quiet:
             from kineme.cli.tables import show_segments

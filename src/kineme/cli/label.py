@@ -14,7 +14,7 @@ from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import BODY, Quiet
-from kineme.cli.segment import find_segments, load_or_find_segments
+from kineme.cli.segment import load_or_find_segments
 from kineme.formats import read_motion
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
@@ -86,7 +86,7 @@ def _label_primitives(
 
     table = load_or_find_segments(motion, labels, options, stage)
     if not len(table.primitives):
-        table = name_primitives(find_segments(motion, options, stage), table)
+        table = name_primitives(load_or_find_segments(motion, None, options, stage), table)
     return KnowledgeBase.from_recording(motion, table, effectors=options.effectors)
 
 

@@ -13,8 +13,7 @@ from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import READING, Quiet
 from kineme.cli.options.targets import check_writable
-from kineme.cli.segment import load_or_find_segments, show_envelopes
-from kineme.formats import read
+from kineme.cli.segment import read_and_segment, show_envelopes
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 
@@ -50,9 +49,7 @@ def report(
     def work(path: Path, options: ReadOptions, table: Path | None, page: Path) -> None:
         check_writable(page=page)
         with batch.progress(path) as stage:
-            stage("reading")
-            recording = read(path, **vars(options))
-            result = load_or_find_segments(recording, table, segment_options, stage)
+            recording, result = read_and_segment(path, options, table, segment_options, stage)
         from kineme.report.page import write_report
 
         drawn = show_envelopes(recording, segment_options)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from json import dumps
 from pathlib import Path
@@ -81,9 +80,8 @@ def segment(
     def work(path: Path, options: ReadOptions, _: None, *targets: Path | None) -> None:
         check_writable(*targets)
         with batch.progress(path) as stage:
-            stage("reading")
-            recording = read(path, **vars(options))
-            result = _segment_one(recording, segment_options, targets, stage)
+            recording, result = read_and_segment(path, options, None, segment_options, stage)
+            write_results(result, recording, segment_options, *targets)
         print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
@@ -91,12 +89,17 @@ def segment(
     batch.exit()
 
 
-def find_segments(
-    recording: Motion | Signals, options: SegmentOptions, stage: Progress
-) -> Segmentation:
-    """Return the segments that are found in a recording."""
-    with announce_compilation(stage):
-        return segment_with_options(recording, options, progress=stage)[0]
+def read_and_segment(
+    path: Path,
+    read_options: ReadOptions,
+    table: Path | None,
+    segment_options: SegmentOptions,
+    stage: Progress,
+) -> tuple[Motion | Signals, Segmentation]:
+    """Return the recording in a file, and its segments as `load_or_find_segments` has them."""
+    stage("reading")
+    recording = read(path, **vars(read_options))
+    return recording, load_or_find_segments(recording, table, segment_options, stage)
 
 
 def load_or_find_segments(
@@ -104,7 +107,8 @@ def load_or_find_segments(
 ) -> Segmentation:
     """Return the segments in a table or label file; without one those that are found."""
     if table is None:
-        return find_segments(recording, options, stage)
+        with announce_compilation(stage):
+            return segment_with_options(recording, options, progress=stage)[0]
     from kineme.labels.collections import labels_for
 
     return labels_for(
@@ -127,41 +131,29 @@ def show_envelopes(recording: Motion | Signals, options: SegmentOptions) -> Moti
     return replace(recording, values=emg_envelope(recording.values, recording.fps))
 
 
-def _segment_one(
-    recording: Motion | Signals,
-    options: SegmentOptions,
-    targets: Sequence[Path | None],
-    stage: Progress,
-) -> Segmentation:
-    """Return the segments of a recording; write table, picture and page where these are wanted."""
-    table, picture, page = targets
-    result = find_segments(recording, options, stage)
-    write_results(result, recording, options, table, picture)
-    if page is not None:
-        from kineme.report.page import write_report
-
-        drawn = show_envelopes(recording, options)
-        write_report(drawn, result, page, effectors=options.effectors)
-    return result
-
-
 def write_results(
     result: Segmentation,
     recording: Motion | Signals,
     options: SegmentOptions,
     table: Path | None,
     picture: Path | None,
+    page: Path | None = None,
 ) -> None:
-    """Write the table and the picture, where wanted."""
+    """Write the table, the picture and the page, where wanted."""
     if table is not None:
         from kineme.labels import write_segments
 
         write_segments(result, table)
+    if picture is not None or page is not None:
+        recording = show_envelopes(recording, options)
     if picture is not None:
         from kineme.plot import plot_segmentation
 
-        drawn = show_envelopes(recording, options)
-        plot_segmentation(result, drawn, picture, effectors=options.effectors)
+        plot_segmentation(result, recording, picture, effectors=options.effectors)
+    if page is not None:
+        from kineme.report.page import write_report
+
+        write_report(recording, result, page, effectors=options.effectors)
 
 
 def print_segments(

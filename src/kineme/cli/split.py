@@ -14,8 +14,7 @@ from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import READING, Quiet
 from kineme.cli.options.targets import make_folder_of
-from kineme.cli.segment import load_or_find_segments
-from kineme.formats import read
+from kineme.cli.segment import read_and_segment
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.table import Level
@@ -75,9 +74,7 @@ def split(
 
     def work(path: Path, options: ReadOptions, table: Path | None, folder: Path) -> None:
         with batch.progress(path) as stage:
-            stage("reading")
-            recording = read(path, **vars(options))
-            cuts = load_or_find_segments(recording, table, segment_options, stage)
+            recording, cuts = read_and_segment(path, options, table, segment_options, stage)
         from kineme.clips.split import split as write_clips
 
         if not batch.single:

@@ -14,7 +14,7 @@ from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import BODY, Json, Quiet
 from kineme.cli.options.targets import check_writable
-from kineme.cli.segment import PrintedLevel, find_segments, print_segments
+from kineme.cli.segment import PrintedLevel, load_or_find_segments, print_segments
 from kineme.formats import read_motion
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
@@ -111,7 +111,7 @@ def _name_segments(
     """Return the segments of a recording, labelled."""
     from kineme.transfer import transfer_features, transfer_labels
 
-    found = find_segments(motion, segment_options, stage)
+    found = load_or_find_segments(motion, None, segment_options, stage)
     stage("labels")
     features = transfer_features(motion, effectors=segment_options.effectors)
     return transfer_labels(found, features, base, **options)

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from os import PathLike, fspath
+from os import fspath
 
 from kineme._util.checks import as_texts, check_flag, check_path, is_number, is_one_of
 from kineme.errors import ParameterError
 from kineme.formats.units import AXES, UNITS
-
-AnyPath = str | PathLike[str]
 
 
 @dataclass(frozen=True)

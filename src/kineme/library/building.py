@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from kineme._util.checks import check_type, is_number
-from kineme._util.files import OwnedFolder, is_draft
+from kineme._util.files import AnyPath, OwnedFolder, is_draft
 from kineme._util.json import options_to_json
 from kineme._version import __version__
 from kineme.errors import ParameterError, ReadError
@@ -19,7 +19,7 @@ from kineme.formats import ReadOptions
 from kineme.library.edits import read_edits
 from kineme.library.executors import Executor, Progress, connect, processes
 from kineme.library.gathering import gather
-from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, open_folder, plan_of
+from kineme.library.planning import Entry, Plan, absolute, as_paths, open_folder, plan_of
 from kineme.library.sources import list_recordings, names_of
 from kineme.library.storage.analyses import KEY_LENGTH, has_analysis, is_analysis
 from kineme.library.storage.index import write_index

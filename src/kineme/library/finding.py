@@ -9,6 +9,7 @@ import numpy as np
 
 from kineme._util.arrays import Float32s
 from kineme._util.checks import is_number
+from kineme._util.files import AnyPath
 from kineme.errors import ParameterError, ReadError
 from kineme.features.canonical import mirrored_features
 from kineme.formats.files import warn
@@ -24,8 +25,6 @@ from kineme.library.storage.layout import ANALYSES, BODIES
 from kineme.library.storage.places import place
 from kineme.library.windows import length_for
 from kineme.recordings import Motion, Signals
-
-AnyPath = str | PathLike[str]
 
 TYPICAL = 5
 """Segments that stand for a cluster in a search, the most typical ones."""

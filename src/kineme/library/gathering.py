@@ -22,14 +22,12 @@ from typing import NamedTuple
 from threadpoolctl import threadpool_limits
 
 from kineme._util.checks import is_text
-from kineme._util.files import refuse_pipe
+from kineme._util.files import AnyPath, refuse_pipe
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.formats import ReadOptions, read_quietly
-from kineme.formats.options import AnyPath
 from kineme.library.executors import Executor, InProcess, Progress, Watch
-from kineme.library.options import analysis_key
-from kineme.library.planning import Plan
+from kineme.library.planning import Plan, analysis_key
 from kineme.library.sources import content_digest, fetch, size_of, states_of
 from kineme.library.storage.analyses import has_analysis, write_analysis
 from kineme.library.storage.layout import STATES, read_json, write_json

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from contextlib import nullcontext
-from os import PathLike
 from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
 
 from kineme._util.checks import check_flag, check_path, format_count
+from kineme._util.files import AnyPath
 from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.library.executors import connect
@@ -23,8 +23,6 @@ from kineme.library.storage.places import place, reaching
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import THRESHOLD
-
-AnyPath = str | PathLike[str]
 
 
 class Library:

@@ -11,12 +11,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from kineme._util.files import refuse_pipe
+from kineme._util.files import AnyPath, refuse_pipe
 from kineme.errors import FileError, ReadError
 from kineme.formats import ReadOptions, read
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.listing import holds_recording, recordings_in
-from kineme.formats.options import AnyPath
 from kineme.formats.skeletons.amc import find_skeleton
 from kineme.library.storage.places import is_remote, lies_in, reaching
 from kineme.recordings import Motion, Signals

@@ -295,35 +295,14 @@ def _make_segmentation(
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SegmentOptions:
-    """How a recording is segmented; `kineme.segment` takes the same as keywords.
+    """How a recording is segmented: the keywords of `kineme.segment`, which says what each means.
 
-    Parameters
-    ----------
-    preset : str or Preset
-        ``kineme``, or another of `kineme.PRESETS`.
-    constants : Mapping of str to object
-        Of the preset, to change.
-    effectors : joints, optional
-        Of a motion, to take for head, hands and feet where names do not tell.
-    detail : float
-        Above 1 for more, shorter segments, below for fewer, longer ones.
-    emg : bool
-        Of signals: take the envelopes of muscle signals.
-    features : (rows, dims) array, optional
-        To look at in place of the recording's own.
-    feature_fps : float, optional
-        Rows of `features` per second; that of the recording by default.
-    unit : float, optional
-        The length in signals or features that counts as one unit of the preset's lengths.
-    standardize : bool, optional
-        Whether each channel is divided by its standard deviation: those of signals are by
-        default, features are not.
+    Constants of the preset stand in ``constants`` by their names.
 
     Raises
     ------
     ParameterError
-        A unit, rate or detail that is no number above 0, a flag that is none, or constants
-        without names.
+        A value that an option does not take. Constants are checked once the preset is known.
     """
 
     preset: str | Preset = DEFAULT

@@ -31,7 +31,7 @@ from kineme.transfer.channel_samples import thin_samples
 METADATA = b"kineme.library"
 FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
 KEY_LENGTH = 32
-"""Characters of the name of an analysis; see `kineme.library.options.analysis_key`."""
+"""Characters of the name of an analysis; see `kineme.library.planning.analysis_key`."""
 _FILE = re.compile(rf"[0-9a-f]{{{KEY_LENGTH}}}(\.parquet|(\.windows|\.moments)?\.npy)")
 LARGEST = 1e30
 """Sum of the squares of all features of a recording; no distance overflows below it."""
