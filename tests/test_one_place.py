@@ -1,7 +1,12 @@
-"""A package of somebody else's adds one of each; each is one module, found wherever it belongs."""
+"""A package of somebody else's adds one of each; each is one module, found wherever it belongs.
+
+So is what can be said of reading and of segmenting: one class each, which all others take.
+"""
 
 from __future__ import annotations
 
+import ast
+import inspect
 import json
 import os
 import subprocess
@@ -12,6 +17,16 @@ from pathlib import Path
 import pytest
 
 import kineme
+from kineme._util.json import options_from_json, options_to_json
+from kineme.cli.options.method import SEGMENTING
+from kineme.cli.options.reading import READING
+from kineme.formats import ReadOptions
+from kineme.library.planning import options_in
+from kineme.methods.segmenter import SegmentOptions
+from kineme.studio.storage.sidecars import keep_reading, options_of
+from kineme.synthesis import MotionGraph, Source, read_graph, write_graph
+from kineme.web.encoding import from_json, to_json
+from kineme.web.requests import ReadRequest
 
 METHOD = '''
 from dataclasses import dataclass
@@ -326,3 +341,48 @@ def test_the_studio_offers_all_of_it(python: Run, folder: Path) -> None:
     assert starts == [0, 360]
     # Neither half is mostly the one cluster of before, so both have numbers of their own.
     assert told["words"].splitlines() == ["0.0 12.0 1", "12.0 40.0 2"]
+
+
+def test_options_are_the_keywords_of_read_and_segment() -> None:
+    of_read = {*inspect.signature(kineme.read).parameters} - {"path"}
+    of_segment = {*inspect.signature(kineme.segment).parameters} - {"recording", "progress"}
+    assert {*vars(ReadOptions())} == of_read == {*READING}
+    assert {*vars(SegmentOptions())} == of_segment > {*SEGMENTING}
+
+
+def test_no_other_class_has_the_options_of_reading() -> None:
+    found = []
+    for path in Path(kineme.__file__).parent.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                parts = [part for part in node.body if isinstance(part, ast.AnnAssign)]
+                if {"take", "unit", "up"} <= {ast.unparse(part.target) for part in parts}:
+                    found.append(node.name)
+    assert found == ["ReadOptions"]
+
+
+def test_every_option_is_kept_in_files_and_sent(tmp_path: Path) -> None:
+    skeleton = str(tmp_path / "walk.asf")
+    said = ReadOptions(skeleton, 30.0, 0.01, "-z", "Anna", 0.5, ["acc_*"], True, "run")
+    method = SegmentOptions(
+        preset="sensors",
+        constants={"bands": (0.5, 2.0)},
+        effectors=["a", "b"],
+        detail=4.0,
+        emg=True,
+    )
+    content = options_to_json(said)
+    assert content.keys() == vars(said).keys()
+    assert json.loads(json.dumps(content)) == content
+    keep_reading(tmp_path / "walk.amc", said, [])
+    assert options_of(tmp_path / "walk.amc") == said
+    sent = from_json(to_json({"options": content}), ReadRequest)
+    assert options_from_json(ReadOptions, sent.options) == said
+    source = Source(str(tmp_path / "walk.amc"), "0" * 64, 60, said)
+    write_graph(MotionGraph((source,), (), (), 30.0, 0.08, 0.3), tmp_path / "graph.json")
+    assert read_graph(tmp_path / "graph.json").sources == (source,)
+    head = {"read_options": content, "segment_options": options_to_json(method)}
+    again, segmented = options_in(tmp_path, head)
+    assert again == said
+    assert options_to_json(segmented) == options_to_json(method)
+    assert segmented.constants == method.constants

@@ -303,6 +303,11 @@ class SegmentOptions:
     ------
     ParameterError
         A value that an option does not take. Constants are checked once the preset is known.
+
+    Examples
+    --------
+    >>> SegmentOptions(constants={"min_action": 2.0}).resolved().min_action
+    2.0
     """
 
     preset: str | Preset = DEFAULT

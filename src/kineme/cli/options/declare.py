@@ -47,4 +47,5 @@ def add_options(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], C
 
 def are_given(context: typer.Context, options: Iterable[str]) -> bool:
     """Return whether a user gave any of these options."""
-    return any(context.params[name] for name in options)
+    sources = map(context.get_parameter_source, options)
+    return any(source is not None and source.name == "COMMANDLINE" for source in sources)
