@@ -56,24 +56,11 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
         The folder is missing, the file cannot be written, or is a link to elsewhere.
     """
     final, draft = _find_places(path)
-    descriptor = None
-    try:
-        descriptor = _hold(draft)
+    with _write_draft(draft, final, path):
         yield draft
         # On the disk before it takes the name: a crash leaves the old file or the new one.
         _synchronise(draft)
         draft.replace(final)
-        # The folder holds the name, and must be on the disk as well.
-        _synchronise(final.parent)
-    except FileError as error:
-        raise _rename_error(error, draft, final) from error
-    except OSError as error:
-        raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
-    finally:
-        if descriptor is not None:
-            os.close(descriptor)
-        with suppress(OSError):  # a place that may not be written any more
-            draft.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -97,22 +84,35 @@ def atomic_folder(target: Path) -> Iterator[Path]:
     except OSError as error:
         reason = f"cannot be made: {target.parent}: {error.strerror or error}"
         raise WriteError(target, reason) from error
-    descriptor = None
-    try:
-        descriptor = _hold(draft)
+    with _write_draft(draft, target, target):
         yield draft
         # A folder can only replace an empty one that is gone.
         if target.is_dir():
             target.rmdir()
         draft.rename(target)
-        _synchronise(target.parent)
+
+
+@contextmanager
+def _write_draft(draft: Path, final: Path, path: AnyPath) -> Iterator[None]:
+    """Hold a draft until the block has given it its final name; remove it if that fails.
+
+    Errors name the ``path`` that was asked for.
+    """
+    descriptor = None
+    try:
+        descriptor = _hold(draft)
+        yield
+        # The folder holds the name, and must be on the disk as well.
+        _synchronise(final.parent)
     except FileError as error:
-        raise _rename_error(error, draft, target) from error
+        raise _rename_error(error, draft, final) from error
     except OSError as error:
-        raise WriteError(target, f"cannot be written: {error.strerror or error}") from error
+        raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
     finally:
         if descriptor is not None:
             os.close(descriptor)
+        with suppress(OSError):  # a place that may not be written any more
+            draft.unlink(missing_ok=True)
         shutil.rmtree(draft, ignore_errors=True)
 
 

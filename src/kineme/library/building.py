@@ -111,10 +111,10 @@ def build(
     recursive : bool, optional
         Look into the folders of a folder, too; as the last time by default.
     read_options : ReadOptions, optional
-        How recordings are read; as the last time by default. Others than those mean that
-        everything is done anew, as with others of these:
+        How recordings are read; as the last time by default.
     segment_options : SegmentOptions, optional
-        How recordings are segmented; as the last time by default.
+        How recordings are segmented; as the last time by default. Where either differs from
+        the last time, everything is done anew.
     jobs : int
         Processes at most. With more than 1, a script must guard what it runs with
         ``if __name__ == "__main__"``, as always with processes.
