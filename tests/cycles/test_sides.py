@@ -14,7 +14,7 @@ import kineme
 from kineme.cli.app import app
 from kineme.cycles import Cycles, channels_of, compare_sides, foot_events, gait
 from kineme.cycles.channels import contacts_of
-from kineme.cycles.sides import MEASURES, sides_of
+from kineme.cycles.comparison import MEASURES, sides_of
 from kineme.datasets import Action, synthesize
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError

@@ -7,7 +7,7 @@ import pytest
 
 import kineme
 from kineme.datasets import Action, synthesize
-from kineme.features.bones import have_bones
+from kineme.features.distances import have_bones
 from kineme.recordings import Signals
 
 

@@ -9,9 +9,8 @@ import pytest
 
 import kineme
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.labels.clock_times import convert_clock_times
 from kineme.labels.collections import LabelSource, labels_of
-from kineme.labels.spans import Labels, Span
+from kineme.labels.spans import Labels, Span, convert_clock_times
 from kineme.recordings.clock import Clock
 
 FPS = 30.0

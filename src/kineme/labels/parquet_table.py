@@ -16,9 +16,9 @@ from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.channels.parquet import parquet_columns, parquet_file
 from kineme.formats.files import load
-from kineme.labels.heads import tail
+from kineme.labels.delimited import tail
 from kineme.labels.json_table import head_of, join_head, parse
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.registry import LabelFormat
 from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import (

@@ -29,7 +29,7 @@ from kineme.segments.editing.annotating import (
     set_marked,
     span_of,
 )
-from kineme.segments.editing.naming import cluster_names, name_cluster, set_cluster_names
+from kineme.segments.editing.clusters import cluster_names, name_cluster, set_cluster_names
 from kineme.segments.editing.rows import (
     Rows,
     change_parent,
