@@ -14,6 +14,7 @@ curve by itself.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -167,22 +168,14 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
             for s, r in zip(sides, rows, strict=True)]  # fmt: skip
     # Rows of the second summary, in the order of the first.
     order = [keys[1].index(key) for key in keys[0]]
-    one = {name: sides[0][name][rows[0]] for name in ("group", "measure", "n", "mean", "sd")}
-    two = {name: sides[1][name][rows[1]][order] for name in ("n", "mean", "sd")}
-    difference, low, high = _welch(*(each[n] for each in (one, two) for n in ("n", "mean", "sd")))
+    one = {name: column[rows[0]] for name, column in sides[0].items()}
+    two = {name: column[rows[1]][order] for name, column in sides[1].items()}
+    compared = _join_sessions(("group", "measure"), one, two)
     # A difference of phases goes the shorter way round; its bounds are moved as much.
+    difference = compared["difference"]
     turned = np.where([is_phase(m) for m in one["measure"].tolist()],
                       phase_differences(difference) - difference, 0.0)  # fmt: skip
-    difference, low, high = difference + turned, low + turned, high + turned
-    return {
-        "group": one["group"],
-        "measure": one["measure"],
-        **{f"first_{name}": one[name] for name in two},
-        **{f"second_{name}": two[name] for name in two},
-        "difference": difference,
-        "low": low,
-        "high": high,
-    }
+    return compared | {name: compared[name] + turned for name in ("difference", "low", "high")}
 
 
 def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:
@@ -230,18 +223,11 @@ def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Colu
     # Rows of the second in the order of the groups of the first.
     order = np.concatenate([np.arange(size) + size * place[group] for group in first.groups
                             if group in place])  # fmt: skip
-    numbers = ("n", "mean", "sd")
-    left = {name: one[name][rows] for name in ("group", "channel", "percent", *numbers)}
-    right = {name: two[name][order] for name in numbers}
-    difference, low, high = _welch(*(each[name] for each in (left, right) for name in numbers))
-    return {
-        **{name: left[name] for name in ("group", "channel", "percent")},
-        **{f"first_{name}": left[name] for name in numbers},
-        **{f"second_{name}": right[name] for name in numbers},
-        "difference": difference,
-        "low": low,
-        "high": high,
-    }
+    return _join_sessions(
+        ("group", "channel", "percent"),
+        {name: column[rows] for name, column in one.items()},
+        {name: column[order] for name, column in two.items()},
+    )
 
 
 def _common(first: Cycles, second: Cycles) -> list[str]:
@@ -261,6 +247,20 @@ def _common(first: Cycles, second: Cycles) -> list[str]:
             "library name` and `export`, whose table --segments takes"
         )
     return groups
+
+
+def _join_sessions(keys: Sequence[str], first: Columns, second: Columns) -> Columns:
+    """Return the rows of both side by side: keys, numbers, differences and their bounds."""
+    numbers = ("n", "mean", "sd")
+    difference, low, high = _welch(*(each[name] for each in (first, second) for name in numbers))
+    return {
+        **{name: first[name] for name in keys},
+        **{f"first_{name}": first[name] for name in numbers},
+        **{f"second_{name}": second[name] for name in numbers},
+        "difference": difference,
+        "low": low,
+        "high": high,
+    }
 
 
 def _welch(

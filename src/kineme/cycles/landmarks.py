@@ -33,6 +33,8 @@ from kineme.features.canonical.joints import find_limbs
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.joint_names import SIDES, find_joints, simplify_name
 
+OTHER_SIDE = dict(zip(SIDES, reversed(SIDES), strict=True))
+
 
 def landmarks(motion: Motion) -> dict[str, int]:
     """Joints by part and side, such as ``left_knee``; those that are not found are left out.
@@ -178,8 +180,7 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
             # Vectors from the line through hip and knee to each marker.
             aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
             far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
-            # A bool as index: 1, the other side, for the first side, else 0.
-            other = chosen[f"{SIDES[side == SIDES[0]]}_hip"]
+            other = chosen[f"{OTHER_SIDE[side]}_hip"]
             chosen[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
     return replace(motion, skeleton=extended, positions=positions), chosen
 

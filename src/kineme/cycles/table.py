@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import as_indices, check_flag, format_count, is_number
-from kineme.errors import MissingDependencyError, ParameterError
+from kineme._util.checks import as_indices, check_flag, format_count, is_number, require_extra
+from kineme.errors import ParameterError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -419,10 +419,8 @@ class Cycles:
         MissingDependencyError
             pandas is not installed.
         """
-        try:
+        with require_extra("pandas", "tables"):
             import pandas as pd
-        except ImportError as error:
-            raise MissingDependencyError("pandas", "tables") from error
         return pd.DataFrame(self.columns)
 
     def to_xarray(self) -> xr.Dataset:
@@ -438,10 +436,8 @@ class Cycles:
         MissingDependencyError
             xarray is not installed.
         """
-        try:
+        with require_extra("xarray", "xarray"):
             import xarray as xr
-        except ImportError as error:
-            raise MissingDependencyError("xarray", "xarray") from error
         # Statistics are not coordinates, since they can be computed from the curves.
         measured = {f"{channel}.{name}" for channel in self.channels for name in STATISTICS}
         points = self.curves.shape[2]

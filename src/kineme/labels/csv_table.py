@@ -147,8 +147,13 @@ def intervals(path: Path) -> dict[str, Labels]:
                 name: row[name] if comma == "," else replace_decimal_comma(row[name])
                 for name in SPANS[unit]
             }
-            convert = _second if unit == "seconds" else number
-            start, stop = (convert(cell, name, path, line) for name, cell in cells.items())
+            # Seconds may be a date or time of day: those since 1970, or since midnight.
+            start, stop = (
+                date_seconds(cell.strip())
+                if unit == "seconds" and is_date(cell.strip())
+                else number(cell, name, path, line)
+                for name, cell in cells.items()
+            )
             count = _count(row, path, line)
             span = Span(start, stop, _text(row), _level(row), _cluster(row), repetitions=count)
             spans.setdefault(row.get("recording", ""), []).append(span)
@@ -166,11 +171,6 @@ def _intervals(path: Path) -> Labels:
             "folder of them: kineme evaluate FOLDER --labels TABLE",
         )
     return next(iter(found.values()), Labels([]))
-
-
-def _second(cell: str, name: str, path: Path, line: int) -> float:
-    """Seconds, or a date or time of day in seconds since 1970 or midnight."""
-    return date_seconds(cell.strip()) if is_date(cell.strip()) else number(cell, name, path, line)
 
 
 def _text(row: dict[str, str]) -> str:

@@ -156,8 +156,9 @@ def as_segmentation(
     if n_frames < 1:
         raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
     unusual = list(labels.notes)
-    # Spans that round to no frame.
-    full = _as_long_as_a_frame(rows, n_frames)
+    # Cut off at the end of the recording, without those of which no frame is left.
+    inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
+    full = [row for row in inside if row[2] < row[3]]
     if len(full) < len(rows):
         unusual.append(
             f"shorter than a frame, left out: {format_count(len(rows) - len(full), 'label')}"
@@ -211,12 +212,6 @@ def _frame(value: float, per_unit: float, path: Path) -> int:
     if not -0.5 <= frame < TOO_FAR:
         raise ReadError(path, f"has a label at {value}, which no recording reaches")
     return math.floor(frame + 0.5)
-
-
-def _as_long_as_a_frame(rows: list[Row], n_frames: int) -> list[Row]:
-    """Return rows cut off at the end of the recording, without those of which nothing is left."""
-    inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
-    return [row for row in inside if row[2] < row[3]]
 
 
 def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
