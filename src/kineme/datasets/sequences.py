@@ -16,7 +16,7 @@ the join is a transition.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 
@@ -147,72 +147,7 @@ class Exercise:
             raise ParameterError(f"repetitions must be at least 1, not {self.repetitions}")
 
 
-def exercise_sequence(
-    exercises: Iterable[Exercise],
-    seed: int,
-    *,
-    actions: int = 5,
-    runs: int = 8,
-    repeats: tuple[int, int] = (3, 6),
-    join: float = 0.4,
-) -> SyntheticRecording:
-    """Exercises of one person joined in random order, and where each begins and ends.
-
-    Parameters
-    ----------
-    exercises : iterable of Exercise
-        Of one skeleton and one frame rate.
-    seed : int
-        Of everything random; the same seed gives the same recording.
-    actions : int, optional
-        How many different ones are drawn; all, if there are fewer.
-    runs : int, optional
-        How many times an action is taken up; each comes once before any comes again, and never
-        after itself.
-    repeats : (int, int), optional
-        Fewest and most exercises of a run, joined one after the other.
-    join : float, optional
-        Seconds over which a join is blended; at most a third of the shorter exercise.
-
-    Raises
-    ------
-    ParameterError
-        Fewer than two actions, exercises that do not fit together, or one without rotations.
-
-    Examples
-    --------
-    >>> from kineme.datasets import Action, Exercise, exercise_sequence, synthesize
-    >>> motions = {name: synthesize([Action(name, 1)], fps=30).motion for name in ("squat", "jump")}
-    >>> exercises = [Exercise(name, motion) for name, motion in motions.items()]
-    >>> exercise_sequence(exercises, 1, runs=3).truth.activities.label.tolist()
-    ['jump', '', 'squat', '', 'jump']
-    """
-    of_name: dict[str, list[Exercise]] = {}
-    for exercise in exercises:
-        of_name.setdefault(exercise.name, []).append(exercise)
-    if min(len(of_name), actions) < 2:
-        raise ParameterError(f"at least two actions are needed, not {min(len(of_name), actions)}")
-    if runs < 1 or not 1 <= repeats[0] <= repeats[1] or not join >= 0:
-        raise ParameterError(
-            f"runs must be at least 1, repeats rise from at least 1 and join not be negative, "
-            f"not {runs}, {repeats} and {join}"
-        )
-    check_fit([exercise.motion for takes in of_name.values() for exercise in takes])
-    rng = np.random.default_rng(seed)
-    names = rng.permutation(sorted(of_name))[:actions].tolist()
-    # Sorted first, so that the draw does not depend on the order of the input.
-    order = _run_order(names, runs, rng)
-    parts = [
-        exercise
-        for name in order
-        for exercise in _draw(of_name[name], int(rng.integers(repeats[0], repeats[1] + 1)), rng)
-    ]
-    return join_exercises(parts, join=join, note=f"{len(parts)} exercises joined, seed {seed}")
-
-
-def join_exercises(
-    parts: Sequence[Exercise], *, join: float = 0.4, note: str = ""
-) -> SyntheticRecording:
+def join_exercises(parts: Sequence[Exercise], *, join: float = 0.4) -> SyntheticRecording:
     """Exercises of one person joined in the order given, and where each begins and ends.
 
     Parameters
@@ -221,8 +156,6 @@ def join_exercises(
         Of one skeleton and one frame rate, two at least; neighbours of one name are one activity.
     join : float, optional
         Seconds over which a join is blended; at most a third of the shorter exercise.
-    note : str, optional
-        For the provenance; by default how many there are.
 
     Raises
     ------
@@ -238,28 +171,9 @@ def join_exercises(
     ['squat', '', 'jump']
     """
     motion, starts, halves = join_recordings([part.motion for part in parts], join)
-    sentence = note or f"{len(parts)} exercises joined"
-    provenance = Provenance(format="sequence").noted(sentence)
+    provenance = Provenance(format="sequence").noted(f"{len(parts)} exercises joined")
     truth = _truth(list(parts), starts, halves, motion.fps)
     return SyntheticRecording(replace(motion, provenance=provenance), truth)
-
-
-def _run_order(names: list[str], runs: int, rng: np.random.Generator) -> list[str]:
-    """Return every name once in random order, and again, without equal neighbours."""
-    order: list[str] = []
-    while len(order) < runs:
-        again = rng.permutation(names).tolist()
-        if order and again[0] == order[-1]:
-            # No action follows itself.
-            again.append(again.pop(0))
-        order += again
-    return order[:runs]
-
-
-def _draw(takes: list[Exercise], count: int, rng: np.random.Generator) -> list[Exercise]:
-    """So many of the takes, none twice before each came once."""
-    order = rng.permutation(len(takes))
-    return [takes[order[i % len(takes)]] for i in range(count)]
 
 
 def _truth(
