@@ -16,7 +16,7 @@ import numpy as np
 
 import kineme
 from _options import DATA, few, needed
-from kineme.datasets import ACTIONS, Action, Exercise, exercise_sequence, synthesize
+from kineme.datasets import ACTIONS, Action, Exercise, join_exercises, synthesize
 from kineme.evaluation import Truth, labelling_of
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
@@ -58,8 +58,33 @@ def hdm05(
     runs = few(runs, 4)
     for seed in range(first, first + few(seeds, 1)):
         actor = ACTORS[seed % len(ACTORS)]
-        made = exercise_sequence(exercises(actor), seed, runs=runs, repeats=repeats)
+        made = join_exercises(drawn(exercises(actor), seed, runs, repeats))
         yield Case(f"{actor} {seed}", made.motion, annotation(made.truth), made.truth)
+
+
+def drawn(
+    takes: list[Exercise], seed: int, runs: int, repeats: tuple[int, int], actions: int = 5
+) -> list[Exercise]:
+    """Runs of an actor's exercises in random order; no action follows itself."""
+    of_name: dict[str, list[Exercise]] = {}
+    for exercise in takes:
+        of_name.setdefault(exercise.name, []).append(exercise)
+    rng = np.random.default_rng(seed)
+    # Sorted first, so that the draw does not depend on the order of the files.
+    names = rng.permutation(sorted(of_name))[:actions].tolist()
+    order: list[str] = []
+    while len(order) < runs:
+        again = rng.permutation(names).tolist()
+        if order and again[0] == order[-1]:
+            again.append(again.pop(0))
+        order += again
+    parts = []
+    for name in order[:runs]:
+        count, found = int(rng.integers(repeats[0], repeats[1] + 1)), of_name[name]
+        # None twice before each came once.
+        places = rng.permutation(len(found))
+        parts += [found[places[i % len(found)]] for i in range(count)]
+    return parts
 
 
 @cache

@@ -11,7 +11,7 @@ from posed_figures import posed
 import kineme
 from kineme._util import rotations as rot
 from kineme.cycles import channels_of, landmarks
-from kineme.cycles.centres import add_joint_centres
+from kineme.cycles.landmarks import add_joint_centres
 from kineme.datasets import Action, synthesize
 from kineme.formats.files import load
 from kineme.formats.markers.c3d_file import parse_c3d

@@ -12,8 +12,12 @@ from hypothesis import strategies as st
 from sklearn.metrics import cohen_kappa_score
 
 from kineme.errors import ParameterError
-from kineme.evaluation.annotator_files import Extent, labels_of_annotators
-from kineme.evaluation.annotators import annotator_agreement, fleiss_kappa
+from kineme.evaluation.annotators import (
+    Extent,
+    annotator_agreement,
+    fleiss_kappa,
+    labels_of_annotators,
+)
 from kineme.evaluation.comparison import runs
 from kineme.labels.collections import labels_of
 from kineme.labels.spans import Labels, Span, as_segmentation

@@ -20,14 +20,22 @@ from kineme.evaluation import (
     overall,
     point_cloud_variance,
 )
-from kineme.evaluation._kernels import warped_cost
+from kineme.features._warping_kernels import cheapest_path
 from kineme.features.point_clouds import cloud_distances
 
 
-@given(arrays(np.float64, st.tuples(st.integers(1, 7), st.integers(1, 7)),
-              elements=st.floats(0, 10)))  # fmt: skip
-def test_warped_cost_is_its_recursion(cost):
-    assert warped_cost(cost) == pytest.approx(naive.warped_cost(cost))
+@given(
+    arrays(np.float64, st.tuples(st.integers(1, 7), st.integers(1, 7)), elements=st.floats(0, 10)),
+    st.floats(0, 3),
+)
+def test_the_cheapest_warp_is_its_recursion_and_its_path_costs_as_much(cost, step):
+    total, rows, columns = cheapest_path(cost, step)
+    assert total == pytest.approx(naive.warped_cost(cost, step))
+    moves = np.stack([np.diff(rows, prepend=-1), np.diff(columns, prepend=-1)])
+    assert (moves.max(axis=0) == 1).all()
+    assert moves.min() >= 0
+    aside = (moves.sum(axis=0) == 1).sum()
+    assert cost[rows, columns].sum() + step * aside == pytest.approx(total)
 
 
 @pytest.fixture

@@ -12,7 +12,6 @@ from format_samples import BVH
 import kineme
 from kineme.errors import MotionError, ParameterError, ReadError
 from kineme.formats import registry
-from kineme.labels import label_format
 from kineme.labels import registry as label_registry
 
 
@@ -38,7 +37,7 @@ def test_surprises_of_a_reader(tmp_path: Path, request: pytest.FixtureRequest) -
 def test_surprises_of_a_reader_of_labels(tmp_path: Path, request: pytest.FixtureRequest) -> None:
     path = tmp_path / "a.odd"
     path.write_text("anything")
-    odd = label_format.LabelFormat("odd", "", (".odd",), "all", surprise)  # type: ignore[arg-type]
+    odd = label_registry.LabelFormat("odd", "", (".odd",), "all", surprise)  # type: ignore[arg-type]
     label_registry.register(odd)
     request.addfinalizer(lambda: label_registry.FORMATS.remove("odd"))
     with pytest.raises(ReadError, match=r"a\.odd: cannot be understood.*deep inside") as caught:

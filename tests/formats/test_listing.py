@@ -15,7 +15,7 @@ from pyarrow import parquet
 import kineme
 from kineme.formats import listing
 from kineme.formats.listing import holds_recording, recordings_in
-from kineme.transfer.knowledge_file import holds_knowledge
+from kineme.transfer.knowledge import holds_knowledge
 
 BVH = kineme.bundled_recording().read_text(encoding="utf-8")
 

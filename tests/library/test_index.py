@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import naive
-from kineme.library import Example, Library, index
+from kineme.library import Example, Library, searching
 from kineme.library._kernels import least_squares
-from kineme.library.index import Parts
+from kineme.library.searching import Parts
 from kineme.library.storage import index as storage
 from kineme.library.windows import (
     FINER,
@@ -28,8 +28,8 @@ def test_what_is_searched_first_holds_what_an_exact_search_finds(
 ) -> None:
     exact = Library(folder)
     monkeypatch.setattr(storage, "FROM_HOURS", 0.0)
-    monkeypatch.setattr(index, "SHARE", 0.2)
-    monkeypatch.setattr(index, "MORE", 1)
+    monkeypatch.setattr(searching, "SHARE", 0.2)
+    monkeypatch.setattr(searching, "MORE", 1)
     storage.write_index(folder, exact.head["tables"], exact.recordings)
     indexed = Library(folder)
     for example in (Example("walk.bvh", 2.0, 3.2), Example("jacks.bvh", 4.0, 7.5)):
@@ -72,7 +72,7 @@ def test_the_window_that_is_the_example_is_the_nearest() -> None:
 
 def test_parts_that_overlap_are_one_within_a_recording() -> None:
     parts = Parts(*map(np.array, ([1, 0, 0, 0], [0, 5, 0, 30], [10, 20, 8, 40])))
-    assert [column.tolist() for column in index.merge_overlapping(parts)] == [
+    assert [column.tolist() for column in searching.merge_overlapping(parts)] == [
         [0, 0, 1],
         [0, 30, 0],
         [20, 40, 10],

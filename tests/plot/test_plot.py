@@ -14,9 +14,10 @@ from hypothesis import given, settings
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
+import kineme
 from kineme.errors import ParameterError, WriteError
-from kineme.plot import matrix, plot_matrix, plot_segmentation
-from kineme.recordings import Signals
+from kineme.plot import matrix, plot_matrix, plot_segmentation, plot_strip
+from kineme.recordings import Motion, Signals, Skeleton
 from kineme.segments.colors import NO_CLUSTER, PALETTE, cluster_color
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
@@ -154,3 +155,36 @@ def lab(rgb: np.ndarray) -> np.ndarray:
     to_xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
     x, y, z = np.cbrt(np.array(to_xyz) @ np.clip(rgb, 0, 1) / [0.9505, 1.0, 1.089])
     return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+
+def turned(motion: Motion, degrees: float) -> Motion:
+    """The motion of somebody who faces elsewhere."""
+    cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    turn = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
+    return Motion(motion.skeleton, motion.positions @ turn.T, motion.fps)
+
+
+def test_poses_look_alike_wherever_somebody_faces() -> None:
+    walk = kineme.read(kineme.bundled_recording()).seconds(0.5, 1.6)
+    drawn = [
+        np.array(plot_strip(each, ax=Figure().subplots()).collections[0].get_segments())
+        for each in (walk, turned(walk, 70))
+    ]
+    assert len(drawn[0]) == 7 * sum(parent >= 0 for parent in walk.skeleton.parents)
+    np.testing.assert_allclose(*drawn, atol=1e-6)
+
+
+def test_points_and_channels_are_drawn_without_bones() -> None:
+    rng = np.random.default_rng(0)
+    points = Motion(Skeleton(("a", "b"), (-1, -1), np.zeros((2, 3))), rng.normal(size=(9, 2, 3)), 9)
+    dots = plot_strip(points, poses=3, ax=Figure().subplots()).collections[0]
+    assert len(dots.get_offsets()) == 6
+    channels = Signals(rng.normal(size=(90, 20)), 30, tuple(f"c{i}" for i in range(20)))
+    assert len(plot_strip(channels, 1.0, 2.0, ax=Figure().subplots()).lines) == 12
+
+
+@pytest.mark.parametrize("span", [(9.0, None), (2.0, 1.0), (-1.0, 2.0), (0.0, "end")])
+def test_a_span_that_is_none_is_refused(span: tuple[float, float]) -> None:
+    signals = Signals(np.zeros((90, 2)), 30, ("a", "b"))
+    with pytest.raises(ParameterError, match="a span lies within the 3.00 s"):
+        plot_strip(signals, *span, ax=Figure().subplots())

@@ -27,7 +27,7 @@ def interpolate_frames(values: ArrayLike, at: ArrayLike) -> Floats:
     before = np.minimum(places.astype(np.intp), max(0, len(rows) - 2))
     after = np.minimum(before + 1, len(rows) - 1)
     # New axes, so that the share applies to all further axes of the values.
-    share = (places - before).reshape(-1, *[1] * (rows.ndim - 1))
+    share = (places - before)[(..., *[None] * (rows.ndim - 1))]
     mixed: Floats = (1 - share) * rows[before] + share * rows[after]
     return mixed
 

@@ -289,7 +289,7 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
 
     from kineme._util.files import atomic_write
     from kineme.cycles import compare_curves
-    from kineme.cycles.sides import sides_of
+    from kineme.cycles.comparison import sides_of
     from kineme.plot import plot_curves, plot_sessions, plot_sides
 
     groups, pairs, channels = cycles.groups, sides_of(cycles.channels), cycles.channels
@@ -392,7 +392,7 @@ def _liveliest(cycles: Cycles, *, ends: bool) -> list[str]:
 
     Of several units, which cannot be compared, the first ones.
     """
-    from kineme.cycles.sides import sides_of
+    from kineme.cycles.comparison import sides_of
 
     if len(set(cycles.units)) > 1:
         return [*cycles.channels[:SHOWN]]

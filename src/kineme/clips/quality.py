@@ -21,7 +21,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from kineme._util.arrays import Floats, Masks
+from kineme._util.arrays import Floats, Masks, interpolate_frames
 from kineme.clips.loops import Carry, seam_sides
 
 USUAL = 95.0
@@ -130,7 +130,9 @@ def distances(shapes: Sequence[Floats]) -> list[float]:
     """
     if len(shapes) < 2:
         return [math.nan] * len(shapes)
-    sampled = np.stack([_sample_phases(each) for each in shapes])
+    sampled = np.stack(
+        [interpolate_frames(each, np.linspace(0, len(each) - 1, PHASES)) for each in shapes]
+    )
     typical = np.median(sampled, axis=0)
     return [_size(each - typical) for each in sampled]
 
@@ -168,17 +170,6 @@ def _slide(
         # Planted in both frames of a step; the roll pairs the last frame with the first.
         speeds += slowest[planted & np.roll(planted, -1)].tolist()
     return float(np.mean(speeds)) if speeds else math.nan
-
-
-def _sample_phases(shape: Floats) -> Floats:
-    """Return a motion at `PHASES` of its round."""
-    at = np.linspace(0, len(shape) - 1, PHASES)
-    # Neighbouring frames of each phase; `low` leaves room for `high`.
-    low = np.minimum(at.astype(int), max(len(shape) - 2, 0))
-    high = np.minimum(low + 1, len(shape) - 1)
-    share = (at - low)[:, None, None]
-    sampled: Floats = shape[low] * (1 - share) + shape[high] * share
-    return sampled
 
 
 def _quantile(steps: Floats) -> float:

@@ -9,6 +9,7 @@ from typing import Any
 
 from kineme.cycles.angles import bend, cardan, measure_angle
 from kineme.cycles.channels import Channel, channels_of
+from kineme.cycles.comparison import compare_curves, compare_sessions, compare_sides
 from kineme.cycles.contacts import (
     stands_from_force,
     stands_from_positions,
@@ -18,8 +19,6 @@ from kineme.cycles.events import Events, foot_events, gait, strides
 from kineme.cycles.export import write_cycles, write_table
 from kineme.cycles.landmarks import landmarks
 from kineme.cycles.measure import cycles
-from kineme.cycles.sessions import compare_curves, compare_sessions
-from kineme.cycles.sides import compare_sides
 from kineme.cycles.table import Cycles
 
 __all__ = [

@@ -37,8 +37,6 @@ STEP = 0.2
 ROUNDS = 3
 SMOOTH = 7
 """Points over which a warp is smoothed."""
-BLOCK = 256
-"""Cycles that are warped at a time."""
 
 
 def align_curves(curves: Floats, alignment: str) -> Floats:
@@ -105,8 +103,7 @@ def _warp_to_mean(curves: Floats) -> Floats:
     phases = np.tile(grid, (len(curves), 1))
     for _ in range(ROUNDS):
         mean = _sample_curves(scaled, grid, phases).mean(axis=0)
-        blocks = range(0, len(scaled), BLOCK)
-        phases = np.concatenate([_warp_cycle(mean, scaled[at : at + BLOCK]) for at in blocks])
+        phases = np.array([_warp_cycle(mean, each) for each in scaled])
         # Compose each warp with the inverse of the mean warp, so that warps are the identity on
         # average.
         usual = phases.mean(axis=0)
@@ -114,44 +111,21 @@ def _warp_to_mean(curves: Floats) -> Floats:
     return phases
 
 
-def _warp_cycle(mean: Floats, curves: Floats) -> Floats:
-    """Return phase of each cycle at each time of the mean, on the cheapest path within a band."""
-    n, band = len(curves), round(BAND * GRID)
-    # One more row and column than points: index 0 is the state before the first pair.
-    cost = np.full((n, GRID + 1, GRID + 1), np.inf)
-    # All paths start here; the rest of row and column 0 stays infinite.
-    cost[:, 0, 0] = 0
-    for i in range(GRID):
-        # Only pairs near the diagonal (Sakoe-Chiba band); others keep an infinite cost.
-        first, last = max(0, i - band), min(GRID, i + band + 1)
-        # (cycles, band): squared distance of point i of the mean to each point of the band.
-        apart = np.square(curves[:, :, first:last] - mean[:, i, None]).sum(axis=1)
-        # All cycles at once: the loops run over the points only.
-        for j in range(first, last):
-            before = np.minimum(cost[:, i, j + 1], cost[:, i + 1, j]) + STEP
-            cost[:, i + 1, j + 1] = apart[:, j - first] + np.minimum(cost[:, i, j], before)
+def _warp_cycle(mean: Floats, curve: Floats) -> Floats:
+    """Return the phase of a cycle at each time of the mean, on the cheapest path within a band."""
+    from kineme.features._warping_kernels import cheapest_path
+
+    grid, points = np.linspace(0, 1, GRID), np.arange(GRID)
+    # (GRID, GRID): squared distance of each point of the mean to each point of the cycle.
+    apart = np.square(curve[:, None] - mean[:, :, None]).sum(axis=0)
+    # Only pairs near the diagonal (Sakoe-Chiba band).
+    apart[np.abs(points[:, None] - points) > round(BAND * GRID)] = np.inf
+    _, rows, columns = cheapest_path(apart, STEP)
     # A point of the mean may be paired with several points of a cycle: their mean is taken.
-    total, count = np.zeros((n, GRID)), np.zeros((n, GRID))
-    rows, at, of = np.arange(n), np.full(n, GRID), np.full(n, GRID)  # back from the end
-    while (inside := (at > 0) & (of > 0)).any():
-        # `add.at` counts repeated index pairs; indices are one less than in `cost`, which has a
-        # margin.
-        np.add.at(total, (rows[inside], at[inside] - 1), of[inside] - 1)
-        np.add.at(count, (rows[inside], at[inside] - 1), 1)
-        # Both points back, only the mean's, only the cycle's. At index 0 the -1 wraps round: not
-        # used.
-        costs = [cost[rows, at - 1, of - 1], cost[rows, at - 1, of] + STEP,
-                 cost[rows, at, of - 1] + STEP]  # fmt: skip
-        chosen = np.argmin(costs, axis=0)
-        # Finished cycles stay where they are.
-        at, of = at - (inside & (chosen != 2)), of - (inside & (chosen != 1))
-    # From point numbers to shares of the cycle.
-    phases = total / np.maximum(count, 1) / (GRID - 1)
+    phases = np.bincount(rows, columns) / np.bincount(rows) / (GRID - 1)
     # Smooth the deviation from an even course. It is 0 at both ends, so zeros continue it.
-    kernel, half = np.ones(SMOOTH) / SMOOTH, SMOOTH // 2
-    late = np.pad(phases - np.linspace(0, 1, GRID), ((0, 0), (half, half)))
-    smooth = np.array([np.convolve(each, kernel, "valid") for each in late])
+    late = np.convolve(np.pad(phases - grid, SMOOTH // 2), np.ones(SMOOTH) / SMOOTH, "valid")
     # A phase must neither leave the cycle nor go back in time.
-    smooth = np.maximum.accumulate(np.clip(smooth + np.linspace(0, 1, GRID), 0, 1), axis=1)
-    smooth[:, 0], smooth[:, -1] = 0, 1
-    return np.asarray(smooth)
+    smooth = np.maximum.accumulate(np.clip(late + grid, 0, 1))
+    smooth[0], smooth[-1] = 0, 1
+    return smooth

@@ -15,6 +15,7 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
+from kineme.cycles.borders import vertex
 from kineme.cycles.channels import channels_of
 from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
 from kineme.cycles.runs import Repetition, movement
@@ -105,19 +106,12 @@ def _extremes(found: Sequence[Repetition], curves: Sequence[Curve], sign: float)
         # Whole frames within the window, limited to the recording.
         frames = np.arange(max(0, int(np.ceil(first * fps))), min(len(values), int(last * fps) + 1))
         if len(frames) and np.isfinite(values[frames]).all():
-            times[i] = _peak(sign * values, int(frames[(sign * values[frames]).argmax()])) / fps
+            frame = int(frames[(sign * values[frames]).argmax()])
+            # An end of the recording has no neighbour for the parabola, which finds a minimum.
+            inner = 0 < frame < len(values) - 1
+            shift = vertex(*(-sign * values[frame - 1 : frame + 2])) if inner else 0.0
+            times[i] = (frame + shift) / fps
     return times
-
-
-def _peak(values: Floats, frame: int) -> float:
-    """Where values are largest about a frame, between two of them."""
-    if not 0 < frame < len(values) - 1:
-        # An end of the recording has no neighbour for the parabola.
-        return float(frame)
-    left, middle, right = values[frame - 1 : frame + 2]
-    # Vertex of the parabola through the three values; only a downward one has a maximum.
-    curvature = left - 2 * middle + right
-    return frame + (float((left - right) / (2 * curvature)) if curvature < 0 else 0.0)
 
 
 def _window(each: Repetition, phase: float) -> tuple[float, float]:

@@ -29,7 +29,7 @@ from functools import cached_property
 
 import numpy as np
 
-from kineme._util.arrays import Floats
+from kineme._util.arrays import Floats, interpolate_frames
 
 WINDOWS = (0.5, 0.35, 0.25, 0.25)
 """Of a cycle, for each step: what is compared before and after a border. The wide ones cannot be
@@ -283,8 +283,8 @@ def _lateness(mean: Floats, reference: Floats) -> float:
     if correlation[best] < SIMILAR or correlation[best] - correlation[0] < BETTER:
         return 0.0
     left, right = correlation[best - 1], correlation[(best + 1) % POINTS]
-    # `_vertex` finds a minimum, so the correlations are negated. Lags beyond half a cycle wrap.
-    return _wrap_phase((best + _vertex(-left, -correlation[best], -right)) / POINTS)
+    # `vertex` finds a minimum, so the correlations are negated. Lags beyond half a cycle wrap.
+    return _wrap_phase((best + vertex(-left, -correlation[best], -right)) / POINTS)
 
 
 def _template(
@@ -342,7 +342,7 @@ def _move_borders(
         shift = shifts[best]
         if 0 < best < len(shifts) - 1:
             # Vertex of the parabola through the three best shifts, in units of their spacing.
-            shift += _vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
+            shift += vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
         borders[i] = border + shift * run.period
         window = sample_at(features, rate, borders[i] + pace)
         # Differences that remain at the new border give its uncertainty.
@@ -362,7 +362,7 @@ def _deviation(left: Floats, slope: Floats) -> float:
     return DOUBT * float(np.sqrt(BLOCKS / (BLOCKS - 1) * np.square(pulls).sum()) / steepness)
 
 
-def _vertex(left: float, middle: float, right: float) -> float:
+def vertex(left: float, middle: float, right: float) -> float:
     """Where the parabola through three values at -1, 0 and 1 is least, from -1/2 to 1/2."""
     # Positive curvature only: other parabolas have no minimum.
     curvature = left - 2 * middle + right
@@ -383,10 +383,4 @@ def sample_at(values: Floats, rate: float, times: Floats) -> Floats:
     -------
     array of the shape of the times, and dims
     """
-    at = np.clip(times * rate, 0, len(values) - 1)
-    # `before` is at most the last but one sample, so that `after` exists; 0 for a single sample.
-    before = np.minimum(at.astype(np.intp), max(len(values) - 2, 0))
-    # A new last axis, so that the share applies to all dimensions.
-    share = (at - before)[..., None]
-    after = np.minimum(before + 1, len(values) - 1)
-    return np.asarray(values[before] * (1 - share) + values[after] * share)
+    return interpolate_frames(values, np.clip(times * rate, 0, len(values) - 1))

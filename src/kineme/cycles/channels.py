@@ -40,9 +40,8 @@ from kineme.cycles.angles import (
     normalize,
     remove_along,
 )
-from kineme.cycles.centres import add_joint_centres
 from kineme.cycles.events import foot_of, stance_of
-from kineme.cycles.landmarks import landmarks
+from kineme.cycles.landmarks import add_joint_centres, landmarks
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import body_frame, heading
 from kineme.features.feet import speed_of

@@ -20,7 +20,7 @@ from kineme.cycles.contacts import (
     stands_from_positions,
     swings_from_gyroscope,
 )
-from kineme.cycles.landmarks import find_feet
+from kineme.cycles.landmarks import OTHER_SIDE, find_feet
 from kineme.cycles.table import Columns
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Motion, Signals
@@ -419,8 +419,7 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
 def _strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:
     """Return of each stride of a foot, from strike to strike, what can be measured."""
     strikes, offs = events.at(f"{side} {STRIKE}"), events.at(f"{side} {OFF}")
-    # A bool as index: the other side.
-    others = events.at(f"{SIDES[side == SIDES[0]]} {STRIKE}")
+    others = events.at(f"{OTHER_SIDE[side]} {STRIKE}")
     pairs = np.column_stack([strikes[:-1], strikes[1:]])
     lengths = np.diff(pairs, axis=1)[:, 0]
     # A median of nothing would warn.

@@ -23,10 +23,10 @@ from typing import Any
 
 import numpy as np
 
-from kineme._util.checks import check_path, check_type
+from kineme._util.checks import check_path, check_type, require_extra
 from kineme._util.files import atomic_write
 from kineme.cycles.table import Columns, Cycles
-from kineme.errors import MissingDependencyError, WriteError
+from kineme.errors import WriteError
 from kineme.labels.delimited import write_rows
 
 NAME_OF_MATLAB = 63
@@ -114,10 +114,8 @@ def _cells(column: np.ndarray[Any, Any]) -> list[Any]:
 
 
 def _write_parquet(columns: Columns, path: Path) -> None:
-    try:
+    with require_extra("pyarrow", "tables"):
         from pyarrow import parquet, table
-    except ImportError as error:
-        raise MissingDependencyError("pyarrow", "tables") from error
     with atomic_write(path) as draft:
         parquet.write_table(table(columns), draft)
 
@@ -137,10 +135,8 @@ def _write_three(cycles: Cycles, path: Path, ends: bool) -> None:
 
 
 def _write_excel(cycles: Cycles, path: Path, ends: bool) -> None:
-    try:
+    with require_extra("openpyxl", "excel"):
         from openpyxl import Workbook
-    except ImportError as error:
-        raise MissingDependencyError("openpyxl", "excel") from error
     book = Workbook(write_only=True)
     for name, columns in _tables(cycles, ends).items():
         n = len(next(iter(columns.values()))) if columns else 0

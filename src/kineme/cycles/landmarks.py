@@ -2,17 +2,38 @@
 
 Arms and legs are those of `kineme.features.canonical`. Heels and toes are found by their names (see
 `kineme.recordings.joint_names`); a toe may also be the end of a foot.
+
+Bodies that are markers on the skin get the centres of hips and knees as well (`add_joint_centres`).
+
+*Hip.* From the depth and the width of the pelvis, by the regression of Harrington et al. 2007,
+"Prediction of the hip joint centre in adults, children, and patients with cerebral palsy based on
+magnetic resonance imaging"; or where the file has it (``LHJC``).
+
+*Knee.* A marker on it is beside its centre, which does not matter to an angle about the axis of the
+knee (`kineme.cycles.angles.hinge_axis`), as long as the ankle is a marker at the same side. Without
+one, thigh and shank are rigid bodies, each fitted to its markers. Both have one point in common,
+about which they turn (Ehrig et al. 2006, "A survey of formal methods for determining the centre of
+rotation of ball joints", section 2.2.2). A knee turns about an axis, so that this point may lie
+anywhere on it: that one is taken which is in line with hip and ankle, as seen from the front. A
+knee that is not bent in the recording has no such point.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+
 import numpy as np
 
+from kineme._util.arrays import Floats
+from kineme.cycles.angles import normalize, remove_along
 from kineme.errors import EndEffectorError
 from kineme.features import PARTS, end_effectors
 from kineme.features.canonical.joints import find_limbs
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.joint_names import SIDES, find_joints
+from kineme.recordings.joint_names import SIDES, find_joints, simplify_name
+
+OTHER_SIDE = dict(zip(SIDES, reversed(SIDES), strict=True))
 
 
 def landmarks(motion: Motion) -> dict[str, int]:
@@ -71,3 +92,176 @@ def _beyond(skeleton: Skeleton, ankle: int) -> int | None:
     lengths = np.linalg.norm(skeleton.offsets, axis=1)
     below = [j for j in skeleton.children[ankle] if lengths[j] > 0]
     return max(below, key=lambda j: float(lengths[j]), default=None)
+
+
+LEAST = 3
+"""Markers of a rigid body."""
+MARKERS = (
+    *(("*_hip_centre",), ("*_outer_ankle",)),
+    *(("*_waist_front",), ("*_waist_back",), ("sacrum",)),
+)
+"""Markers and centres from which those of hips and knees are made, as in `joint_names`."""
+DEPTH, WIDTH_DOWN, WIDTH_OUT = (-0.24, -0.0099), (-0.30, -0.0109), (0.33, 0.0073)
+"""How far ahead, up and to its side a hip is of the middle of the front: factor, and metres."""
+PULL = 0.05
+"""How strongly the common point is drawn to between both bodies, against how well it fits them."""
+BENT = 0.1
+"""How much a knee bends and stretches in the recording, about 8 degrees of deviation, at least."""
+MOST = 4000
+"""Frames that the common point is found from, at most."""
+
+
+def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
+    """Return motion with centres of hips and knees as more joints, and the joints by part and side.
+
+    Both are as they were where nothing tells where centres are. Of markers on the skin,
+    ``left_thigh`` is the point that tells with hip and knee how a thigh is turned: the marker of
+    the thigh that is farthest from their line, else the other hip.
+
+    Parameters
+    ----------
+    motion : Motion
+    joints : mapping of str to int
+        As `kineme.cycles.landmarks` has them.
+    """
+    names = [simplify_name(name.rpartition(":")[2]) for name in motion.skeleton.names]
+    found = find_joints(motion.skeleton.names, MARKERS, exact=True, single=True)
+    marker = {joint: points[0] for joint, points in found.items()}
+    places = motion.positions
+    made: dict[str, Floats] = {}
+    # A skeleton with rotations has its joints at their centres; only markers need this.
+    if motion.rotations is not None:
+        return motion, dict(joints)
+    centres = _hips(places, marker)
+    # Without pelvis markers, joints that are named hips serve.
+    hips = centres or {
+        side: places[:, joints[f"{side}_hip"]] for side in SIDES if f"{side}_hip" in joints
+    }
+    if len(hips) < len(SIDES):
+        return motion, dict(joints)
+    to_left = hips["left"] - hips["right"]
+    chosen = dict(joints)
+    # From here per side: which ankle marker and which knee belong together.
+    for side in SIDES:
+        ankle = joints.get(f"{side}_ankle")
+        letter = side[0].upper()
+        bodies = [[j for j, name in enumerate(names) if name.startswith(letter + word)]
+                  for word in ("THIGH", "SHANK")]  # fmt: skip
+        if f"{side}_knee" in joints:
+            # Only with markers on the skin: knee and ankle are then both at the outer side.
+            outer = marker.get(f"{side}_outer_ankle") if centres else None
+            chosen |= {} if outer is None else {f"{side}_ankle": outer}
+        elif ankle is not None and min(map(len, bodies)) >= LEAST:
+            ends = hips[side], places[:, ankle]
+            knee = _knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
+            made |= {} if knee is None else {f"{side}_knee": knee}
+    if not made and not centres:
+        return motion, chosen
+    # Computed hips are added after the knees; `n + place` below relies on this order.
+    made |= {f"{side}_hip": hip for side, hip in hips.items()}
+    skeleton, n = motion.skeleton, motion.skeleton.n_joints
+    extended = Skeleton(
+        (*skeleton.names, *(f"centre of {part.replace('_', ' ')}" for part in made)),
+        # New joints hang on joint 0 with no offset: only their positions are used.
+        (*skeleton.parents, *[0] * len(made)),
+        np.concatenate([skeleton.offsets, np.zeros((len(made), 3))]),
+        skeleton.end_sites,
+    )
+    positions = np.concatenate([places, np.stack([*made.values()], axis=1)], axis=1)
+    chosen |= {part: n + place for place, part in enumerate(made)}
+    for side in SIDES:
+        if f"{side}_knee" in chosen:
+            hip, knee = (positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
+            markers = [
+                j
+                for j, name in enumerate(names)
+                if name[:1] == side[0].upper() and "THI" in name[1:] and j not in chosen.values()
+            ]
+            # Vectors from the line through hip and knee to each marker.
+            aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
+            far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
+            other = chosen[f"{OTHER_SIDE[side]}_hip"]
+            chosen[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
+    return replace(motion, skeleton=extended, positions=positions), chosen
+
+
+def _hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
+    """Both centres, from the file or the markers of the pelvis; none where these are not there."""
+    given, fronts, backs = (
+        [marker.get(f"{side}_{part}", -1) for side in SIDES]
+        for part in ("hip_centre", "waist_front", "waist_back")
+    )
+    if min(given) >= 0:
+        return {side: places[:, j] for side, j in zip(SIDES, given, strict=True)}
+    # A marker on the sacrum replaces the two at the back.
+    if min(backs) < 0:
+        backs = [marker.get("sacrum", -1)]
+    if min(fronts + backs) < 0:
+        return {}
+    front, back = places[:, fronts].mean(axis=1), places[:, backs].mean(axis=1)
+    across, ahead = places[:, fronts[0]] - places[:, fronts[1]], front - back
+    width, depth = (float(np.median(np.linalg.norm(each, axis=1))) for each in (across, ahead))
+    # Axes of the pelvis: left, ahead without its share of left, and up.
+    left = normalize(across)
+    forward = normalize(remove_along(ahead, left))
+    up = np.cross(forward, left)
+    # Regression of Harrington et al.: factor times depth or width, plus a constant, in metres.
+    middle = front + (DEPTH[0] * depth + DEPTH[1]) * forward
+    middle = middle + (WIDTH_DOWN[0] * width + WIDTH_DOWN[1]) * up
+    aside = (WIDTH_OUT[0] * width + WIDTH_OUT[1]) * left
+    return {"left": middle + aside, "right": middle - aside}
+
+
+def _knee(
+    thigh: Floats, shank: Floats, ends: tuple[Floats, Floats], to_left: Floats
+) -> Floats | None:
+    """(frames, 3): the point about which two bodies turn, in line with hip and ankle."""
+    upper, lower = _poses(thigh), _poses(shank)
+    chosen = np.unique(np.linspace(0, len(thigh) - 1, min(len(thigh), MOST)).astype(np.intp))
+    # Evenly spread frames; both rotations and both centres of these only.
+    (turned, centre), (other, below) = ((r[chosen], c[chosen]) for r, c in (upper, lower))
+    # (3 frames, 6): R1 c1 - R2 c2 = t2 - t1, linear in the local places c1 and c2 (Ehrig, SCoRE).
+    both = np.concatenate([turned, -other], axis=2).reshape(-1, 6)
+    # A hinge leaves one singular value near 0, the axis. A second small one: the knee does not
+    # bend.
+    if np.linalg.svd(both, compute_uv=False)[4] < BENT * np.sqrt(len(chosen)):
+        return None
+    # Weak extra equations: c1 near the middle of both bodies, which fixes the place on the axis.
+    pulled = np.concatenate([turned, 0 * other], axis=2).reshape(-1, 6)
+    apart = (below - centre).reshape(-1)
+    found = np.linalg.lstsq(
+        np.concatenate([both, PULL * pulled]), np.concatenate([apart, PULL * apart / 2])
+    )[0]
+    # The same point as each body sees it, averaged.
+    at = (_place_point(upper, found[:3]) + _place_point(lower, found[3:])) / 2
+    # Leftward axis in the frame of the thigh, averaged over time, then turned back with the thigh.
+    axis = normalize(
+        np.einsum("fji,fj->fi", upper[0], normalize(to_left)).mean(axis=0, keepdims=True)
+    )[0]
+    axis = np.einsum("fij,j->fi", upper[0], axis)
+    # How far the middle of hip and ankle lies beside the point, along the axis.
+    aside = (((ends[0] + ends[1]) / 2 - at) * axis).sum(axis=1)
+    return np.asarray(at + float(np.median(aside)) * axis)
+
+
+Poses = tuple[Floats, Floats]
+"""Rotations (frames, 3, 3) and places of the middle (frames, 3) of a rigid body."""
+
+
+def _place_point(poses: Poses, point: Floats) -> Floats:
+    return np.asarray(np.einsum("fij,j->fi", poses[0], point) + poses[1])
+
+
+def _poses(markers: Floats) -> Poses:
+    """How a body is turned against its shape in the middle frame, by least squares (Kabsch)."""
+    # Centred markers (frames, markers, 3); the middle frame is the reference shape.
+    centre = markers.mean(axis=1)
+    shape = markers - centre[:, None]
+    # (frames, 3, 3): cross-covariances with the reference, H = U S Vt.
+    products = np.einsum("mi,fmj->fij", shape[len(shape) // 2], shape)
+    u, _, vt = np.linalg.svd(products)
+    # A negative determinant is a reflection: flip the last axis to get a rotation.
+    flips = np.ones((len(u), 1, 3))
+    flips[:, 0, 2] = np.sign(np.linalg.det(u @ vt))
+    # The index order transposes the product: V D Ut.
+    return np.einsum("fij,fjk->fki", u * flips, vt), centre

@@ -231,28 +231,21 @@ def _check_same(measured: Sequence[Sequence[Channel]], names: Sequence[str]) -> 
 
 
 def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
-    """Return the files' names without suffix, with the person where equal names differ by it.
+    """Return the files' names without suffix, numbered where there are none, or equal ones.
 
-    Numbers where there are none, or still equal ones.
+    Equal names of several people are told apart by the person.
     """
-    files = [Path(each.provenance.path or "") for each in recordings]
-    counts = Counter(path.stem for path in files)
-    people = [
-        each.provenance.person if len(each.provenance.people) > 1 else "" for each in recordings
-    ]
-    # The person is added only where several recordings have the same file name.
-    names = [
-        as_display_name(path.stem) + make_person_suffix(person or "") * (counts[path.stem] > 1)
-        for path, person in zip(files, people, strict=True)
-    ]
-    counts = Counter(names)
+    stems = [Path(each.provenance.path or "").stem for each in recordings]
+    names = []
+    for stem, source in zip(stems, (each.provenance for each in recordings), strict=True):
+        is_shared = stems.count(stem) > 1 and len(source.people) > 1
+        person = make_person_suffix(source.person or "") if is_shared else ""
+        names.append(as_display_name(stem) + person)
+    if len(names) == 1:
+        return [names[0] or "recording"]
     return [
-        name
-        if name and counts[name] == 1
-        else f"{name or 'recording'} {place + 1}".strip()
-        if len(names) > 1
-        else name or "recording"
-        for place, name in enumerate(names)
+        name if name and names.count(name) == 1 else f"{name or 'recording'} {place}"
+        for place, name in enumerate(names, 1)
     ]
 
 
@@ -327,14 +320,12 @@ def _measure(
     for place, channel in enumerate(measured[0]):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
         for number, of_one in enumerate(measured):
-            rows = [row for row, (recording, _, _) in enumerate(spans) if recording == number]
-            values = of_one[place].values()
-            for row in rows:
-                _, start, stop = spans[row]
-                curves[row, place], statistics[row] = _measure_cycle(
-                    values, channel.fps if number == 0 else of_one[place].fps, start, stop,
-                    curves.shape[2],
-                )  # fmt: skip
+            values, fps = of_one[place].values(), of_one[place].fps
+            for row, (recording, start, stop) in enumerate(spans):
+                if recording == number:
+                    curves[row, place], statistics[row] = _measure_cycle(
+                        values, fps, start, stop, curves.shape[2]
+                    )
         for name, column in zip(STATISTICS, statistics.T, strict=True):
             columns[f"{channel.name}.{name}"] = column
 

@@ -1,6 +1,10 @@
 """`Cycles`: one row for each repetition, its curves, and what a cluster has in the mean.
 
 Only what stands in its columns is here; how it is measured is in `kineme.cycles.measure`.
+
+Places in a cycle are per cent of it: its end is the start of the next, so 99 and 1 are near. Means
+are those of directions on a circle (K. V. Mardia, P. E. Jupp, "Directional Statistics", 2000,
+section 2.2), and differences go the shorter way round.
 """
 
 from __future__ import annotations
@@ -13,13 +17,50 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import as_indices, check_flag, format_count, is_number
-from kineme.cycles.phases import CYCLE, is_phase, mean_phase, phase_differences
-from kineme.errors import MissingDependencyError, ParameterError
+from kineme._util.checks import as_indices, check_flag, format_count, is_number, require_extra
+from kineme.errors import ParameterError
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+PHASES = ("min_at", "max_at")
+"""Of the statistics of a channel, those that are places in a cycle."""
+
+CYCLE = 100.0
+
+
+def is_phase(measure: str) -> bool:
+    """Return whether a measure, as ``knee_l.max_at``, is a place in a cycle."""
+    return measure.rpartition(".")[2] in PHASES
+
+
+def mean_phase(phases: Floats) -> float:
+    """Return the mean direction, from 0 to 100; nan of none.
+
+    Examples
+    --------
+    >>> round(mean_phase(np.array([98.0, 4.0])), 6), round(mean_phase(np.array([40.0, 50.0])), 6)
+    (1.0, 45.0)
+    """
+    if not len(phases):
+        return np.nan
+    # Unit vectors on a circle that is one cycle long.
+    directions = np.exp(2j * np.pi * phases / CYCLE)
+    return float(np.angle(directions.sum()) / (2 * np.pi) * CYCLE % CYCLE)
+
+
+def phase_differences(differences: Floats) -> Floats:
+    """Differences of places in a cycle, from -50 to 50.
+
+    Examples
+    --------
+    >>> phase_differences(np.array([96.0, -3.0, 50.0])).tolist()
+    [-4.0, -3.0, -50.0]
+    """
+    # Shifted by half a cycle, so that the modulo leaves -50 to 50 instead of 0 to 100.
+    return np.asarray((differences + CYCLE / 2) % CYCLE - CYCLE / 2)
+
 
 Columns = dict[str, NDArray[Any]]
 
@@ -378,10 +419,8 @@ class Cycles:
         MissingDependencyError
             pandas is not installed.
         """
-        try:
+        with require_extra("pandas", "tables"):
             import pandas as pd
-        except ImportError as error:
-            raise MissingDependencyError("pandas", "tables") from error
         return pd.DataFrame(self.columns)
 
     def to_xarray(self) -> xr.Dataset:
@@ -397,10 +436,8 @@ class Cycles:
         MissingDependencyError
             xarray is not installed.
         """
-        try:
+        with require_extra("xarray", "xarray"):
             import xarray as xr
-        except ImportError as error:
-            raise MissingDependencyError("xarray", "xarray") from error
         # Statistics are not coordinates, since they can be computed from the curves.
         measured = {f"{channel}.{name}" for channel in self.channels for name in STATISTICS}
         points = self.curves.shape[2]

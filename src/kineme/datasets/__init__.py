@@ -2,7 +2,7 @@
 
 from kineme.datasets.actions import ACTIONS
 from kineme.datasets.bundled import bundled_recording, bundled_truth
-from kineme.datasets.sequences import Exercise, exercise_sequence, join_exercises
+from kineme.datasets.sequences import Exercise, join_exercises
 from kineme.datasets.synthetic import SyntheticRecording, random_recording, synthesize
 from kineme.datasets.timeline import Action
 
@@ -13,7 +13,6 @@ __all__ = [
     "SyntheticRecording",
     "bundled_recording",
     "bundled_truth",
-    "exercise_sequence",
     "join_exercises",
     "random_recording",
     "synthesize",

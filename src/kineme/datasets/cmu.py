@@ -17,11 +17,11 @@ from itertools import count
 from os import PathLike, environ
 from pathlib import Path
 
+from kineme._util.checks import require_extra
 from kineme.datasets.download import TIMEOUT_S, Progress, fetch
 from kineme.errors import (
     FileError,
     KinemeWarning,
-    MissingDependencyError,
     ParameterError,
     ReadError,
 )
@@ -53,10 +53,8 @@ def cache_folder() -> Path:
     named = environ.get("KINEME_CACHE")
     if named:
         return Path(named)
-    try:
+    with require_extra("pooch", "data"):
         import pooch
-    except ImportError as error:
-        raise MissingDependencyError("pooch", "data") from error
     return Path(pooch.os_cache("kineme"))
 
 

@@ -17,7 +17,8 @@ from email.utils import formatdate, parsedate_to_datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from kineme.errors import FileError, MissingDependencyError, ReadError, WriteError
+from kineme._util.checks import require_extra
+from kineme.errors import FileError, ReadError, WriteError
 
 if TYPE_CHECKING:
     from requests import Response
@@ -45,10 +46,8 @@ def fetch(
     should be, ``progress`` with name, bytes so far, and bytes in all or None. A connection that is
     silent for ``timeout_s`` is tried again.
     """
-    try:
+    with require_extra("pooch", "data"):
         import pooch
-    except ImportError as error:
-        raise MissingDependencyError("pooch", "data") from error
     pooch.get_logger().setLevel("WARNING")
     name = url.rsplit("/", 1)[-1]
     part = folder / ".partial" / name

@@ -1,8 +1,13 @@
 """Sequences of recorded exercises, of which every border and repetition is known.
 
 Many collections hold single exercises, each cut out by people. Joined end to
-end (see ``joining``) they make recordings as long and as varied as wanted, of
+end they make recordings as long and as varied as wanted, of
 real movement and with a known truth.
+
+At a join the second motion is turned about the vertical and moved along the floor to where the
+first one ended. What differs then is made up on both sides. Over the join every rotation goes from
+the one to the other along the sphere while both movements go on: no frame is lost, and nobody
+stops.
 
 The truth is a segmentation like any other (see ``synthetic``). Between two
 repetitions of one action the border is the join's middle; between two actions
@@ -11,19 +16,105 @@ the join is a transition.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.datasets.joining import check_fit, join_recordings
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.datasets.timeline import Row, segments_of
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Provenance
+from kineme.recordings.kinematics import local_translations
+from kineme.recordings.operations import move, turn
 from kineme.segments.segmentation import Segmentation
+
+
+def join_recordings(
+    motions: Sequence[Motion], join: float = 0.4
+) -> tuple[Motion, NDArray[np.int64], list[int]]:
+    """One motion of all, the first frame of each and the end, and half of each join in frames.
+
+    Motions need one skeleton, one frame rate, and rotations. A join is blended over ``join``
+    seconds, at most a third of the shorter motion.
+    """
+    check_fit(motions)
+    fps = motions[0].fps
+    placed = [motions[0]]
+    for motion in motions[1:]:
+        placed.append(_placed_after(placed[-1], motion))
+    rotations = [np.array(motion.rotations) for motion in placed]
+    translations = [
+        local_translations(motion.skeleton, motion.positions, motion.rotations) for motion in placed
+    ]
+    halves = []
+    for before, after in pairwise(range(len(placed))):
+        shorter = min(len(rotations[before]), len(rotations[after]))
+        # At most a third of the shorter motion in all, so that joins do not meet.
+        half = min(round(join * fps / 2), shorter // 6)
+        _blend(rotations[before], rotations[after], translations[before], translations[after], half)
+        halves.append(half)
+    motion = Motion.from_rotations(
+        placed[0].skeleton,
+        np.concatenate(rotations),
+        fps,
+        translations=np.concatenate(translations),
+    )
+    return motion, np.cumsum([0, *map(len, rotations)]), halves
+
+
+def check_fit(motions: Sequence[Motion]) -> None:
+    """ParameterError where the skeletons, frame rates or rotations of motions do not fit."""
+    first = motions[0]
+    for motion in motions:
+        same = motion.skeleton.names == first.skeleton.names and np.allclose(
+            motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3
+        )
+        if not same or motion.fps != first.fps or motion.rotations is None:
+            raise ParameterError(
+                "exercises are joined if they have one skeleton, one frame rate and rotations; "
+                f"{motion.provenance.path or 'one of them'} does not fit the first"
+            )
+
+
+def _placed_after(before: Motion, motion: Motion) -> Motion:
+    """Return the motion turned and moved so that its root goes on where the one before ends."""
+    # Rotation of the root where the first motion ends and the second begins.
+    ended, begins = np.array(before.rotations)[-1, 0], np.array(motion.rotations)[0, 0]
+    q = rot.multiply(ended, rot.conjugate(begins))
+    # The part of the rotation about y: twice the angle between w and y.
+    turned = turn(motion, 2 * float(np.arctan2(q[2], q[0])))
+    step = before.positions[-1, 0] - turned.positions[0, 0]
+    # On the floor only: heights are left to the blend.
+    return move(turned, step * [1, 0, 1])
+
+
+def _blend(a: Floats, b: Floats, a_shift: Floats, b_shift: Floats, half: int) -> None:
+    """Bends the end of a and the start of b towards each other, in place."""
+    from scipy.spatial.transform import Rotation
+
+    if half == 0:
+        return
+    x = (np.arange(2 * half) + 0.5) / (2 * half)
+    share = (x * x * (3 - 2 * x))[:, None, None]
+    # A smooth step; the second motion starts bent back by what is left of it.
+    share[half:] -= 1
+    # The rotation from the end of the first motion to the start of the second.
+    vectors = Rotation.from_quat(np.roll(rot.multiply(rot.conjugate(a[-1]), b[0]), -1, -1))
+    angles = share * vectors.as_rotvec()
+    bends = np.roll(Rotation.from_rotvec(angles.reshape(-1, 3)).as_quat(), 1, -1)
+    bends = bends.reshape(*angles.shape[:2], 4)
+    # Translations are made up in the same way, in a line.
+    shift = share * (b_shift[0] - a_shift[-1])
+    a[-half:] = rot.multiply(a[-half:], bends[:half])
+    b[:half] = rot.multiply(b[:half], bends[half:])
+    a_shift[-half:] += shift[:half]
+    # The same share as for the rotations.
+    b_shift[:half] += shift[half:]
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,72 +147,7 @@ class Exercise:
             raise ParameterError(f"repetitions must be at least 1, not {self.repetitions}")
 
 
-def exercise_sequence(
-    exercises: Iterable[Exercise],
-    seed: int,
-    *,
-    actions: int = 5,
-    runs: int = 8,
-    repeats: tuple[int, int] = (3, 6),
-    join: float = 0.4,
-) -> SyntheticRecording:
-    """Exercises of one person joined in random order, and where each begins and ends.
-
-    Parameters
-    ----------
-    exercises : iterable of Exercise
-        Of one skeleton and one frame rate.
-    seed : int
-        Of everything random; the same seed gives the same recording.
-    actions : int, optional
-        How many different ones are drawn; all, if there are fewer.
-    runs : int, optional
-        How many times an action is taken up; each comes once before any comes again, and never
-        after itself.
-    repeats : (int, int), optional
-        Fewest and most exercises of a run, joined one after the other.
-    join : float, optional
-        Seconds over which a join is blended; at most a third of the shorter exercise.
-
-    Raises
-    ------
-    ParameterError
-        Fewer than two actions, exercises that do not fit together, or one without rotations.
-
-    Examples
-    --------
-    >>> from kineme.datasets import Action, Exercise, exercise_sequence, synthesize
-    >>> motions = {name: synthesize([Action(name, 1)], fps=30).motion for name in ("squat", "jump")}
-    >>> exercises = [Exercise(name, motion) for name, motion in motions.items()]
-    >>> exercise_sequence(exercises, 1, runs=3).truth.activities.label.tolist()
-    ['jump', '', 'squat', '', 'jump']
-    """
-    of_name: dict[str, list[Exercise]] = {}
-    for exercise in exercises:
-        of_name.setdefault(exercise.name, []).append(exercise)
-    if min(len(of_name), actions) < 2:
-        raise ParameterError(f"at least two actions are needed, not {min(len(of_name), actions)}")
-    if runs < 1 or not 1 <= repeats[0] <= repeats[1] or not join >= 0:
-        raise ParameterError(
-            f"runs must be at least 1, repeats rise from at least 1 and join not be negative, "
-            f"not {runs}, {repeats} and {join}"
-        )
-    check_fit([exercise.motion for takes in of_name.values() for exercise in takes])
-    rng = np.random.default_rng(seed)
-    names = rng.permutation(sorted(of_name))[:actions].tolist()
-    # Sorted first, so that the draw does not depend on the order of the input.
-    order = _run_order(names, runs, rng)
-    parts = [
-        exercise
-        for name in order
-        for exercise in _draw(of_name[name], int(rng.integers(repeats[0], repeats[1] + 1)), rng)
-    ]
-    return join_exercises(parts, join=join, note=f"{len(parts)} exercises joined, seed {seed}")
-
-
-def join_exercises(
-    parts: Sequence[Exercise], *, join: float = 0.4, note: str = ""
-) -> SyntheticRecording:
+def join_exercises(parts: Sequence[Exercise], *, join: float = 0.4) -> SyntheticRecording:
     """Exercises of one person joined in the order given, and where each begins and ends.
 
     Parameters
@@ -130,8 +156,6 @@ def join_exercises(
         Of one skeleton and one frame rate, two at least; neighbours of one name are one activity.
     join : float, optional
         Seconds over which a join is blended; at most a third of the shorter exercise.
-    note : str, optional
-        For the provenance; by default how many there are.
 
     Raises
     ------
@@ -147,28 +171,9 @@ def join_exercises(
     ['squat', '', 'jump']
     """
     motion, starts, halves = join_recordings([part.motion for part in parts], join)
-    sentence = note or f"{len(parts)} exercises joined"
-    provenance = Provenance(format="sequence").noted(sentence)
+    provenance = Provenance(format="sequence").noted(f"{len(parts)} exercises joined")
     truth = _truth(list(parts), starts, halves, motion.fps)
     return SyntheticRecording(replace(motion, provenance=provenance), truth)
-
-
-def _run_order(names: list[str], runs: int, rng: np.random.Generator) -> list[str]:
-    """Return every name once in random order, and again, without equal neighbours."""
-    order: list[str] = []
-    while len(order) < runs:
-        again = rng.permutation(names).tolist()
-        if order and again[0] == order[-1]:
-            # No action follows itself.
-            again.append(again.pop(0))
-        order += again
-    return order[:runs]
-
-
-def _draw(takes: list[Exercise], count: int, rng: np.random.Generator) -> list[Exercise]:
-    """So many of the takes, none twice before each came once."""
-    order = rng.permutation(len(takes))
-    return [takes[order[i % len(takes)]] for i in range(count)]
 
 
 def _truth(

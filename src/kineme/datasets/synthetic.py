@@ -19,8 +19,7 @@ import numpy as np
 
 from kineme.datasets.actions import ACTIONS
 from kineme.datasets.figure import figure
-from kineme.datasets.ground import root_path
-from kineme.datasets.performance import perform, shaken
+from kineme.datasets.performance import perform, root_path, shaken
 from kineme.datasets.timeline import Action, schedule, true_segments
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Provenance

@@ -6,10 +6,9 @@ here: it comes with compiled code.
 
 from kineme.features.body_frame import body_frame, heading
 from kineme.features.distances import distance_features
-from kineme.features.effectors import PARTS, EndEffectors, Names, end_effectors
+from kineme.features.effectors import PARTS, EndEffectors, Names, body_size, end_effectors
 from kineme.features.mirroring import mirror, mirror_features
 from kineme.features.pose import offsets_in_frames, pose_features, stack
-from kineme.features.size import body_size
 
 __all__ = [
     "PARTS",

@@ -100,7 +100,7 @@ def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats
         to_left /= np.maximum(np.linalg.norm(to_left, axis=1, keepdims=True), _UPRIGHT)
     else:
         to_left = _turned_axis(motion.skeleton, motion.rotations, pelvis, left_hip, right_hip)
-    return pelvis, *_facing(to_left)
+    return pelvis, *find_facing(to_left, _UPRIGHT)
 
 
 def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]:
@@ -146,16 +146,18 @@ def _turned_axis(
     return axis
 
 
-def _facing(to_left: Floats) -> tuple[Floats, Floats]:
-    """Cosine and sine, (frames, 1) each, of the turn that brings the axis to +x."""
+def find_facing(to_left: Floats, least: float | Floats) -> tuple[Floats, Floats]:
+    """Cosine and sine, (frames, 1) each, of the turn that brings what points to the left to +x.
+
+    Where no more than ``least`` of it lies flat, it is that of the nearest frame that has one.
+    """
     # Length of the horizontal part.
     length = np.hypot(to_left[:, 0], to_left[:, 2])
-    upright = np.flatnonzero(length > _UPRIGHT)
-    if len(upright) == 0:
+    level = np.flatnonzero(length > least)
+    if len(level) == 0:
         return np.ones((len(length), 1)), np.zeros((len(length), 1))
-    if len(upright) < len(length):
-        # `searchsorted` among the middles gives the nearest frame; at a tie the earlier one.
-        middles = (upright[:-1] + upright[1:]) / 2
-        nearest = upright[np.searchsorted(middles, np.arange(len(length)))]
-        to_left, length = to_left[nearest], length[nearest]
+    # `searchsorted` among the middles gives the nearest frame; at a tie the earlier one.
+    middles = (level[:-1] + level[1:]) / 2
+    nearest = level[np.searchsorted(middles, np.arange(len(length)))]
+    to_left, length = to_left[nearest], length[nearest]
     return (to_left[:, 0] / length)[:, None], (to_left[:, 2] / length)[:, None]

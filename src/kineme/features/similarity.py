@@ -26,9 +26,8 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Float32s, Floats
 from kineme.errors import MotionError, ParameterError
 from kineme.features.distances import SIZE, distance_features
-from kineme.features.effectors import Names, end_effectors
+from kineme.features.effectors import Names, body_size, end_effectors
 from kineme.features.pose import pose_features
-from kineme.features.size import body_size
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample
 

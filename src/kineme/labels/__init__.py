@@ -33,8 +33,13 @@ by `register` or by the entry point group ``kineme.label_formats``.
 """
 
 from kineme.labels.files import read_segments, write_segments
-from kineme.labels.label_format import LabelFormat
-from kineme.labels.registry import holds_labels, label_formats, register, written_suffixes
+from kineme.labels.registry import (
+    LabelFormat,
+    holds_labels,
+    label_formats,
+    register,
+    written_suffixes,
+)
 from kineme.labels.spans import Labels, Span
 
 __all__ = [

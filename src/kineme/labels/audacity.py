@@ -14,9 +14,8 @@ from pathlib import Path
 
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError
-from kineme.labels.delimited import number
-from kineme.labels.heads import head
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.delimited import head, number
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment

@@ -25,8 +25,8 @@ from kineme._util.checks import format_count
 from kineme._util.files import atomic_write
 from kineme._util.json import load_json
 from kineme.errors import ReadError
-from kineme.labels.heads import head
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.delimited import head
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment

@@ -23,10 +23,17 @@ from typing import Any
 from kineme._util.files import atomic_write
 from kineme._util.json import load_json
 from kineme.errors import ReadError, WriteError
-from kineme.labels import pairs
-from kineme.labels.delimited import integer, number, read_rows, write_rows
-from kineme.labels.heads import columns
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.delimited import (
+    CUTS_KEY,
+    columns,
+    digest_cuts,
+    find_differences,
+    integer,
+    number,
+    read_rows,
+    write_rows,
+)
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
@@ -59,7 +66,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         "RecordingDuration": segmentation.n_frames / segmentation.fps,
     }
     cuts = ((row.level, row.start_frame, row.stop_frame) for row in rows)
-    digest = {pairs.KEY: pairs.digest(cuts)}
+    digest = {CUTS_KEY: digest_cuts(cuts)}
     sidecar = {**COLUMNS, **_sidecar_to_keep(beside), **facts, **digest}
     with atomic_write(beside) as side_draft, atomic_write(path) as draft:
         side_draft.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
@@ -82,8 +89,8 @@ def read(path: Path) -> Labels:
     facts = _facts(sidecar, beside)
     rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
     row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
-    notes = pairs.differences(
-        path, beside, sidecar, pairs.digest(cuts), head_rate=rate, row_rate=row_rate
+    notes = find_differences(
+        path, beside, sidecar, digest_cuts(cuts), head_rate=rate, row_rate=row_rate
     )
     return Labels(spans, "seconds", rate, length, notes)
 

@@ -23,9 +23,8 @@ from typing import Any
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.label_tables import is_boris_table
-from kineme.labels.delimited import number, read_rows, write_rows
-from kineme.labels.heads import head
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.delimited import head, number, read_rows, write_rows
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment

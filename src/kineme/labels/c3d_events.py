@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from kineme._util.checks import as_floats, as_texts, check_path
 from kineme._util.files import atomic_write, translate_read_errors
 from kineme.errors import ParameterError, ReadError, WriteError
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
 

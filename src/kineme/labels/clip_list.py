@@ -20,9 +20,8 @@ from pathlib import Path
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.csv_table import roundest_rate
-from kineme.labels.delimited import integer, number, read_rows, write_rows
-from kineme.labels.heads import columns
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.delimited import columns, integer, number, read_rows, write_rows
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment

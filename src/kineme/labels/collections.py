@@ -24,12 +24,17 @@ from typing import NamedTuple
 from kineme._util.checks import format_count
 from kineme.errors import ReadError
 from kineme.labels import csv_table
-from kineme.labels.clock_times import convert_clock_times, lost_labels
+from kineme.labels.delimited import SAME_RATE, columns
 from kineme.labels.files import read_content, read_segments
-from kineme.labels.heads import columns
-from kineme.labels.pairs import SAME
 from kineme.labels.registry import format_to_read, holds_labels
-from kineme.labels.spans import TOO_FAR, Labels, Span, as_segmentation
+from kineme.labels.spans import (
+    TOO_FAR,
+    Labels,
+    Span,
+    as_segmentation,
+    convert_clock_times,
+    lost_labels,
+)
 from kineme.recordings.clock import Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
@@ -69,7 +74,7 @@ class LabelSource:
             raise ReadError(
                 self.path, f"is of {content.n_frames} frames, but the recording has {n_frames}"
             )
-        if not isclose(content.fps, fps, rel_tol=SAME):
+        if not isclose(content.fps, fps, rel_tol=SAME_RATE):
             raise ReadError(
                 self.path,
                 f"is of {content.fps:g} frames per second, but the recording has {fps:g}",

@@ -30,12 +30,18 @@ from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.delimited import from_text, replace_decimal_comma
 from kineme.formats.timing import date_seconds, is_date
-from kineme.labels import pairs
-from kineme.labels.delimited import number, read_rows, write_rows
-from kineme.labels.heads import columns as columns_of
-from kineme.labels.heads import separator
+from kineme.labels.delimited import (
+    CUTS_KEY,
+    digest_cuts,
+    find_differences,
+    number,
+    read_rows,
+    separator,
+    write_rows,
+)
+from kineme.labels.delimited import columns as columns_of
 from kineme.labels.json_table import SCHEMA, head_of, join_head, parse
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span
 from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.segmentation import Segmentation
@@ -58,7 +64,7 @@ SPANS: dict[Unit, tuple[str, str]] = {
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave the table at ``path`` and the rest beside it."""
     beside = provenance_path(path)
-    head = head_of(segmentation) | {pairs.KEY: _digest(segmentation.table.columns())}
+    head = head_of(segmentation) | {CUTS_KEY: _digest(segmentation.table.columns())}
     with atomic_write(beside) as head_draft, atomic_write(path) as draft:
         head_draft.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8")
         with draft.open("w", encoding="utf-8", newline="") as file:
@@ -102,7 +108,7 @@ def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentatio
             )
         rest = {name: value for name, value in head.items() if name != "hierarchy"}
         table = join_head(columns, rest, path)
-        changes = pairs.differences(
+        changes = find_differences(
             path, beside, head, _digest(columns), head_rate=table.fps, row_rate=_rate(columns)
         )
         if not changes:
@@ -141,8 +147,13 @@ def intervals(path: Path) -> dict[str, Labels]:
                 name: row[name] if comma == "," else replace_decimal_comma(row[name])
                 for name in SPANS[unit]
             }
-            convert = _second if unit == "seconds" else number
-            start, stop = (convert(cell, name, path, line) for name, cell in cells.items())
+            # Seconds may be a date or time of day: those since 1970, or since midnight.
+            start, stop = (
+                date_seconds(cell.strip())
+                if unit == "seconds" and is_date(cell.strip())
+                else number(cell, name, path, line)
+                for name, cell in cells.items()
+            )
             count = _count(row, path, line)
             span = Span(start, stop, _text(row), _level(row), _cluster(row), repetitions=count)
             spans.setdefault(row.get("recording", ""), []).append(span)
@@ -160,11 +171,6 @@ def _intervals(path: Path) -> Labels:
             "folder of them: kineme evaluate FOLDER --labels TABLE",
         )
     return next(iter(found.values()), Labels([]))
-
-
-def _second(cell: str, name: str, path: Path, line: int) -> float:
-    """Seconds, or a date or time of day in seconds since 1970 or midnight."""
-    return date_seconds(cell.strip()) if is_date(cell.strip()) else number(cell, name, path, line)
 
 
 def _text(row: dict[str, str]) -> str:
@@ -226,7 +232,7 @@ def _cell(text: str | None, name: str, path: Path, line: int, *, commas: bool) -
 
 
 def _digest(columns: Mapping[str, Any]) -> str:
-    return pairs.digest(
+    return digest_cuts(
         zip(columns["level"], columns["start_frame"], columns["stop_frame"], strict=True)
     )
 

@@ -1,14 +1,23 @@
-"""Tables of text with one header line: rows by column name, numbers with their line."""
+"""Read and write tables of text with one header line, and tell formats apart by their first bytes.
+
+A table and its side file are renamed one after the other. A writer that is killed between
+the two leaves files of different recordings beside each other. So the side file names the
+SHA-256 of its table's cuts (`digest_cuts`), and reading compares the two (`find_differences`).
+"""
 
 from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from codecs import BOM_UTF8
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from hashlib import sha256
 from itertools import chain
+from math import isclose
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
+from kineme._util.files import read_head, read_tail
 from kineme.errors import ReadError
 from kineme.formats.delimited import as_text, from_text
 
@@ -66,3 +75,84 @@ def integer(text: str, name: str, path: Path, line: int) -> int:
     if value != int(value):
         raise ReadError(path, f"{name} must be a whole number, not {text!r:.60}", line=line)
     return int(value)
+
+
+def head(path: Path) -> bytes:
+    """Return the first bytes of a file; none if it cannot be read."""
+    try:
+        return read_head(path).removeprefix(BOM_UTF8)
+    except OSError:
+        return b""
+
+
+def tail(path: Path) -> bytes:
+    """Return the last bytes of a file, where Parquet keeps what it knows of itself."""
+    try:
+        return read_tail(path)
+    except OSError:
+        return b""
+
+
+def columns(path: Path) -> set[str]:
+    """Return the cells of a file's first line, commas or tabs between them."""
+    first = head(path).decode(errors="replace").partition("\n")[0].strip("\r")
+    try:
+        cells = next(csv.reader([first], delimiter=separator(first)), [])
+    except csv.Error:
+        return set()
+    return {cell.strip() for cell in cells}
+
+
+def separator(first_line: str) -> str:
+    """What stands between the cells: tabs if there are any, semicolons if there are no commas."""
+    if "\t" in first_line:
+        return "\t"
+    return ";" if ";" in first_line and "," not in first_line else ","
+
+
+CUTS_KEY = "cuts_sha256"
+"""Where a side file has the digest of its table's cuts."""
+
+SAME_RATE = 5e-4
+"""Share by which two frame rates differ that are one, once spreadsheets rounded the seconds."""
+
+
+def digest_cuts(cuts: Iterable[tuple[object, object, object]]) -> str:
+    """What a side file says of its table: level, first frame and end of every row, in any order.
+
+    Labels are not in it, so that people may edit them.
+    """
+    lines = sorted(",".join(map(str, cut)) for cut in cuts)
+    return sha256("\n".join(lines).encode()).hexdigest()
+
+
+def find_differences(
+    path: Path,
+    beside: Path,
+    side: Mapping[str, Any],
+    found: str,
+    *,
+    head_rate: float | None,
+    row_rate: float | None,
+) -> tuple[str, ...]:
+    """Return what to say of a table and its side file that were not written together.
+
+    ``found`` is the `digest` of the table; side files that are older than it have none, and are
+    believed. The rates are those in the side file and of frames and seconds in the table.
+    """
+    if CUTS_KEY not in side:
+        return ()
+    rates = [rate for rate in (head_rate, row_rate) if rate is not None]
+    if len(rates) == 2 and not isclose(*rates, rel_tol=SAME_RATE):
+        raise ReadError(
+            path,
+            f"is of {row_rate:g} frames per second, but {beside.name} speaks of {head_rate:g}, "
+            "and was written with another table: remove that file, or write both again",
+        )
+    if side[CUTS_KEY] == found:
+        return ()
+    note = (
+        f"{path.name} is not the table that {beside.name} was written with: its cuts were moved "
+        "since, or writing broke off between the two"
+    )
+    return (note,)

@@ -28,7 +28,7 @@ from xml.etree import ElementTree as ET
 
 from kineme._util.files import NoEntities, atomic_write, find_video
 from kineme.errors import ReadError, WriteError
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment

@@ -16,10 +16,9 @@ from pathlib import Path
 
 from kineme.errors import ReadError
 from kineme.formats.label_tables import is_elan_table
-from kineme.labels.delimited import number
+from kineme.labels.delimited import head, number
 from kineme.labels.elan import chosen_tiers
-from kineme.labels.heads import head
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span
 
 _CLOCK = re.compile(r"(\d+):(\d\d):(\d\d\.\d+)")

@@ -11,10 +11,8 @@ from pathlib import Path
 from kineme._util.checks import check_path, check_type, is_number
 from kineme._util.files import translate_read_errors
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
-from kineme.labels.clock_times import convert_clock_times
-from kineme.labels.label_format import LabelFormat
-from kineme.labels.registry import format_to_read, format_to_write
-from kineme.labels.spans import Labels, as_segmentation
+from kineme.labels.registry import LabelFormat, format_to_read, format_to_write
+from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
 from kineme.recordings.clock import Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level

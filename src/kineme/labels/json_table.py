@@ -46,8 +46,8 @@ from numpy.typing import NDArray
 from kineme._util.files import atomic_write
 from kineme._util.json import decode_json
 from kineme.errors import ReadError
-from kineme.labels.heads import head
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.delimited import head
+from kineme.labels.registry import LabelFormat
 from kineme.segments.annotation import Annotation
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation

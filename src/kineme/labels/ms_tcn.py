@@ -23,8 +23,8 @@ from pathlib import Path
 
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
-from kineme.labels.heads import head
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.delimited import head
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment

@@ -16,9 +16,9 @@ from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.channels.parquet import parquet_columns, parquet_file
 from kineme.formats.files import load
-from kineme.labels.heads import tail
+from kineme.labels.delimited import tail
 from kineme.labels.json_table import head_of, join_head, parse
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.registry import LabelFormat
 from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import (
@@ -34,13 +34,15 @@ KEY = b"kineme.segments"
 
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave everything at ``path``."""
-    arrow, parquet = _pyarrow()
+    with require_extra("pyarrow", "tables"):
+        import pyarrow as pa
+        from pyarrow import parquet
     columns: dict[str, Any] = {**segmentation.table.columns()}
     if times := segmentation.start_times():
         columns[START_TIME] = times
     if any(comments := assign_comments(segmentation)):
         columns[COMMENT] = comments
-    table = arrow.table(columns)
+    table = pa.table(columns)
     table = table.replace_schema_metadata({KEY: json.dumps(head_of(segmentation)).encode()})
     with atomic_write(path) as draft:
         parquet.write_table(table, draft)
@@ -63,13 +65,6 @@ def read(path: Path) -> Segmentation:
         return found
     comments = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
     return from_rows(found, [str(text or "") for text in comments])
-
-
-def _pyarrow() -> tuple[Any, Any]:
-    with require_extra("pyarrow", "tables"):
-        import pyarrow as pa
-        from pyarrow import parquet
-    return pa, parquet
 
 
 FORMAT = LabelFormat(

@@ -25,7 +25,7 @@ from pathlib import Path
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.elan import chosen_tiers
-from kineme.labels.label_format import LabelFormat
+from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment

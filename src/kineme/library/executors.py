@@ -18,9 +18,10 @@ from contextlib import contextmanager
 from itertools import islice
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
+from kineme._util.checks import require_extra
 from kineme._util.parallel import defer_interrupt, make_process_context, make_process_pool
 from kineme._version import __version__
-from kineme.errors import KinemeError, MissingDependencyError, ParameterError
+from kineme.errors import KinemeError, ParameterError
 
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
@@ -249,10 +250,8 @@ def connect(client: Any) -> Iterator[Executor]:
 
 
 def _import_distributed() -> Any:
-    try:
+    with require_extra("dask.distributed", EXTRA):
         import distributed
-    except ImportError as error:
-        raise MissingDependencyError("dask.distributed", EXTRA) from error
     return distributed
 
 

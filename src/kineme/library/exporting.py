@@ -8,9 +8,9 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from kineme._util.checks import format_count
+from kineme._util.checks import format_count, require_extra
 from kineme._util.files import atomic_write
-from kineme.errors import KinemeError, MissingDependencyError, ParameterError, WriteError
+from kineme.errors import KinemeError, ParameterError, WriteError
 from kineme.labels.delimited import write_rows
 from kineme.library.open_library import Cluster, OpenTables, cluster_table, clusters_of
 from kineme.library.searching import Hit
@@ -42,10 +42,8 @@ def table_called(tables: OpenTables, name: str) -> Any:
 
 def answer(tables: OpenTables, sql: str) -> Any:
     """Return the answer to a question in SQL over all tables of a library, a pyarrow.Table."""
-    try:
+    with require_extra("duckdb", EXTRA):
         import duckdb
-    except ImportError as error:
-        raise MissingDependencyError("duckdb", EXTRA) from error
     if not isinstance(sql, str):
         raise ParameterError(f"a question is a text of SQL, not {sql!r:.60}")
     with duckdb.connect() as connection:

@@ -15,9 +15,18 @@ from kineme.features.canonical import mirrored_features
 from kineme.formats.files import warn
 from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
-from kineme.library.index import Parts, Sought, matches_in, merge_overlapping, parts_like
 from kineme.library.open_library import OpenTables, numbers_of
-from kineme.library.searching import Example, Hit, Named, best
+from kineme.library.searching import (
+    Example,
+    Hit,
+    Named,
+    Parts,
+    Sought,
+    best,
+    matches_in,
+    merge_overlapping,
+    parts_like,
+)
 from kineme.library.sources import read_at
 from kineme.library.storage.analyses import read_features
 from kineme.library.storage.index import open_index

@@ -32,9 +32,8 @@ from kineme.features import (
     pose_features,
     stack,
 )
-from kineme.features.bones import have_bones
 from kineme.features.channels import resample_channels, standardize_channels
-from kineme.features.distances import SIZE
+from kineme.features.distances import SIZE, have_bones
 from kineme.features.effectors import Names, remedy
 from kineme.features.emg import emg_envelope
 from kineme.features.rotations import joint_quaternions, log_maps

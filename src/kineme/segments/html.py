@@ -14,6 +14,7 @@ from typing import Any, Protocol, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.segments import colors
 from kineme.segments.colors import cluster_color, label_colors
 
 TRANSITION = "#F0F0F0"
@@ -25,21 +26,13 @@ FIRST_ROWS = 8
 HEADER = ("kind", "start s", "stop s", "duration s", "cluster", "label", "confidence")
 
 
-class Row(Protocol):
+class Row(colors.Row, Protocol):
     """What pictures need of a `kineme.segments.table.Segment`."""
 
     @property
     def kind(self) -> str: ...
     @property
-    def start_s(self) -> float: ...
-    @property
-    def stop_s(self) -> float: ...
-    @property
     def duration_s(self) -> float: ...
-    @property
-    def cluster(self) -> int: ...
-    @property
-    def label(self) -> str: ...
     @property
     def confidence(self) -> float: ...
 

@@ -76,8 +76,7 @@ def annotator_choices(recordings: OpenRecordings) -> list[AnnotatorChoice]:
 
 def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
     """Return how far some of them agree, over all recordings for which two of them have labels."""
-    from kineme.evaluation.annotator_files import labels_of_annotators
-    from kineme.evaluation.annotators import annotator_agreement
+    from kineme.evaluation.annotators import annotator_agreement, labels_of_annotators
     from kineme.evaluation.tables import finite
 
     people = _chosen(recordings, chosen)

@@ -50,7 +50,7 @@ class Folder:
         archives = [path for path in self._listed() if path.suffix.lower() == ".npz"]
         if not archives:
             return {}
-        from kineme.transfer.knowledge_file import holds_knowledge  # half a second of imports
+        from kineme.transfer.knowledge import holds_knowledge  # half a second of imports
 
         return {file_id(path): path for path in archives if holds_knowledge(path)}
 

@@ -22,7 +22,7 @@ from kineme.library.storage.layout import as_array
 from kineme.library.storage.places import is_remote
 from kineme.segments.annotation import Annotation
 from kineme.segments.editing import name_cluster
-from kineme.segments.editing.naming import names_by_cluster, set_cluster_names
+from kineme.segments.editing.clusters import names_by_cluster, set_cluster_names
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, SegmentTable

@@ -5,8 +5,7 @@ from kineme.synthesis.building import check_source, motion_graph
 from kineme.synthesis.feet import foot_contacts, plant_feet
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
-from kineme.synthesis.line_routes import line_route
-from kineme.synthesis.lines import parse_line
+from kineme.synthesis.line_routes import line_route, parse_line
 from kineme.synthesis.routes import action_route, following, parse_actions, random_route
 
 __all__ = [

@@ -214,17 +214,6 @@ class MotionGraph:
         ]
         return replace(self, nodes=tuple(self.nodes[i] for i in kept), edges=tuple(edges))
 
-    def reachable_pairs(self) -> int:
-        """Ordered pairs (a, b), a = b included, with a path of at least one edge from a to b."""
-        from scipy.sparse.csgraph import connected_components, shortest_path
-
-        apart = shortest_path(self._adjacency(), unweighted=True)
-        # The distance of a node to itself is 0, though no edge may lead back: counted below.
-        np.fill_diagonal(apart, np.inf)
-        component = connected_components(self._adjacency(), connection="strong")[1]
-        again = {component[e.tail] for e in self.edges if component[e.tail] == component[e.head]}
-        return int(np.isfinite(apart).sum()) + sum(p in again for p in component)
-
     def _adjacency(self) -> Any:
         from scipy.sparse import csr_array
 

@@ -82,7 +82,7 @@ class CycleCurves:
     def channels(self) -> list[CycleChannel]:
         """What can be measured: those that are measured where nobody says which come first."""
         from kineme.cycles.channels import channels_of
-        from kineme.cycles.sides import sides_of
+        from kineme.cycles.comparison import sides_of
 
         with self._lock:
             if not self._heads:
@@ -132,7 +132,7 @@ class CycleCurves:
 
         Both are measured together, and so from one phase.
         """
-        from kineme.cycles.sessions import compare_curves
+        from kineme.cycles.comparison import compare_curves
 
         alone = self.of(table, cluster, channel)
         if alone is None or alone.channel not in {head.name for head in other.channels()}:

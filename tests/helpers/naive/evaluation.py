@@ -50,13 +50,15 @@ def strict_tolerant(truth, found):
     return covered / lengths, covered_certain / lengths_certain
 
 
-def warped_cost(cost):
+def warped_cost(cost, step):
     """Dynamic time warping by its recursion."""
     total = np.full((cost.shape[0] + 1, cost.shape[1] + 1), np.inf)
     total[0, 0] = 0
     for i in range(cost.shape[0]):
         for j in range(cost.shape[1]):
-            total[i + 1, j + 1] = cost[i, j] + min(total[i, j], total[i, j + 1], total[i + 1, j])
+            total[i + 1, j + 1] = cost[i, j] + min(
+                total[i, j], total[i, j + 1] + step, total[i + 1, j] + step
+            )
     return total[-1, -1]
 
 

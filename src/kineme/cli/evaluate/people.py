@@ -11,12 +11,13 @@ from kineme.cli.messages import progress
 from kineme.cli.tables import show_table
 from kineme.cli.terminal import harmless
 from kineme.errors import ReadError
-from kineme.evaluation.annotator_files import (
+from kineme.evaluation.annotators import (
+    AnnotatorAgreement,
+    annotator_agreement,
     annotator_names,
     extent_of,
     labels_of_annotators,
 )
-from kineme.evaluation.annotators import AnnotatorAgreement, annotator_agreement
 from kineme.evaluation.recordings import recordings_below
 from kineme.evaluation.tables import format_score, write_result
 from kineme.labels.collections import Extent, labels_of

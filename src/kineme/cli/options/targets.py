@@ -19,7 +19,7 @@ import typer
 
 from kineme._util.files import CORRECTED, make_person_suffix
 from kineme.errors import ReadError, WriteError
-from kineme.labels.heads import columns
+from kineme.labels.delimited import columns
 
 NAME, PARENT = "{name}", "{parent}"
 PICTURES = (".png", ".pdf", ".svg")

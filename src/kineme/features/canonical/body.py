@@ -16,6 +16,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from kineme._util.arrays import Floats
+from kineme.features.body_frame import find_facing
 from kineme.features.mirroring import EXCHANGED, FLIP
 
 Joints = Mapping[str, Floats]
@@ -80,7 +81,11 @@ def canonical_poses(joints: Joints, fps: float) -> Floats:
     rise = RISE * fps * np.gradient(pelvis[:, 1]) if len(pelvis) > 1 else np.zeros(1)
     vertical = np.stack([pelvis[:, 1] - ground, rise], axis=1) / leg
     # The mean direction of hips and shoulders is the body's left.
-    return np.hstack([_facing_ahead(ends, hips + shoulders).reshape(len(ends), -1), vertical])
+    to_left = hips + shoulders
+    cos, sin = find_facing(to_left, _FLAT * np.linalg.norm(to_left, axis=1))
+    x, y, z = np.moveaxis(ends, 2, 0)
+    ahead = np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=2)
+    return np.hstack([ahead.reshape(len(ends), -1), vertical])
 
 
 def mirror_poses(poses: Floats) -> Floats:
@@ -130,23 +135,6 @@ def _leg_length(joints: Joints) -> float:
             bones = np.linalg.norm(knee - hip, axis=1) + np.linalg.norm(ankle - knee, axis=1)
             lengths.append(float(np.median(bones)))
     return max(float(np.mean(lengths)), _TINY)
-
-
-def _facing_ahead(points: Floats, to_left: Floats) -> Floats:
-    """Return the points of each frame turned about y so that what points to the left lies along +x.
-
-    Where that stands upright the heading of the nearest frame that has one is taken.
-    """
-    length = np.hypot(to_left[:, 0], to_left[:, 2])
-    sideways = np.flatnonzero(length > _FLAT * np.linalg.norm(to_left, axis=1))
-    if len(sideways) == 0:
-        return points
-    # The nearest frame with a heading; `searchsorted` takes the earlier one at a tie.
-    nearest = sideways[np.searchsorted((sideways[:-1] + sideways[1:]) / 2, np.arange(len(length)))]
-    # Cosine and sine (frames, 1) of the turn about y.
-    cos, sin = (to_left[nearest, axis, None] / length[nearest, None] for axis in (0, 2))
-    x, y, z = np.moveaxis(points, 2, 0)
-    return np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=2)
 
 
 _TINY = 1e-9

@@ -181,15 +181,11 @@ def _fill(
 
 def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
     with _opening(path):
-        return _sound(np.load(near(path), allow_pickle=False), kind)
-
-
-def _sound(rows: NDArray[Any], kind: type[np.number[Any]]) -> NDArray[Any]:
-    """These rows, or a ValueError where they are not what a build writes."""
-    if rows.ndim != 2 or rows.dtype != kind:
-        raise ValueError("not rows of features")
-    if kind is np.float32:  # whole numbers hold nothing that overflows a distance
-        _check_sound(rows)
+        rows: NDArray[Any] = np.load(near(path), allow_pickle=False)
+        if rows.ndim != 2 or rows.dtype != kind:
+            raise ValueError("not rows of features")
+        if kind is np.float32:  # whole numbers hold nothing that overflows a distance
+            _check_sound(rows)
     return rows
 
 

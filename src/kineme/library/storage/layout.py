@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.checks import is_number
+from kineme._util.checks import is_number, require_extra
 from kineme._util.files import refuse_link
 from kineme._util.json import load_json
-from kineme.errors import MissingDependencyError, ReadError, WriteError
+from kineme.errors import ReadError, WriteError
 from kineme.library.storage.places import is_remote, place, written
 
 if sys.platform != "win32":
@@ -134,11 +134,9 @@ def arrow() -> tuple[Any, Any]:
     Read with ``use_threads=False``: a thread of theirs that lets go of bytes of Python while Python
     ends makes it abort, with all work done (https://github.com/apache/arrow/issues/34314).
     """
-    try:
+    with require_extra("pyarrow", EXTRA):
         import pyarrow as pa
         from pyarrow import parquet
-    except ImportError as error:
-        raise MissingDependencyError("pyarrow", EXTRA) from error
     return pa, parquet
 
 

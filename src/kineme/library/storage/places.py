@@ -14,11 +14,10 @@ from typing import Any, cast
 from urllib.parse import urlparse
 from urllib.request import url2pathname
 
-from kineme._util.checks import check_path
+from kineme._util.checks import check_path, require_extra
 from kineme._util.files import atomic_write, refuse_pipe
 from kineme.errors import (
     KinemeError,
-    MissingDependencyError,
     ParameterError,
     ReadError,
     WriteError,
@@ -44,10 +43,8 @@ def place(given: str | PathLike[str], caller: str = "place") -> Path:
         return Path(given)
     if given.lower().startswith("file://"):
         return Path(url2pathname(urlparse(given).path))
-    try:
+    with require_extra("universal_pathlib", EXTRA):
         from upath import UPath
-    except ImportError as error:
-        raise MissingDependencyError("universal_pathlib", EXTRA) from error
     try:
         found = UPath(given)
         _ = found.fs

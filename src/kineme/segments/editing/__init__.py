@@ -15,13 +15,15 @@ from kineme.segments.editing.annotating import check, comment, comments, exclude
 from kineme.segments.editing.borders import delete_border, merge, move_border, split
 from kineme.segments.editing.carrying import carry_corrections
 from kineme.segments.editing.clusters import (
+    cluster_names,
     merge_clusters,
+    name_cluster,
+    name_segment,
     order_clusters,
     set_cluster,
     set_kind,
     split_cluster,
 )
-from kineme.segments.editing.naming import cluster_names, name_cluster, name_segment
 
 __all__ = [
     "carry_corrections",

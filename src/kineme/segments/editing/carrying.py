@@ -29,7 +29,7 @@ from kineme.segments.editing.annotating import (
     set_marked,
     span_of,
 )
-from kineme.segments.editing.naming import cluster_names, name_cluster, set_cluster_names
+from kineme.segments.editing.clusters import cluster_names, name_cluster, set_cluster_names
 from kineme.segments.editing.rows import (
     Rows,
     change_parent,
@@ -138,7 +138,9 @@ def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, i
     for level in get_args(Level):
         # (2, frames): old and new cluster of each frame.
         pairs = np.stack([_spread_clusters(before, level), _spread_clusters(found, level)])
-        for (old, new), frames in zip(*_counts(pairs), strict=True):
+        # Distinct columns: pairs of clusters, and on how many frames they are.
+        values, sizes = np.unique(pairs, axis=1, return_counts=True)
+        for (old, new), frames in zip(values.T.tolist(), sizes.tolist(), strict=True):
             if old >= 0:
                 shared.setdefault(old, Counter())[new] += frames
     most = []
@@ -161,12 +163,6 @@ def _spread_clusters(segmentation: Segmentation, level: Level) -> NDArray[np.int
     if not len(rows):
         return np.full(segmentation.n_frames, -1)
     return np.repeat(rows.cluster, rows.stop_frame - rows.start_frame)
-
-
-def _counts(pairs: NDArray[np.int64]) -> tuple[list[list[int]], list[int]]:
-    # Distinct columns: pairs of clusters, and on how many frames they are.
-    values, counts = np.unique(pairs, axis=1, return_counts=True)
-    return values.T.tolist(), counts.tolist()
 
 
 def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> Carried:

@@ -8,13 +8,22 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from scipy.stats import ttest_ind
 from typer.testing import CliRunner
 
 import kineme
 from kineme.cli.app import app
-from kineme.cycles import Cycles, channels_of, compare_sides, foot_events, gait
+from kineme.cycles import (
+    Cycles,
+    channels_of,
+    compare_curves,
+    compare_sessions,
+    compare_sides,
+    foot_events,
+    gait,
+)
 from kineme.cycles.channels import contacts_of
-from kineme.cycles.sides import MEASURES, sides_of
+from kineme.cycles.comparison import MEASURES, sides_of
 from kineme.datasets import Action, synthesize
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
@@ -102,8 +111,7 @@ def test_one_cycle_has_no_bounds_and_none_no_means(cycles: Cycles) -> None:
     assert np.isnan(none["left"]).all()
 
 
-def test_times_on_both_sides_of_the_end_are_near(walks) -> None:
-    cycles = kineme.cycles(walks.motion, walks.truth, channels=["knee_*"])
+def test_times_on_both_sides_of_the_end_are_near(cycles: Cycles) -> None:
     columns = {
         **cycles.columns,
         "knee_l.max_at": np.full(len(cycles), 99.0),
@@ -113,3 +121,57 @@ def test_times_on_both_sides_of_the_end_are_near(walks) -> None:
     at = (sides["measure"] == "max_at") & (sides["group"] == "walk")
     assert np.allclose(sides["difference"][at], -3)
     assert np.allclose([sides["left"][at], sides["right"][at]], [[99], [2]])
+
+
+@pytest.fixture(scope="module")
+def knees(walks) -> Cycles:
+    return kineme.cycles(walks.motion, walks.truth, channels=["knee_*"])
+
+
+def test_a_session_beside_itself_has_not_changed(knees) -> None:
+    table = compare_sessions(knees, knees)
+    np.testing.assert_array_equal(np.nan_to_num(table["difference"]), 0)
+    assert table["first_n"].tolist() == table["second_n"].tolist()
+    curves = compare_curves(knees, knees)
+    np.testing.assert_allclose(curves["difference"], 0)
+    assert len(curves["percent"]) == 2 * 2 * 101
+
+
+def test_differences_and_bounds_are_those_of_welch(knees) -> None:
+    duration = knees.columns["duration_s"]
+    slow = duration * np.where(np.arange(len(knees)) % 2, 1.2, 1.3)
+    later = replace(knees, columns={**knees.columns, "duration_s": slow})
+    table = compare_sessions(knees, later)
+    row = np.flatnonzero((table["group"] == "squat") & (table["measure"] == "duration_s"))[0]
+    used = knees.used() & (knees.columns["group"] == "squat")
+    test = ttest_ind(slow[used], duration[used], equal_var=False)
+    bounds = test.confidence_interval()
+    assert table["difference"][row] == pytest.approx(slow[used].mean() - duration[used].mean())
+    assert table["low"][row] == pytest.approx(bounds.low)
+    assert table["high"][row] == pytest.approx(bounds.high)
+
+
+def test_curves_are_compared_group_by_group_whatever_their_order(knees) -> None:
+    later = replace(knees, curves=knees.curves + 5)
+    turned = later.select(np.ones(len(later), bool))
+    order = np.argsort(turned.columns["group"], kind="stable")  # squats first
+    columns = {name: column[order] for name, column in turned.columns.items()}
+    turned = replace(turned, columns=columns, curves=turned.curves[order])
+    assert turned.groups != knees.groups
+    np.testing.assert_allclose(compare_curves(knees, turned)["difference"], 5)
+    table = compare_sessions(knees, turned)
+    assert np.nan_to_num(table["difference"]).tolist() == [0] * len(table["difference"])
+
+
+def test_what_cannot_be_compared_is_refused(walks, knees) -> None:
+    other = kineme.cycles(walks.motion, walks.truth, channels=["hip_l"])
+    with pytest.raises(ParameterError, match="the same channels"):
+        compare_sessions(knees, other)
+    with pytest.raises(ParameterError, match="no group is in both sessions: walk and squat"):
+        compare_sessions(*(knees.select(knees.columns["group"] == g) for g in ("walk", "squat")))
+    with pytest.raises(ParameterError, match="curves of 101 and of 51 points"):
+        compare_curves(
+            knees, kineme.cycles(walks.motion, walks.truth, channels=["knee_*"], points=51)
+        )
+    with pytest.raises(ParameterError, match="a mask of 16"):
+        knees.select(np.array([1]))

@@ -1,0 +1,283 @@
+"""Compare cycles: left with right, and one session with another.
+
+Sides are channels whose names differ in nothing but ``_l`` and ``_r`` at the end, or ``left`` and
+``right``. Each cycle is its own control: differences are within a cycle, and their bounds by
+Student's t for pairs. Of ``stance_l`` and ``stance_r`` the means are compared, which are the shares
+of stance; what is left of a cycle is swing.
+
+Sessions are compared group by group; a group is in both where it has the same name, as repetitions
+with a label do. Differences are the second less the first; their bounds hold the true one with a
+confidence of 95 %, by Welch's t for two means of unequal spread, each number and each point of a
+curve by itself.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from kineme._util.arrays import Floats
+from kineme._util.checks import check_flag, check_type
+from kineme.cycles.table import CONFIDENCE, Columns, Cycles, is_phase, mean_phase, phase_differences
+from kineme.errors import ParameterError
+
+MEASURES = ("range", "min", "max", "mean", "min_at", "max_at")
+"""Statistics that are compared; times of the cycle are of one clock for both sides."""
+_RIGHT = {"left": "right", "Left": "Right", "LEFT": "RIGHT"}
+
+
+def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
+    """Return what differs between left and right, for each group and each pair of channels.
+
+    Parameters
+    ----------
+    cycles : Cycles
+    ends : bool
+        Whether the first and the last cycle of an activity count as well.
+
+    Returns
+    -------
+    dict of str to array
+        Columns: ``group``, ``left_channel``, ``right_channel``, ``measure``, ``n`` (cycles in
+        which both sides were recorded), ``left``, ``right`` (means), ``difference`` (left less
+        right), ``low`` and ``high`` (its bounds, 95 %), and of ranges ``symmetry_index``: the
+        difference in per cent of the mean of both sides, 0 where they are equal. nan where there
+        are too few cycles.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import compare_sides
+    >>> from kineme.datasets import bundled_truth
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()), channels=["knee_*"])
+    >>> sides = compare_sides(cycles)
+    >>> sides["left_channel"][0].item(), sides["right_channel"][0].item()
+    ('knee_l', 'knee_r')
+    """
+    check_type(cycles, Cycles, "compare_sides", "kineme.cycles(recording, segments) gives them")
+    check_flag(ends, "ends")
+    used = cycles.used(ends=ends)
+    # The unit tells stance channels, whose mean is the share of stance.
+    stances = {
+        name for name, unit in zip(cycles.channels, cycles.units, strict=True) if unit == "%"
+    }
+    lines: list[tuple[str | float, ...]] = []
+    for group in cycles.groups:
+        rows = used & (cycles.columns["group"] == group)
+        for left, right in sides_of(cycles.channels):
+            is_stance = left in stances
+            for measure in ("mean",) if is_stance else MEASURES:
+                of_left, of_right = (
+                    cycles.columns[f"{name}.{measure}"][rows] for name in (left, right)
+                )
+                indexed = is_stance or measure == "range"
+                compared = _compare_values(of_left, of_right, measure, indexed=indexed)
+                lines.append((group, left, right, measure, *compared))
+    names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
+             "difference", "low", "high", "symmetry_index")  # fmt: skip
+    columns = zip(*lines, strict=True) if lines else [()] * len(names)
+    return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
+
+
+def sides_of(channels: tuple[str, ...]) -> list[tuple[str, str]]:
+    """Return the channels of left sides with those of the right.
+
+    Without those that have no other side.
+    """
+    pairs = ((name, right_of(name)) for name in channels)
+    return [(left, right) for left, right in pairs if right != left and right in channels]
+
+
+def right_of(name: str) -> str:
+    """Return the channel of the right side to one of the left.
+
+    The name itself where it is of no side.
+    """
+    # The case of the word is kept; a name that has no `left` may end in `_l`.
+    turned = re.sub("left", lambda found: _RIGHT.get(found[0], "right"), name, flags=re.IGNORECASE)
+    return turned if turned != name else re.sub("_l$", "_r", name)
+
+
+def _compare_values(
+    left: Floats, right: Floats, measure: str, *, indexed: bool
+) -> tuple[float, ...]:
+    """Number, means, difference with bounds, symmetry index."""
+    from scipy.special import stdtrit
+
+    both = np.isfinite(left) & np.isfinite(right)
+    n = int(both.sum())
+    if n == 0:
+        return 0, *[np.nan] * 6
+    # Paired: the differences within each cycle are what is averaged.
+    apart = left[both] - right[both]
+    of_left, of_right = left[both].mean(), right[both].mean()
+    if is_phase(measure):
+        apart = phase_differences(apart)
+        of_left, of_right = mean_phase(left[both]), mean_phase(right[both])
+    mean = apart.mean()
+    half = np.nan
+    if n > 1:
+        # Student's t with n - 1 degrees of freedom times the standard error of the mean difference.
+        half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * apart.std(ddof=1) / np.sqrt(n)
+    total = of_left + of_right
+    # Per cent of the mean of both sides: 100 / (total / 2).
+    index = 200 * mean / total if indexed and total > 0 else np.nan
+    return n, *(float(each) for each in (of_left, of_right, mean, mean - half, mean + half, index))
+
+
+def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:
+    """Return the numbers of two sessions side by side.
+
+    Parameters
+    ----------
+    first, second : Cycles
+        Of the same channels.
+    ends : bool
+        Whether the first and the last cycle of an activity count as well.
+
+    Returns
+    -------
+    dict of str to array
+        Columns: ``group``, ``measure`` as in `Cycles.summary`; of each session ``first_n``,
+        ``first_mean``, ``first_sd``; ``difference``, ``low`` and ``high``: its bounds, nan where
+        a session has fewer than two cycles.
+
+    Raises
+    ------
+    ParameterError
+        No group is in both, or their channels differ.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import compare_sessions
+    >>> from kineme.datasets import bundled_truth
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()), channels=["knee_l"])
+    >>> table = compare_sessions(cycles, cycles)
+    >>> table["group"][0].item(), table["measure"][0].item(), table["difference"][0].item()
+    ('walk', 'duration_s', 0.0)
+    """
+    groups = _common(first, second)
+    sides = [each.summary(ends=ends) for each in (first, second)]
+    rows = [np.isin(side["group"], groups) for side in sides]
+    keys = [list(zip(s["group"][r].tolist(), s["measure"][r].tolist(), strict=True))
+            for s, r in zip(sides, rows, strict=True)]  # fmt: skip
+    # Rows of the second summary, in the order of the first.
+    order = [keys[1].index(key) for key in keys[0]]
+    one = {name: column[rows[0]] for name, column in sides[0].items()}
+    two = {name: column[rows[1]][order] for name, column in sides[1].items()}
+    compared = _join_sessions(("group", "measure"), one, two)
+    # A difference of phases goes the shorter way round; its bounds are moved as much.
+    difference = compared["difference"]
+    turned = np.where([is_phase(m) for m in one["measure"].tolist()],
+                      phase_differences(difference) - difference, 0.0)  # fmt: skip
+    return compared | {name: compared[name] + turned for name in ("difference", "low", "high")}
+
+
+def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:
+    """Return the mean curves of two sessions side by side.
+
+    Parameters
+    ----------
+    first, second : Cycles
+        Of the same channels and as many points.
+    ends : bool
+        Whether the first and the last cycle of an activity count as well.
+
+    Returns
+    -------
+    dict of str to array
+        Columns: ``group``, ``channel``, ``percent``, ``first_n``, ``first_mean``, ``first_sd``,
+        the same of the second, ``difference``, ``low``, ``high``.
+
+    Raises
+    ------
+    ParameterError
+        No group is in both, or their channels or points differ.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import compare_curves
+    >>> from kineme.datasets import bundled_truth
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()), channels=["knee_l"])
+    >>> len(compare_curves(cycles, cycles)["percent"]) == 101 * len(cycles.groups)
+    True
+    """
+    groups = _common(first, second)
+    if first.curves.shape[2] != second.curves.shape[2]:
+        raise ParameterError(
+            f"curves of {first.curves.shape[2]} and of {second.curves.shape[2]} points cannot be "
+            "compared: measure both with the same points="
+        )
+    one, two = (each.mean_curves(ends=ends) for each in (first, second))
+    # Curves are blocks of channels times points, one block for each group in order.
+    rows = np.isin(one["group"], groups)
+    place = {group: i for i, group in enumerate(second.groups)}
+    size = first.curves.shape[2] * len(first.channels)
+    # Rows of the second in the order of the groups of the first.
+    order = np.concatenate([np.arange(size) + size * place[group] for group in first.groups
+                            if group in place])  # fmt: skip
+    return _join_sessions(
+        ("group", "channel", "percent"),
+        {name: column[rows] for name, column in one.items()},
+        {name: column[order] for name, column in two.items()},
+    )
+
+
+def _common(first: Cycles, second: Cycles) -> list[str]:
+    """Return the groups that are in both; ParameterError where nothing can be compared."""
+    for each in (first, second):
+        check_type(
+            each, Cycles, "comparing sessions", "kineme.cycles(recording, segments) gives them"
+        )
+    if first.channels != second.channels:
+        raise ParameterError("two sessions are compared by the same channels: choose them by name")
+    groups = [group for group in first.groups if group in second.groups]
+    if not groups:
+        raise ParameterError(
+            f"no group is in both sessions: {', '.join(first.groups) or 'none'} and "
+            f"{', '.join(second.groups) or 'none'}; name clusters alike, or say with --common "
+            "(common=True) that equal numbers are equal movements: in the studio, or by `kineme "
+            "library name` and `export`, whose table --segments takes"
+        )
+    return groups
+
+
+def _join_sessions(keys: Sequence[str], first: Columns, second: Columns) -> Columns:
+    """Return the rows of both side by side: keys, numbers, differences and their bounds."""
+    numbers = ("n", "mean", "sd")
+    difference, low, high = _welch(*(each[name] for each in (first, second) for name in numbers))
+    return {
+        **{name: first[name] for name in keys},
+        **{f"first_{name}": first[name] for name in numbers},
+        **{f"second_{name}": second[name] for name in numbers},
+        "difference": difference,
+        "low": low,
+        "high": high,
+    }
+
+
+def _welch(
+    n: Floats, mean: Floats, sd: Floats, other_n: Floats, other_mean: Floats, other_sd: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """Return the second mean less the first, and its bounds."""
+    from scipy.special import stdtrit
+
+    # With fewer than two cycles this divides by zero, and the bounds are nan.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # Squared standard errors of both means.
+        parts = sd**2 / n, other_sd**2 / other_n
+        error = np.sqrt(parts[0] + parts[1])
+        # Degrees of freedom after Welch and Satterthwaite.
+        freedom = error**4 / (parts[0] ** 2 / (n - 1) + parts[1] ** 2 / (other_n - 1))
+        half = stdtrit(freedom, (1 + CONFIDENCE) / 2) * error
+    # Without any spread the freedom is 0 / 0, but the bounds are the difference itself.
+    half = np.where(error == 0, 0.0, half)
+    difference = other_mean - mean
+    return difference, difference - half, difference + half
