@@ -147,9 +147,9 @@ def _run(path: Path, part: Path, estimator: PoseEstimator, model: Path | None, d
     with open_video(path) as video:
         last = _resume(part, told, len(estimator.keypoints))
         try:
-            with part.open("ab") as file:
+            with part.open("ab") as file, estimator.start(model) as estimate:
                 hold(file.fileno())
-                _append(file, video, estimator.start(model), told, last)
+                _append(file, video, estimate, told, last)
         except KinemeError:  # of the video or the model: nothing to go on with
             part.unlink(missing_ok=True)
             raise

@@ -8,6 +8,7 @@ module that ends in one `PoseEstimator`. Other packages add theirs with `registe
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -60,16 +61,18 @@ class PoseEstimator:
     package : str
         The package that it needs.
     start : callable
-        From the path of a model, None for the estimator's own, to a function that takes a picture
-        and its time and returns the people in the picture. It is called once for each video, so
-        that the function may follow people from one picture to the next.
+        From the path of a model, None for the estimator's own, to a context that gives an
+        `Estimate`. There is one for each video, so that it may follow people from one picture to
+        the next.
     limit : float
         Confidence from which a keypoint is used when the poses are read.
 
     Examples
     --------
-    >>> def start(model):
-    ...     return lambda picture, time: [Pose(np.array([[40.0, 9.0]]), np.array([0.9]))]
+    >>> from contextlib import contextmanager
+    >>> @contextmanager
+    ... def start(model):
+    ...     yield lambda picture, time: [Pose(np.array([[40.0, 9.0]]), np.array([0.9]))]
     >>> PoseEstimator("nose", ["nose"], "numpy", start).is_installed
     True
     """
@@ -77,7 +80,7 @@ class PoseEstimator:
     name: str
     keypoints: Sequence[str]
     package: str
-    start: Callable[[Path | None], Estimate]
+    start: Callable[[Path | None], AbstractContextManager[Estimate]]
     limit: float = 0.0
 
     @property

@@ -34,15 +34,18 @@ MODEL_URL = (
 _STDERR = 2
 
 
-def start_mediapipe(model: Path | None) -> Estimate:
-    """Return a function from a picture and its time to the person in it.
+@contextmanager
+def start_mediapipe(model: Path | None) -> Iterator[Estimate]:
+    """Give a function from a picture and its time to the person in it.
 
     ReadError where the model is no Pose Landmarker, or one is needed and none was given.
     """
     with require_extra("mediapipe", "video"), _muted():
         import mediapipe
     if model is not None:
-        return _start_landmarker(mediapipe, model)
+        with _start_landmarker(mediapipe, model) as estimate:
+            yield estimate
+        return
     if not hasattr(mediapipe, "solutions"):
         raise ReadError(
             "pose_landmarker_full.task",
@@ -51,23 +54,25 @@ def start_mediapipe(model: Path | None) -> Estimate:
         )
     warnings.filterwarnings("ignore", "SymbolDatabase", UserWarning)  # of each picture, by protobuf
     with _muted():
-        solution = mediapipe.solutions.pose.Pose(model_complexity=1)
+        solution = mediapipe.solutions.pose.Pose(model_complexity=1)  # "full"
 
-    muted = _muted  # until somebody is found, when the last part of the model speaks up
+    is_logged = False  # what the model says once, when somebody is first found
 
-    def estimate(picture: Picture, _: float) -> list[Pose]:
-        nonlocal muted
-        with muted():
+    def process(picture: Picture, _: float) -> list[Pose]:
+        nonlocal is_logged
+        with nullcontext() if is_logged else _muted():
             found = solution.process(picture)
         if found.pose_landmarks is None:
             return []
-        muted = nullcontext
+        is_logged = True
         return [_pose(picture, found.pose_landmarks.landmark, found.pose_world_landmarks.landmark)]
 
-    return estimate
+    with solution:
+        yield process
 
 
-def _start_landmarker(mediapipe: Any, model: Path) -> Estimate:
+@contextmanager
+def _start_landmarker(mediapipe: Any, model: Path) -> Iterator[Estimate]:
     """As `start_mediapipe` with a model file, through the interface of later versions."""
     vision = mediapipe.tasks.vision
     try:
@@ -83,13 +88,14 @@ def _start_landmarker(mediapipe: Any, model: Path) -> Estimate:
         reason = f"is no model of the Pose Landmarker: {shorten_error(error)}"
         raise ReadError(model, f"{reason}; one is at {MODEL_URL}") from error
 
-    def estimate(picture: Picture, time: float) -> list[Pose]:
+    def detect(picture: Picture, time: float) -> list[Pose]:
         image = mediapipe.Image(image_format=mediapipe.ImageFormat.SRGB, data=picture)
         found = landmarker.detect_for_video(image, round(1000 * time))
         pairs = zip(found.pose_landmarks, found.pose_world_landmarks, strict=True)
         return [_pose(picture, *pair) for pair in pairs]
 
-    return estimate
+    with landmarker:
+        yield detect
 
 
 def _pose(picture: Picture, image: Any, world: Any) -> Pose:

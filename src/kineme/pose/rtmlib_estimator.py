@@ -8,6 +8,8 @@ Source: T. Jiang et al., RTMPose: Real-time multi-person pose estimation based o
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +18,9 @@ from kineme.formats.keypoints.coco import LAYOUTS, LIMIT
 from kineme.pose.estimators import Estimate, Picture, Pose, PoseEstimator
 
 
-def start_rtmlib(model: Path | None) -> Estimate:
-    """Return a function from a picture to the people in it."""
+@contextmanager
+def start_rtmlib(model: Path | None) -> Iterator[Estimate]:
+    """Give a function from a picture to the people in it."""
     import rtmlib
 
     body = rtmlib.BodyWithFeet(pose=None if model is None else str(model))
@@ -32,7 +35,7 @@ def start_rtmlib(model: Path | None) -> Estimate:
         pairs = zip(keypoints, scores, strict=True)
         return [Pose(np.asarray(points, float), np.asarray(sure, float)) for points, sure in pairs]
 
-    return estimate
+    yield estimate
 
 
 ESTIMATOR = PoseEstimator("rtmlib", LAYOUTS[26], "rtmlib", start_rtmlib, LIMIT)
