@@ -7,6 +7,6 @@ video. Everything happens on this machine: no frame of a video leaves it.
 """
 
 from kineme.pose.estimating import estimate_poses
-from kineme.pose.estimators import Estimate, Pose, PoseEstimator, estimators, register
+from kineme.pose.estimators import Estimate, Pose, PoseEstimator, estimator_names, register
 
-__all__ = ["Estimate", "Pose", "PoseEstimator", "estimate_poses", "estimators", "register"]
+__all__ = ["Estimate", "Pose", "PoseEstimator", "estimate_poses", "estimator_names", "register"]

@@ -62,7 +62,7 @@ def estimate_poses(
     target : str or PathLike, optional
         The Parquet file to write; by default one beside the video.
     estimator : str, optional
-        One of `estimators`; by default the first that is installed, or whichever estimated the
+        One of `estimator_names`; by default the first that is installed, or whichever estimated the
         poses beside the video.
     model : str or PathLike, optional
         A file that the estimator takes in place of its own model.

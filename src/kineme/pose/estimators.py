@@ -103,12 +103,12 @@ def register(new: PoseEstimator, *, replace: bool = False) -> None:
     ESTIMATORS.register(new, replace=replace)
 
 
-def estimators() -> tuple[str, ...]:
+def estimator_names() -> tuple[str, ...]:
     """Return the names of the estimators, the preferred one first.
 
     Examples
     --------
-    >>> estimators()
+    >>> estimator_names()
     ('mediapipe', 'rtmlib')
     """
     return tuple(ESTIMATORS)

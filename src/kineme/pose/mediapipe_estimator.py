@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
@@ -56,19 +56,14 @@ def start_mediapipe(model: Path | None) -> Iterator[Estimate]:
     with _muted():
         solution = mediapipe.solutions.pose.Pose(model_complexity=1)  # "full"
 
-    is_logged = False  # what the model says once, when somebody is first found
-
-    def process(picture: Picture, _: float) -> list[Pose]:
-        nonlocal is_logged
-        with nullcontext() if is_logged else _muted():
-            found = solution.process(picture)
+    def find(picture: Picture, _: float) -> list[Pose]:
+        found = solution.process(picture)
         if found.pose_landmarks is None:
             return []
-        is_logged = True
         return [_pose(picture, found.pose_landmarks.landmark, found.pose_world_landmarks.landmark)]
 
-    with solution:
-        yield process
+    with _running(solution, find) as estimate:
+        yield estimate
 
 
 @contextmanager
@@ -88,14 +83,33 @@ def _start_landmarker(mediapipe: Any, model: Path) -> Iterator[Estimate]:
         reason = f"is no model of the Pose Landmarker: {shorten_error(error)}"
         raise ReadError(model, f"{reason}; one is at {MODEL_URL}") from error
 
-    def detect(picture: Picture, time: float) -> list[Pose]:
+    def find(picture: Picture, time: float) -> list[Pose]:
         image = mediapipe.Image(image_format=mediapipe.ImageFormat.SRGB, data=picture)
         found = landmarker.detect_for_video(image, round(1000 * time))
         pairs = zip(found.pose_landmarks, found.pose_world_landmarks, strict=True)
         return [_pose(picture, *pair) for pair in pairs]
 
-    with landmarker:
-        yield detect
+    with _running(landmarker, find) as estimate:
+        yield estimate
+
+
+@contextmanager
+def _running(model: Any, find: Estimate) -> Iterator[Estimate]:
+    """Give ``find``, muted until it finds somebody: all parts of the model have spoken up then."""
+    is_muted = True
+
+    def estimate(picture: Picture, time: float) -> Sequence[Pose]:
+        nonlocal is_muted
+        with _muted() if is_muted else nullcontext():
+            poses = find(picture, time)
+        is_muted = is_muted and not poses
+        return poses
+
+    try:
+        yield estimate
+    finally:
+        with _muted():
+            model.close()
 
 
 def _pose(picture: Picture, image: Any, world: Any) -> Pose:

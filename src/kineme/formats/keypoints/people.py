@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -99,7 +100,7 @@ def track_people(found: Detections) -> list[int]:
     count = 0
     # First row of each frame.
     starts = np.flatnonzero(np.diff(found.frames, prepend=-1))
-    for start, stop in zip(starts, [*starts[1:], len(found.frames)], strict=True):
+    for start, stop in pairwise([*starts.tolist(), len(found.frames)]):
         tracks = list(last)
         before = np.array([last[who] for who in tracks], np.intp)
         cost = np.full((len(tracks), stop - start), np.inf)

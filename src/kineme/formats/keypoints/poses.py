@@ -194,7 +194,7 @@ def _rate(times: Floats) -> float:
     if len(times) < 2:
         return 1.0
     steps = np.diff(times)
-    ordinary = steps[np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps)]
+    ordinary = steps[np.abs(steps - np.median(steps)) <= 0.5 * np.median(steps)]
     return round(1 / float(ordinary.mean()), 3)
 
 
