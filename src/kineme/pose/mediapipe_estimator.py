@@ -31,6 +31,9 @@ MODEL_URL = (
 )
 """Where the model of later versions can be downloaded."""
 
+BEFORE_S = 1.0
+"""Seconds before a video at which a first, black picture is shown."""
+
 _STDERR = 2
 
 
@@ -85,7 +88,7 @@ def _start_landmarker(mediapipe: Any, model: Path) -> Iterator[Estimate]:
 
     def find(picture: Picture, time: float) -> list[Pose]:
         image = mediapipe.Image(image_format=mediapipe.ImageFormat.SRGB, data=picture)
-        found = landmarker.detect_for_video(image, round(1000 * time))
+        found = landmarker.detect_for_video(image, round(1000 * (time + BEFORE_S)))
         pairs = zip(found.pose_landmarks, found.pose_world_landmarks, strict=True)
         return [_pose(picture, *pair) for pair in pairs]
 
@@ -96,6 +99,8 @@ def _start_landmarker(mediapipe: Any, model: Path) -> Iterator[Estimate]:
 @contextmanager
 def _running(model: Any, find: Estimate) -> Iterator[Estimate]:
     """Give ``find``, muted until it finds somebody: all parts of the model have spoken up then."""
+    with _muted():  # some of it is logged once the parts are up, which a picture waits for
+        find(np.zeros((64, 64, 3), np.uint8), -BEFORE_S)
     is_muted = True
 
     def estimate(picture: Picture, time: float) -> Sequence[Pose]:
