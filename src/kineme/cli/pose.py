@@ -10,6 +10,7 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import METHOD, OUTPUT, option
+from kineme.cli.messages import say_error
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Json, Quiet
 from kineme.cli.options.targets import make_folder_of
@@ -60,10 +61,10 @@ def pose(
     except ParameterError as error:
         raise typer.BadParameter(str(error), param_hint="--estimator") from error
     batch = Batch(files, recursive=recursive, quiet=quiet)
-    tables = batch.targets("--output", output, ".parquet")
-    for path, table in zip(batch.paths, tables, strict=True):
-        if not (is_video(path) or path in files):
-            continue
+    batch.paths = [path for path in batch.paths if is_video(path) or path in files]
+    if not batch.paths:
+        say_error(f"there is no video in {', '.join(map(str, files))}")
+    for path, table in zip(batch.paths, batch.targets("--output", output, ".parquet"), strict=True):
         with batch.caught(path):
             if table is not None:
                 make_folder_of(table)

@@ -26,13 +26,14 @@ from kineme._util.checks import check_path
 from kineme._util.files import atomic_write, hold, is_held, refuse_link
 from kineme._util.parallel import announce, check_cancelled, find_user_cache
 from kineme.errors import KinemeError, ReadError, WriteError
+from kineme.formats.channels.parquet import parquet_file
 from kineme.formats.files import load, load_head
 from kineme.formats.keypoints.poses import (
     NOBODY,
     POSES,
     Head,
     Rows,
-    read_poses,
+    parse_head,
     row_type,
     write_poses,
 )
@@ -131,11 +132,12 @@ def _is_made(place: Path, asked: Head) -> bool:
     if not place.exists():
         return False
     try:
-        poses = read_poses(place)
+        content = load(place)
+        head = parse_head(content, parquet_file(content))
     except ReadError as error:
         reason = "is there, and holds no poses: move it away or name another file"
         raise WriteError(place, reason) from error
-    return all(poses.head.get(name) == value for name, value in asked.items())
+    return all(head.get(name) == value for name, value in asked.items())
 
 
 def _run(path: Path, part: Path, estimator: PoseEstimator, model: Path | None, digest: str) -> None:

@@ -120,10 +120,7 @@ def write_poses(path: Path, head: Head, rows: Rows) -> None:
 def read_poses(path: Path) -> Poses:
     """Return the poses in a Parquet file; ReadError where it is no table of poses."""
     content = load(path)
-    file = parquet_file(content)
-    if not holds_poses(file):
-        raise content.error("is no table of poses")
-    return parse_poses(content, file)
+    return parse_poses(content, parquet_file(content))
 
 
 def holds_poses(file: Any) -> bool:
@@ -131,17 +128,26 @@ def holds_poses(file: Any) -> bool:
     return KEY in (file.schema_arrow.metadata or {})
 
 
-def parse_poses(content: FileContent, file: Any) -> Poses:
-    """Return the poses in an open Parquet file; ReadError where it is damaged."""
+def parse_head(content: FileContent, file: Any) -> Head:
+    """Return what an open Parquet file tells of its poses; ReadError where it holds none."""
+    if not holds_poses(file):
+        raise content.error("is no table of poses")
     try:
-        head = json.loads(file.schema_arrow.metadata[KEY])
-        columns, keypoints = _columns(head), len(head["keypoints"])
+        head: Head = json.loads(file.schema_arrow.metadata[KEY])
         frames, most = head["fps"] * head["duration"], MOST_FRAMES_MORE * (head["frames"] + 1)
-        is_whole = head["fps"] > 0 and 0 <= frames < most and {"estimator", "limit"} <= head.keys()
+        is_whole = head["fps"] > 0 and 0 <= frames < most and bool(_columns(head))
+        is_whole = is_whole and {"estimator", "limit"} <= head.keys()
     except (ValueError, TypeError, LookupError):
         is_whole = False
     if not is_whole:
         raise content.error(f"is a damaged table of poses: see its {KEY.decode()}")
+    return head
+
+
+def parse_poses(content: FileContent, file: Any) -> Poses:
+    """Return the poses in an open Parquet file; ReadError where it is damaged."""
+    head = parse_head(content, file)
+    columns, keypoints = _columns(head), len(head["keypoints"])
     table = parquet_columns(content, file, ["time", "person", *columns])
     rows = np.zeros(table.num_rows, row_type(keypoints))
     try:
