@@ -1,9 +1,9 @@
 """MediaPipe Pose: 33 landmarks of one person, in the image and in metres.
 
 Versions up to 0.10.21 bring their models along and need no file. Later ones take a model of the
-Pose Landmarker, and so do earlier ones where one is given. The model "full" is used: the "lite"
-one loses people who bend over. ``visibility`` is the confidence: whether something is in front of
-a landmark, not whether its place is right; so all landmarks are used.
+Pose Landmarker, and so do earlier ones where one is given. The model that is brought along is
+"full". ``visibility`` is the confidence: whether something is in front of a landmark, not whether
+its place is right; so all landmarks are used.
 
 Source: V. Bazarevsky et al., BlazePose: On-device real-time body pose tracking, 2020.
 """
