@@ -47,12 +47,17 @@ ROOMS = {
         "the segment table, `Segmentation`, its editing and history, whoever found it",
         "recordings",
     ),
-    "formats": Room("recordings from files and back: one registry, one `read`", "recordings"),
     "features": Room(
         "arrays from recordings: poses in the body's own frame, rotations, distances of points, "
         "stacking, mirroring, bundling, envelopes of muscles; directions in which movements of "
         "different people match",
         "recordings",
+    ),
+    "formats": Room(
+        "recordings from files and back: one registry, one `read`", "features recordings"
+    ),
+    "pose": Room(
+        "poses of people in videos: estimators, and videos as recordings", "formats recordings"
     ),
     "methods": Room(
         "`segment()` and `Segmenter`: recording → features → method → `Segmentation`; presets, "

@@ -36,6 +36,9 @@ from . import (
     plot as plot,
 )
 from . import (
+    pose as pose,
+)
+from . import (
     recordings as recordings,
 )
 from . import (

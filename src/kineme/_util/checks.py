@@ -218,7 +218,7 @@ class Registry(Mapping[str, T]):
         for one object or a tuple of them. What cannot be loaded or taken is left out, and a
         `KinemeWarning` names it.
     home : str
-        The package that the names of ``builtins`` are relative to.
+        The package that the names of ``builtins`` are relative to; a dot leads out of it.
     builtins : sequence of str
         The package's own, as ``module:NAME`` of one object or a tuple of them.
     newest_first : bool
@@ -344,7 +344,7 @@ class Registry(Mapping[str, T]):
 def _objects_at(path: str, home: str) -> Iterable[Any]:
     """Return the objects that ``module:NAME`` names."""
     module, _, name = path.partition(":")
-    return _all_of(getattr(import_module(f"{home}.{module}"), name))
+    return _all_of(getattr(import_module(f".{module}", home), name))
 
 
 def _all_of(found: Any) -> Iterable[Any]:

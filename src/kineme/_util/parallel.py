@@ -34,6 +34,7 @@ SHORT = 50
 
 _here = local()
 _ask: ContextVar[Callable[[], None] | None] = ContextVar("ask", default=None)
+_say: ContextVar[Callable[[str], None] | None] = ContextVar("say", default=None)
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -53,6 +54,22 @@ def check_cancelled() -> None:
     """Ask whether to go on, where somebody wants to be asked."""
     if (ask := _ask.get()) is not None:
         ask()
+
+
+@contextmanager
+def announcing(say: Callable[[str], None]) -> Iterator[None]:
+    """While the block lasts, what its work announces goes to ``say``."""
+    before = _say.set(say)
+    try:
+        yield
+    finally:
+        _say.reset(before)
+
+
+def announce(progress: str) -> None:
+    """Say how far long work is, where somebody wants to know."""
+    if (say := _say.get()) is not None:
+        say(progress)
 
 
 def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
@@ -215,7 +232,7 @@ def find_cache() -> None:
     if (
         VARIABLE in os.environ
         or os.access(beside, os.W_OK)
-        or _is_writable(_find_user_cache() / "numba")
+        or _is_writable(find_user_cache() / "numba")
     ):
         return
     os.environ[VARIABLE] = folder = _make_temporary_cache()
@@ -236,7 +253,7 @@ def _is_writable(folder: Path) -> bool:
     return True
 
 
-def _find_user_cache() -> Path:
+def find_user_cache() -> Path:
     """Return the folder in which applications keep what they can make again."""
     if sys.platform == "win32":
         return Path(os.environ.get("LOCALAPPDATA", "~")).expanduser()

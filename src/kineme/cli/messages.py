@@ -9,6 +9,7 @@ from contextlib import contextmanager
 
 import typer
 
+from kineme._util.parallel import announcing
 from kineme.errors import KinemeError, KinemeWarning
 
 PATIENCE = 1.0  # seconds before progress is shown
@@ -54,7 +55,8 @@ def progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     timer.daemon = True
     timer.start()
     try:
-        yield lambda stage: status.update(f"{what}: {stage}")
+        with announcing(show := lambda stage: status.update(f"{what}: {stage}")):
+            yield show
     finally:
         timer.cancel()
         timer.join()

@@ -5,10 +5,11 @@ from __future__ import annotations
 import sys
 import warnings
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
-from hashlib import sha256
+from hashlib import file_digest, sha256
 from math import isfinite
 from os import PathLike
 from os.path import realpath
@@ -18,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.checks import is_text
-from kineme._util.files import atomic_write, refuse_pipe
+from kineme._util.files import atomic_write, read_head, refuse_pipe
 from kineme.errors import KinemeWarning, ReadError, WriteError
 from kineme.recordings import Motion, Note, Provenance
 
@@ -112,11 +113,37 @@ class FileContent:
         return ReadError(self.path, reason, line=line)
 
 
+@dataclass(frozen=True)
+class FileHead(FileContent):
+    """The first bytes of a file that is too large to be loaded: its reader opens the path."""
+
+    @cached_property
+    def digest(self) -> str:
+        with self.path.open("rb") as file:
+            return file_digest(file, "sha256").hexdigest()
+
+    @property
+    def room(self) -> int:
+        return max(LEAST_ROOM, MOST_EXPANSION * self.path.stat().st_size)
+
+
+def load_head(path: str | PathLike[str]) -> FileHead:
+    """Return the first bytes of a file; ReadError as `load`."""
+    with _opening(path):
+        return FileHead(Path(path), read_head(Path(path)))
+
+
 def load(path: str | PathLike[str]) -> FileContent:
     """Return the file as it is on disk; ReadError if there is none or it may not be read."""
+    with _opening(path):
+        return FileContent(Path(path), Path(path).read_bytes())
+
+
+@contextmanager
+def _opening(path: str | PathLike[str]) -> Iterator[None]:
     try:
         refuse_pipe(path)
-        return FileContent(Path(path), Path(path).read_bytes())
+        yield
     except OSError as error:
         raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
     except ValueError as error:  # a null byte in the name

@@ -10,6 +10,9 @@ is listed at once. Opened are
 - JSON and text, which may hold anything and are recordings only if a format knows their
   first bytes, or those and the last ones of JSON: sets of COCO often begin with their images.
 
+A video that lies beside a recording of its name shows that recording, and is none of its own; the
+poses that were estimated from a video are read with it.
+
 A file that cannot be judged (damaged, gone, closed to us) is passed over with its name and
 the reason; it never ends the listing.
 """
@@ -29,8 +32,9 @@ from kineme.formats.columns import joint_names
 from kineme.formats.dialects import find_table, recognise_table
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import frame_files
+from kineme.formats.keypoints.poses import POSES
 from kineme.formats.label_tables import program_of_labels
-from kineme.formats.registry import speaks, supported_formats
+from kineme.formats.registry import is_video, speaks, supported_formats
 from kineme.formats.timing import is_timing
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
@@ -75,12 +79,14 @@ def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
     for place, names, files in os.walk(folder, onerror=closed):
         names[:] = sorted(name for name in names if not name.startswith("."))
         here = Path(place)
-        recordings = list(_recordings_among(here, files, found))
+        recordings = _without_shown(list(_recordings_among(here, files, found)))
         try:
             frames = frame_files(here)
         except OSError as error:
             closed(error)
             frames = []
+        if frames:  # a video beside them shows them
+            recordings = [path for path in recordings if not is_video(path)]
         if frames and recordings:
             reason = (
                 f"{format_count(len(frames), 'frame')} of OpenPose beside other recordings: give "
@@ -121,6 +127,18 @@ def _recordings_among(folder: Path, names: list[str], found: Listing) -> Iterato
                 yield path
         except Exception as error:  # noqa: BLE001 (one file never ends a listing)
             found.passed_over.append((path, _reason(error)))
+
+
+def _without_shown(recordings: list[Path]) -> list[Path]:
+    """Return the recordings without videos that show others, and poses of videos among them."""
+    videos = {path.name for path in recordings if is_video(path)}
+    stems = {path.stem for path in recordings if path.name not in videos}
+    return [
+        path
+        for path in recordings
+        if not (path.name in videos and path.stem in stems)
+        and path.name.removesuffix(POSES) not in videos - {path.name}
+    ]
 
 
 def _is_recording(path: Path) -> bool:

@@ -11,10 +11,10 @@ from typing import Any
 from kineme._util.checks import check_path, check_type
 from kineme._util.files import AnyPath, translate_read_errors
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
-from kineme.formats.files import FileContent, load, warn
+from kineme.formats.files import FileContent, load, load_head, warn
 from kineme.formats.options import ReadOptions
 from kineme.formats.plausibility import doubt_posture
-from kineme.formats.registry import Sketch, recognise, supported_formats
+from kineme.formats.registry import Sketch, is_video, recognise, supported_formats
 from kineme.recordings import Motion, Signals
 
 _BLANK = re.compile(rb"(\xef\xbb\xbf)?\s*\Z")
@@ -119,7 +119,7 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
     with translate_read_errors(path):
         if Path(path).is_dir():
             return _read_folder(Path(path), options)
-        return _read_file(load(path), options)
+        return _read_file(_load(path), options)
 
 
 def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
@@ -166,7 +166,7 @@ def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
     with translate_read_errors(path):
         if Path(path).is_dir():
             return None
-        content = load(path)
+        content = _load(path)
         candidate = recognise(content)
         if candidate.read is None or not candidate.analog:
             return None
@@ -203,7 +203,7 @@ def sketch(path: AnyPath, options: ReadOptions, most: int) -> Sketch | None:
     with translate_read_errors(path):
         if Path(path).is_dir():
             return None
-        content = load(path)
+        content = _load(path)
         candidate = recognise(content)
         return candidate.sketch(content, options, most) if candidate.sketch else None
 
@@ -275,6 +275,11 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
             f"{', '.join(sorted(writers))}",
         )
     writers[target.suffix.lower()](recording, target)
+
+
+def _load(path: AnyPath) -> FileContent:
+    """Return the bytes of a file; of a video, which may be larger than memory, the first ones."""
+    return load_head(path) if is_video(Path(path)) else load(path)
 
 
 def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:

@@ -64,6 +64,9 @@ class Format:
         much sooner than ``read``; None where that cannot be.
     write_animations : callable, optional
         From motions of one skeleton, by their names, to a path; for formats that hold several.
+    is_video : bool
+        Whether files are videos, of which ``read`` gets the first bytes alone and opens the path.
+        Beside a recording of its name a video is no other recording, but shows that one.
 
     Examples
     --------
@@ -84,6 +87,7 @@ class Format:
     analog: bool = False
     sketch: Callable[[FileContent, ReadOptions, int], Sketch | None] | None = None
     write_animations: Callable[[Mapping[str, Motion], Path], None] | None = None
+    is_video: bool = False
 
     def __post_init__(self) -> None:
         check_suffixes(self.suffixes, self.name)
@@ -125,6 +129,7 @@ FORMATS: Registry[Format] = Registry(
         "scenes.fbx:FORMAT",
         "scenes.gltf:FORMAT",
         "scenes.usd:FORMAT",
+        ".pose.video:FORMAT",
     ),
     newest_first=True,
 )
@@ -175,6 +180,12 @@ def writer_of(suffix: str) -> Format | None:
     """Return the format that writes motions to files of this suffix; None where there is none."""
     found = (each for each in supported_formats() if each.write and suffix in each.suffixes)
     return next(found, None)
+
+
+def is_video(path: Path) -> bool:
+    """Return whether a file is a video, by its suffix."""
+    suffix = path.suffix.lower()
+    return any(each.is_video and suffix in each.suffixes for each in supported_formats())
 
 
 def recognise(content: FileContent) -> Format:

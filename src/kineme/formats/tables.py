@@ -30,6 +30,7 @@ from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, m
 from kineme.formats.dialects import find_table, hold_channels, recognise_table
 from kineme.formats.files import FileContent, format_point_name, save, spell_names, unique
 from kineme.formats.gaps import unseen
+from kineme.formats.keypoints.poses import holds_poses, parse_poses, poses_to_motion
 from kineme.formats.label_tables import refuse_labels
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -64,6 +65,8 @@ def read_mot(content: FileContent, options: ReadOptions) -> Signals:
 def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """Return the joint positions in a Parquet table, or its channels where there are none."""
     file = parquet_file(content)
+    if holds_poses(file) and not options.channels:
+        return poses_to_motion(content, parse_poses(content, file), options)
     stored = file.schema_arrow.names
     if options.channels or hold_channels(make_unique_names(stored)):
         table = parquet_channels(content, file, options.columns or None)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -79,7 +80,7 @@ def _people(found: Detections) -> dict[str, Rows]:
         # Nobody is seen twice in a frame: there is only one person.
         numbers = ["0"] * len(found.frames)
     else:
-        numbers = _track_numbers(found)
+        numbers = [str(number) for number in track_people(found)]
     rows: dict[str, list[int]] = {}
     for row, number in enumerate(numbers):
         rows.setdefault(number, []).append(row)
@@ -90,8 +91,8 @@ def _people(found: Detections) -> dict[str, Rows]:
     }
 
 
-def _track_numbers(found: Detections) -> list[str]:
-    """A number for each row: that of the person nearest to it a frame before, or a new one."""
+def track_people(found: Detections) -> list[int]:
+    """Return a number for each row: that of the person nearest a frame before, or a new one."""
     from scipy.optimize import linear_sum_assignment
 
     numbers = [0] * len(found.frames)
@@ -99,7 +100,7 @@ def _track_numbers(found: Detections) -> list[str]:
     count = 0
     # First row of each frame.
     starts = np.flatnonzero(np.diff(found.frames, prepend=-1))
-    for start, stop in zip(starts, [*starts[1:], len(found.frames)], strict=True):
+    for start, stop in pairwise([*starts.tolist(), len(found.frames)]):
         tracks = list(last)
         before = np.array([last[who] for who in tracks], np.intp)
         cost = np.full((len(tracks), stop - start), np.inf)
@@ -120,7 +121,7 @@ def _track_numbers(found: Detections) -> list[str]:
             last[matched[column]] = row
         for who in list(last)[:-_REMEMBERED]:
             del last[who]
-    return [str(number) for number in numbers]
+    return numbers
 
 
 def _strides(found: Detections, before: Rows, row: int) -> Floats:

@@ -1,0 +1,102 @@
+"""``kineme pose``: the poses of people in videos, as tables."""
+
+from __future__ import annotations
+
+from json import dumps
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from kineme._util.checks import format_count
+from kineme.cli.help import METHOD, OUTPUT, option
+from kineme.cli.messages import say_error
+from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.reading import Json, Quiet
+from kineme.cli.options.targets import make_folder_of
+from kineme.errors import ParameterError
+
+
+def pose(
+    files: Files,
+    output: Annotated[
+        Path | None,
+        option(
+            OUTPUT,
+            "Write the poses here (.parquet) instead of beside the video; of several videos: a "
+            "folder, or a path with {name} in it.",
+            "--output",
+            "-o",
+        ),
+    ] = None,
+    estimator: Annotated[
+        str | None,
+        option(
+            METHOD,
+            "Pose estimator: mediapipe (one person, in metres), rtmlib (several people, in the "
+            "picture) or one that was added; by default the first that is installed.",
+            metavar="NAME",
+        ),
+    ] = None,
+    pose_model: Annotated[
+        Path | None, option(METHOD, "Model file of the estimator, in place of its own.")
+    ] = None,
+    recursive: Recursive = False,
+    json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Estimate the poses of people in videos.
+
+    The poses of VIDEO are kept in VIDEO.poses.parquet beside it, where other commands take them
+    from: kineme segment VIDEO. What was interrupted goes on where it ended. Everything happens on
+    this machine.
+
+    For example: kineme pose squats.mp4 --output poses.parquet
+    """
+    from kineme.formats.registry import is_video
+    from kineme.pose.estimators import choose_estimator
+
+    try:
+        choose_estimator(estimator)
+    except ParameterError as error:
+        raise typer.BadParameter(str(error), param_hint="--estimator") from error
+    batch = Batch(files, recursive=recursive, quiet=quiet)
+    batch.paths = [path for path in batch.paths if is_video(path) or path in files]
+    if not batch.paths:
+        say_error(f"there is no video in {', '.join(map(str, files))}")
+    for path, table in zip(batch.paths, batch.targets("--output", output, ".parquet"), strict=True):
+        with batch.caught(path):
+            if table is not None:
+                make_folder_of(table)
+            with batch.progress(path):
+                facts = _estimate(path, table, estimator, pose_model)
+            if json:
+                typer.echo(dumps(facts))
+            elif not quiet:
+                typer.echo(_line(facts))
+    batch.exit()
+
+
+def _estimate(
+    path: Path, table: Path | None, estimator: str | None, model: Path | None
+) -> dict[str, Any]:
+    """Return what was found in a video, and where it was written."""
+    from kineme.errors import ReadError
+    from kineme.formats.keypoints.poses import read_poses
+    from kineme.pose import estimate_poses
+
+    place = estimate_poses(path, table, estimator=estimator, model=model)
+    poses = read_poses(place)
+    if not len(poses.rows):
+        raise ReadError(path, "nobody is found in any frame")
+    told = {name: poses.head[name] for name in ("estimator", "frames", "fps", "duration")}
+    people = len(set(poses.rows["person"].tolist()))
+    return {"path": str(path), **told, "seen": poses.seen, "people": people, "poses": str(place)}
+
+
+def _line(facts: dict[str, Any]) -> str:
+    return (
+        f"{facts['path']}: {format_count(facts['people'], 'person')} in {facts['seen']} of "
+        f"{format_count(facts['frames'], 'frame')} ({facts['duration']:.1f} s), by "
+        f"{facts['estimator']}; poses written as {facts['poses']}"
+    )

@@ -1,0 +1,219 @@
+"""Tables of poses, as `kineme pose` leaves them: Parquet, a row for each person in each frame.
+
+The columns are ``time`` in seconds from the first frame, ``person``, a number for each person, and
+for each keypoint
+
+- ``NAME_u`` and ``NAME_v``: pixels from the left and from the top of the picture;
+- ``NAME_x``, ``NAME_y`` and ``NAME_z``, where the estimator gives depth: metres from the middle of
+  the hips, to the right of the picture, up, and towards the camera;
+- ``NAME_confidence``: 0 to 1.
+
+A frame in which nobody was found has no row. The metadata of the table holds a JSON object under
+``kineme.poses``: the estimator, the keypoints, the SHA-256 of the video, its width and height, the
+frames that were looked at, their rate and the first and last time.
+
+Frames are those of an even rate: each row belongs to the one that is nearest to its time. The
+positions are smoothed by a Butterworth low-pass filter of second order, forwards and backwards,
+with its cutoff at `CUTOFF` hertz.
+
+Source of the filter: D. A. Winter, Biomechanics and Motor Control of Human Movement, 2009, ch. 3.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._util.arrays import Floats
+from kineme._util.checks import require_extra
+from kineme._util.files import atomic_write
+from kineme.features.filters import filter_low
+from kineme.formats.channels.parquet import parquet_columns, parquet_file
+from kineme.formats.files import FileContent, load
+from kineme.formats.gaps import unseen
+from kineme.formats.keypoints.people import Detections, track_people
+from kineme.formats.keypoints.video import MOST_FRAMES_MORE, Person, Video, video_to_motion
+from kineme.formats.options import ReadOptions
+from kineme.recordings import Motion
+from kineme.recordings.arrays import spans_of
+
+KEY = b"kineme.poses"
+"""Of the metadata."""
+POSES = ".poses.parquet"
+"""Behind the name of a video in that of the table of its poses."""
+CUTOFF = 6.0
+"""Hertz: movement of people is slower than that, jitter of keypoints is faster."""
+NOBODY = -1
+"""Number of the person in a row of a frame without one."""
+
+Rows = NDArray[np.void]
+"""Poses in the order of time, see `row_type`."""
+Head = Mapping[str, Any]
+"""What holds for all rows, as JSON has it."""
+
+
+@dataclass(frozen=True)
+class Poses:
+    """Poses of the people in a video, as a file has them."""
+
+    head: Head
+    rows: Rows
+
+    @property
+    def seen(self) -> int:
+        """Return the number of frames in which somebody was found."""
+        return len(np.unique(self.rows["time"]))
+
+
+def row_type(keypoints: int) -> np.dtype[np.void]:
+    """Return the type of a row: time, person, and image, metres and confidence of each keypoint."""
+    return np.dtype(
+        [
+            ("time", "<f8"),
+            ("person", "<i4"),
+            ("image", "<f4", (keypoints, 2)),
+            ("metres", "<f4", (keypoints, 3)),
+            ("confidence", "<f4", (keypoints,)),
+        ]
+    )
+
+
+def write_poses(path: Path, head: Head, rows: Rows) -> None:
+    """Write the rows of all frames, those without anybody among them, as a table of poses.
+
+    Who is who from frame to frame is told by the smallest distance between keypoints.
+    """
+    with require_extra("pyarrow", "video"):
+        import pyarrow as pa
+        from pyarrow import parquet
+
+    times = np.unique(rows["time"])
+    found = rows[rows["person"] != NOBODY]
+    frames = np.searchsorted(times, found["time"])
+    points = np.pad(found["image"].astype(np.float64), ((0, 0), (0, 0), (0, 1)))
+    person = track_people(Detections(frames, points, [None] * len(found)))
+    columns: dict[str, Any] = {
+        "time": found["time"] - times[0],
+        "person": pa.array(person, "int32"),
+    }
+    told = {
+        **head,
+        "depth": bool(np.isfinite(found["metres"]).any()),
+        "frames": len(times),
+        "fps": _rate(times),
+        "duration": float(times[-1] - times[0]),
+    }
+    for column, (field, k, axis) in _columns(told).items():
+        values = found[field][:, k] if axis is None else found[field][:, k, axis]
+        columns[column] = np.ascontiguousarray(values)
+    table = pa.table(columns).replace_schema_metadata({KEY: json.dumps(told).encode()})
+    with atomic_write(path) as draft:
+        parquet.write_table(table, draft)
+
+
+def read_poses(path: Path) -> Poses:
+    """Return the poses in a Parquet file; ReadError where it is no table of poses."""
+    content = load(path)
+    return parse_poses(content, parquet_file(content))
+
+
+def holds_poses(file: Any) -> bool:
+    """Return whether an open Parquet file is a table of poses."""
+    return KEY in (file.schema_arrow.metadata or {})
+
+
+def parse_head(content: FileContent, file: Any) -> Head:
+    """Return what an open Parquet file tells of its poses; ReadError where it holds none."""
+    if not holds_poses(file):
+        raise content.error("is no table of poses")
+    try:
+        head: Head = json.loads(file.schema_arrow.metadata[KEY])
+        frames, most = head["fps"] * head["duration"], MOST_FRAMES_MORE * (head["frames"] + 1)
+        is_whole = head["fps"] > 0 and 0 <= frames < most and bool(_columns(head))
+        is_whole = is_whole and {"estimator", "limit"} <= head.keys()
+    except (ValueError, TypeError, LookupError):
+        is_whole = False
+    if not is_whole:
+        raise content.error(f"is a damaged table of poses: see its {KEY.decode()}")
+    return head
+
+
+def parse_poses(content: FileContent, file: Any) -> Poses:
+    """Return the poses in an open Parquet file; ReadError where it is damaged."""
+    head = parse_head(content, file)
+    columns, keypoints = _columns(head), len(head["keypoints"])
+    table = parquet_columns(content, file, ["time", "person", *columns])
+    rows = np.zeros(table.num_rows, row_type(keypoints))
+    try:
+        for name in ("time", "person"):
+            rows[name] = table.column(name).to_numpy()
+        for name, (field, k, axis) in columns.items():
+            part = rows[field][:, k] if axis is None else rows[field][:, k, axis]
+            part[:] = table.column(name).to_numpy()
+    except (ValueError, TypeError, LookupError) as error:
+        raise content.error("is a damaged table of poses: a column holds no numbers") from error
+    return Poses(head, rows)
+
+
+def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) -> Motion:
+    """Return the motion of one person, in metres where there are any, else from the picture.
+
+    ReadError where nobody was found. A frame without the person is a gap.
+    """
+    head, rows = poses.head, poses.rows
+    fps = float(options.fps or head["fps"])
+    numbers = np.rint(rows["time"] * float(head["fps"])).astype(np.int64)
+    field = "metres" if head["depth"] else "image"
+    unit, up = ("m", "y") if head["depth"] else ("pixel", "-y")
+    people = [
+        Person(number, row[field], row["confidence"], str(row["person"]))
+        for number, row in zip(numbers.tolist(), rows, strict=True)
+    ]
+    frames = range(round(float(head["duration"]) * float(head["fps"])) + 1)
+    notes = ["the place in the room is not known: metres from the middle of the hips"]
+    video = Video(
+        f"video poses ({head['estimator']})", head["keypoints"], people, float(head["limit"]), fps,
+        frames, unit, up, notes if head["depth"] else (),
+    )  # fmt: skip
+    return _smooth(video_to_motion(content, video, options))
+
+
+def _columns(head: Head) -> dict[str, tuple[str, int, int | None]]:
+    """Return for each column of keypoints its field, keypoint and axis in a row."""
+    columns: dict[str, tuple[str, int, int | None]] = {}
+    for k, name in enumerate(head["keypoints"]):
+        columns |= {f"{name}_{axis}": ("image", k, i) for i, axis in enumerate("uv")}
+        if head["depth"]:
+            columns |= {f"{name}_{axis}": ("metres", k, i) for i, axis in enumerate("xyz")}
+        columns[f"{name}_confidence"] = ("confidence", k, None)
+    return columns
+
+
+def _rate(times: Floats) -> float:
+    """Return the frames a second of ordinary steps; lost frames count for none."""
+    if len(times) < 2:
+        return 1.0
+    steps = np.diff(times)
+    ordinary = steps[np.abs(steps - np.median(steps)) <= 0.5 * np.median(steps)]
+    return round(1 / float(ordinary.mean()), 3)
+
+
+def _smooth(motion: Motion) -> Motion:
+    """Return the motion without jitter; each span between gaps is filtered by itself."""
+    if motion.fps <= 2 * CUTOFF:
+        return motion.noted(f"not smoothed: {motion.fps:g} Hz are too few for {CUTOFF:g} Hz")
+    positions = motion.positions.copy()
+    for start, stop in spans_of(~np.array(unseen(motion))).tolist():
+        padding = min(round(motion.fps), stop - start - 2)
+        if padding > 0:
+            flat = positions[start:stop].reshape(stop - start, -1)
+            smooth = filter_low(flat, motion.fps, CUTOFF, padding)
+            positions[start:stop] = smooth.reshape(positions[start:stop].shape)
+    note = f"smoothed: Butterworth low-pass filter of second order, {CUTOFF:g} Hz, both ways"
+    return replace(motion, positions=positions).noted(note)

@@ -1,0 +1,221 @@
+"""Run an estimator over a video: poses are kept as they come, so that nothing is done twice.
+
+While it runs, poses go to a file of its own beside the table to be, called as that and ``.part``: a
+line of JSON, then rows of `kineme.formats.keypoints.poses.row_type`, those of each frame at once.
+Whatever ends the run, the next one goes on after the last whole frame. When all frames are done,
+the table is written at once and the other file is removed.
+
+Without another place, the table of ``squats.mp4`` is ``squats.mp4.poses.parquet`` beside it, or
+in the user's cache where that folder cannot be written. It holds the digest of the video: where
+that is another one, poses are estimated anew.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from kineme._util.checks import check_path
+from kineme._util.files import AnyPath, atomic_write, hold, is_held, refuse_link
+from kineme._util.parallel import announce, check_cancelled, find_user_cache
+from kineme.errors import KinemeError, ReadError, WriteError
+from kineme.formats.channels.parquet import parquet_file
+from kineme.formats.files import load, load_head
+from kineme.formats.keypoints.poses import (
+    NOBODY,
+    POSES,
+    Head,
+    Rows,
+    parse_head,
+    row_type,
+    write_poses,
+)
+from kineme.pose.decoding import Frame, OpenVideo, open_video
+from kineme.pose.estimators import Estimate, Pose, PoseEstimator, choose_estimator
+
+PRESENT = 0.3
+"""Mean confidence of the keypoints below which nobody is there."""
+TOLD_S = 0.5
+"""Seconds between two words on progress."""
+
+
+def estimate_poses(
+    video: AnyPath,
+    target: AnyPath | None = None,
+    *,
+    estimator: str | None = None,
+    model: AnyPath | None = None,
+) -> Path:
+    """Estimate the poses of the people in a video, unless that is done, and return their table.
+
+    Parameters
+    ----------
+    video : str or PathLike
+        Whatever FFmpeg decodes.
+    target : str or PathLike, optional
+        The Parquet file to write; by default one beside the video.
+    estimator : str, optional
+        One of `estimator_names`; by default the first that is installed, or whichever estimated the
+        poses beside the video.
+    model : str or PathLike, optional
+        A file that the estimator takes in place of its own model.
+
+    Returns
+    -------
+    Path
+        `kineme.read` reads it.
+
+    Raises
+    ------
+    ReadError
+        The file is no video, is damaged, or is a single picture.
+    WriteError
+        The table cannot be written.
+    MissingDependencyError
+        No estimator is installed.
+    """
+    check_path(video, "estimate_poses")
+    path = Path(video)
+    digest = load_head(path).digest
+    beside = _place(path, digest)
+    place = beside if target is None else Path(target)
+    asked: dict[str, object] = {"sha256": digest}
+    if estimator is not None or model is not None:
+        asked |= _told_of(choose_estimator(estimator), model)
+    for made in (place, beside):
+        if _is_made(made, asked):
+            if made != place:
+                with atomic_write(place) as draft:
+                    shutil.copyfile(made, draft)
+            return place
+    chosen = choose_estimator(estimator)
+    part = place.with_name(f"{place.name}.part")
+    _run(path, part, chosen, None if model is None else Path(model), digest)
+    head, rows, _ = _parse_part(part, len(chosen.keypoints))
+    if len(np.unique(rows["time"])) < 2:
+        part.unlink()
+        raise ReadError(path, "is a still picture: a video has several frames")
+    write_poses(place, head, rows)
+    part.unlink()
+    return place
+
+
+def _place(video: Path, digest: str) -> Path:
+    """Return where the poses of a video are kept unless another place is given."""
+    beside = video.with_name(video.name + POSES)
+    if beside.exists() or os.access(video.parent, os.W_OK):
+        return beside
+    home = find_user_cache() / "kineme" / "poses"
+    home.mkdir(parents=True, exist_ok=True)
+    return home / f"{digest}{POSES}"
+
+
+def _told_of(estimator: PoseEstimator, model: AnyPath | None) -> dict[str, object]:
+    """Return what a table tells of how it was made."""
+    return {
+        "estimator": estimator.name,
+        "keypoints": list(estimator.keypoints),
+        "model": None if model is None else load(model).digest,
+    }
+
+
+def _is_made(place: Path, asked: Head) -> bool:
+    """Return whether a place holds the poses asked for; WriteError for a file of somebody else."""
+    if not place.exists():
+        return False
+    try:
+        content = load(place)
+        head = parse_head(content, parquet_file(content))
+    except ReadError as error:
+        reason = "is there, and holds no poses: move it away or name another file"
+        raise WriteError(place, reason) from error
+    return all(head.get(name) == value for name, value in asked.items())
+
+
+def _run(path: Path, part: Path, estimator: PoseEstimator, model: Path | None, digest: str) -> None:
+    """Append the poses of all frames that the file of an earlier run lacks."""
+    refuse_link(part)
+    if part.exists() and is_held(part):
+        raise WriteError(part, "is being written: wait for the other kineme to end")
+    told = {**_told_of(estimator, model), "sha256": digest, "limit": estimator.limit}
+    with open_video(path) as video:
+        last = _resume(part, told, len(estimator.keypoints))
+        try:
+            with part.open("ab") as file, estimator.start(model) as estimate:
+                hold(file.fileno())
+                _append(file, video, estimate, told, last)
+        except KinemeError:  # of the video or the model: nothing to go on with
+            part.unlink(missing_ok=True)
+            raise
+        except OSError as error:
+            raise WriteError(part, f"cannot be written: {error.strerror or error}") from error
+
+
+def _append(
+    file: BinaryIO, video: OpenVideo, estimate: Estimate, told: Head, last: float | None
+) -> None:
+    begun = spoken = time.monotonic()
+    for n, frame in enumerate(video.frames(last)):
+        check_cancelled()
+        poses = _present(estimate(frame.picture, frame.time))
+        if file.tell() == 0:
+            height, width = (round(side * frame.scale) for side in frame.picture.shape[:2])
+            head = {**told, "width": width, "height": height}
+            file.write(json.dumps(head).encode() + b"\n")
+        # The rows of a frame go to the file in one call: it holds all of them or none.
+        file.write(_rows_of(frame, poses, len(told["keypoints"])).tobytes())
+        file.flush()
+        now = time.monotonic()
+        if now - spoken >= TOLD_S:
+            spoken = now
+            share = f"{frame.time / video.duration:.0%}, " if video.duration else ""
+            announce(f"estimating poses, {share}{(n + 1) / (now - begun):.1f} frames/s")
+
+
+def _present(poses: Sequence[Pose]) -> list[Pose]:
+    return [pose for pose in poses if np.mean(pose.confidence) >= PRESENT]
+
+
+def _rows_of(frame: Frame, poses: Sequence[Pose], keypoints: int) -> Rows:
+    """Return a row for each person in a frame; one of nobody where there is none."""
+    rows = np.zeros(max(1, len(poses)), row_type(keypoints))
+    rows["time"], rows["person"], rows["metres"] = frame.time, NOBODY, np.nan
+    for i, pose in enumerate(poses):
+        rows[i]["person"] = i
+        rows[i]["image"] = pose.image * frame.scale
+        rows[i]["confidence"] = pose.confidence
+        if pose.metres is not None:
+            rows[i]["metres"] = pose.metres
+    return rows
+
+
+def _resume(part: Path, told: Head, keypoints: int) -> float | None:
+    """Return the time after which an earlier run is gone on with; None for a new one."""
+    if not part.exists():
+        return None
+    head, rows, size = _parse_part(part, keypoints)
+    # The last frame is done again: not all of its people may have been written.
+    kept = rows[rows["time"] < rows["time"][-1]] if len(rows) else rows
+    if not len(kept) or any(head.get(name) != value for name, value in told.items()):
+        part.unlink()
+        return None
+    os.truncate(part, size + kept.nbytes)
+    return float(kept["time"][-1])
+
+
+def _parse_part(part: Path, keypoints: int) -> tuple[Head, Rows, int]:
+    """Return head and whole rows of a file of poses that is not done, and the size of the head."""
+    line, _, rest = part.read_bytes().partition(b"\n")
+    try:
+        head = json.loads(line)
+    except ValueError:
+        head = {}
+    kind = row_type(keypoints)
+    return head, np.frombuffer(rest, kind, len(rest) // kind.itemsize), len(line) + 1

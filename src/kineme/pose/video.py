@@ -1,0 +1,34 @@
+"""Videos as recordings: the motion of a person whose poses are estimated when it is first read."""
+
+from __future__ import annotations
+
+from kineme.formats.files import FileContent
+from kineme.formats.keypoints.poses import poses_to_motion, read_poses
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
+from kineme.pose.estimating import estimate_poses
+from kineme.recordings import Motion
+
+_BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free")
+_EBML = b"\x1a\x45\xdf\xa3"  # Matroska and WebM
+
+
+def read_video(content: FileContent, options: ReadOptions) -> Motion:
+    """Return the motion of one person in a video; its poses are estimated unless that is done."""
+    poses = read_poses(estimate_poses(content.path))
+    return poses_to_motion(content, poses, options)
+
+
+def begins_video(head: bytes) -> bool:
+    """Return whether a file begins as MP4, QuickTime, Matroska, WebM or AVI do."""
+    is_avi = head.startswith(b"RIFF") and head[8:12] == b"AVI "
+    return head[4:8] in _BOXES or head.startswith(_EBML) or is_avi
+
+
+FORMAT = Format(
+    "video",
+    (".mp4", ".mov", ".m4v", ".webm", ".mkv", ".avi", ".3gp", ".mts", ".mpg", ".wmv", ".ogv"),
+    begins_video,
+    read_video,
+    is_video=True,
+)

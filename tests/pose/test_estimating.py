@@ -1,0 +1,196 @@
+"""Estimating the poses in a video: decoded rightly, kept as they come, done once."""
+
+from __future__ import annotations
+
+import io
+import wave
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import kineme
+from kineme.cli.app import app
+from kineme.errors import MissingDependencyError, ParameterError, ReadError, WriteError
+from kineme.formats.keypoints.poses import read_poses
+from kineme.pose import Pose, estimate_poses, estimator_names, register
+from kineme.pose.estimators import ESTIMATORS
+from squats import drawn_estimator, write_video
+
+av = pytest.importorskip("av")
+
+AT_30_HZ = np.arange(90) / 30
+
+
+@pytest.fixture
+def pictures(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[float]]:
+    """Times of the pictures that an estimator of drawn squats has seen; there is no other."""
+    seen: list[float] = []
+    monkeypatch.setattr(ESTIMATORS, "_objects", {})
+    monkeypatch.setattr(ESTIMATORS, "_loaded", True)
+    register(drawn_estimator(seen.append))
+    return seen
+
+
+@pytest.fixture
+def video(tmp_path: Path) -> Path:
+    return write_video(tmp_path / "squats.mp4", AT_30_HZ)
+
+
+def test_a_video_is_a_recording(video: Path, pictures: list[float]) -> None:
+    motion = kineme.read(video)
+    assert motion.n_frames == 90
+    assert motion.fps == pytest.approx(30, abs=0.01)
+    assert motion.provenance.path == str(video)
+    assert np.allclose(pictures, AT_30_HZ, atol=1e-3)
+
+
+def test_it_is_done_once(video: Path, pictures: list[float]) -> None:
+    first = kineme.read(video)
+    np.testing.assert_array_equal(kineme.read(video).positions, first.positions)
+    assert len(pictures) == 90
+    assert estimate_poses(video) == video.with_name("squats.mp4.poses.parquet")
+    estimate_poses(video, video.with_name("copy.parquet"))
+    assert len(pictures) == 90
+    write_video(video, AT_30_HZ[:60])  # another video of this name
+    assert kineme.read(video).n_frames == 60
+    assert len(pictures) == 150
+
+
+def test_what_was_interrupted_goes_on(video: Path, pictures: list[float]) -> None:
+    def interrupt(time: float) -> None:
+        pictures.append(time)
+        if len(pictures) == 40:
+            raise KeyboardInterrupt
+
+    register(drawn_estimator(interrupt), replace=True)
+    with pytest.raises(KeyboardInterrupt):
+        estimate_poses(video)
+    part = video.with_name("squats.mp4.poses.parquet.part")
+    with part.open("ab") as file:
+        file.write(b"torn")
+    poses = read_poses(estimate_poses(video))
+    assert not part.exists()
+    assert len(pictures) == 40 + 90 - 38  # the last whole frame is done again
+    np.testing.assert_allclose(poses.rows["time"], AT_30_HZ, atol=1e-3)
+    assert poses.head["frames"] == 90
+
+
+def test_rows_of_another_estimator_are_not_gone_on_with(video: Path, pictures: list[float]) -> None:
+    part = video.with_name("squats.mp4.poses.parquet.part")
+    part.write_bytes(b'{"estimator": "other"}\n' + bytes(5000))
+    assert read_poses(estimate_poses(video)).head["frames"] == 90
+
+
+def test_a_file_of_somebody_else_stays(video: Path, pictures: list[float]) -> None:
+    mine = video.with_name("mine.parquet")
+    mine.write_text("mine")
+    with pytest.raises(WriteError, match="holds no poses"):
+        estimate_poses(video, mine)
+    assert mine.read_text() == "mine"
+
+
+def test_a_folder_that_cannot_be_written(
+    video: Path, pictures: list[float], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("os.access", lambda *_: False)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    assert estimate_poses(video).is_relative_to(tmp_path / "cache")
+    assert not list(tmp_path.glob("*.parquet*"))
+
+
+@pytest.mark.parametrize("rotation", [0, 90, 180, -90])
+def test_pictures_stand_upright(tmp_path: Path, rotation: int) -> None:
+    from kineme.pose.decoding import open_video
+
+    path = write_video(tmp_path / "a.mp4", AT_30_HZ, rotation=rotation)
+    with open_video(path) as video:
+        picture = next(iter(video.frames())).picture
+    expected = np.zeros((48, 64))
+    expected[:24, :32] = 1
+    expected = np.rot90(expected, rotation // 90)
+    assert picture.shape[:2] == expected.shape
+    assert np.mean((picture[..., 0] > 120) == expected) > 0.95
+
+
+def test_times_are_those_of_the_container(tmp_path: Path, pictures: list[float]) -> None:
+    times = [*np.arange(30) / 30, *(1 + np.arange(30) / 15)]
+    estimate_poses(write_video(tmp_path / "a.mp4", times))
+    np.testing.assert_allclose(pictures, times, atol=2e-3)
+
+
+def test_of_60_frames_a_second_each_other_is_taken(tmp_path: Path, pictures: list[float]) -> None:
+    motion = kineme.read(write_video(tmp_path / "a.mp4", np.arange(240) / 60))
+    assert motion.fps == pytest.approx(30, abs=0.1)
+    assert len(pictures) == 120
+
+
+def test_nobody_is_never_a_table_of_somebody(video: Path, pictures: list[float]) -> None:
+    estimator = drawn_estimator()
+    faint = ESTIMATORS["drawn"].__class__(
+        "drawn", estimator.keypoints, "numpy", _faint, estimator.limit
+    )
+    register(faint, replace=True)
+    with pytest.raises(ReadError, match="nobody is found"):
+        kineme.read(video)
+    result = CliRunner().invoke(app, ["pose", str(video)])
+    assert result.exit_code == 1
+    assert "nobody is found" in result.output
+
+
+def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Path) -> None:
+    sound = io.BytesIO()
+    with wave.open(sound, "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(8000)
+        file.writeframes(bytes(16000))
+    whole = write_video(tmp_path / "whole.mp4", np.arange(300) / 30).read_bytes()
+    for name, data, reason in [
+        ("text.mp4", b"not a video", "is no video"),
+        ("empty.mp4", b"", "empty"),
+        ("sound.mkv", sound.getvalue(), "sound"),
+        ("head.mp4", video.read_bytes()[:500], "is no video"),
+        ("half.mp4", whole[: len(whole) // 2], "breaks off|damaged"),
+    ]:
+        path = tmp_path / name
+        path.write_bytes(data)
+        with pytest.raises(ReadError, match=reason):
+            kineme.read(path)
+    with pytest.raises(ReadError, match="still picture"):
+        kineme.read(write_video(tmp_path / "still.mp4", [0.0]))
+    left = {path.suffix for path in tmp_path.iterdir()}
+    assert left <= {".mp4", ".mkv"}
+
+
+def test_without_an_estimator_the_install_line_is_said(
+    video: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("kineme.pose.estimators.find_spec", lambda name: None)
+    with pytest.raises(MissingDependencyError, match=r"pip install 'kineme\[video\]'"):
+        kineme.read(video)
+
+
+def test_estimators_are_chosen_by_name(video: Path, pictures: list[float]) -> None:
+    assert estimator_names() == ("drawn",)
+    with pytest.raises(ParameterError, match="estimator must be one of drawn"):
+        estimate_poses(video, estimator="other")
+
+
+def test_the_command(video: Path, pictures: list[float], tmp_path: Path) -> None:
+    table = tmp_path / "poses.parquet"
+    result = CliRunner().invoke(app, ["pose", str(video), "-o", str(table)])
+    assert result.exit_code == 0, result.output
+    assert "1 person in 90 of 90 frames" in result.output
+    assert kineme.read(table).n_frames == 90
+    result = CliRunner().invoke(app, ["segment", str(tmp_path / "squats.mp4"), "--json"])
+    assert result.exit_code == 0, result.output
+
+
+def _faint(model: Path | None):
+    from contextlib import nullcontext
+
+    pose = Pose(np.zeros((33, 2)), np.full(33, 0.1), np.zeros((33, 3)))
+    return nullcontext(lambda picture, time: [pose])
