@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme.cli.help import OUTPUT, TABLES, option
+from kineme.cli.help import INPUT, OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, FilesOfFormats, Recursive
 from kineme.cli.options.reading import READING, Json, Quiet
 from kineme.cli.options.request import SEGMENTING, Request, Stage, asks
@@ -52,6 +52,14 @@ def segment(
         ),
     ] = None,
     level: PrintedLevel = "activity",
+    join: Annotated[
+        bool,
+        option(
+            INPUT,
+            "Take the files for sensors of one recording, each with its own rate and clock, and "
+            "join them by time. Results are called after the first.",
+        ),
+    ] = False,
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
@@ -66,6 +74,7 @@ def segment(
     For example: kineme segment walk.bvh --output walk.csv --plot walk.png
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
+    joined = batch.join() if join else []
     tables = batch.targets("--output", output, ".csv")
     pictures = batch.targets("--plot", plot, ".png")
     pages = batch.targets("--report", report, ".html")
@@ -74,13 +83,26 @@ def segment(
         check_writable(*targets)
         with batch.progress(path) as stage:
             stage("reading")
-            recording = asked.read(path)
+            recording = _read_joined(joined, asked) if joined else asked.read(path)
             result = _segment_one(recording, asked, targets, stage)
         print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
         batch.each_person(path, request, work, *targets)
     batch.exit()
+
+
+def _read_joined(paths: Sequence[Path], request: Request) -> Signals:
+    """Return the channels of several files on one clock."""
+    from kineme.errors import ReadError
+    from kineme.recordings import Signals
+    from kineme.recordings.samples import join_signals
+
+    parts = [(path, request.read(path)) for path in paths]
+    for path, part in parts:
+        if not isinstance(part, Signals):
+            raise ReadError(path, "is a motion, and --join takes channels of sensors: leave it out")
+    return join_signals(*(part for _, part in parts if isinstance(part, Signals)))
 
 
 def _segment_one(

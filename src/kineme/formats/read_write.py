@@ -8,10 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from kineme._util.checks import check_path, check_type
+from kineme._util.checks import check_path, check_type, warn
 from kineme._util.files import translate_read_errors
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
-from kineme.formats.files import FileContent, load, warn
+from kineme.formats.files import FileContent, load
 from kineme.formats.options import AnyPath, ReadOptions
 from kineme.formats.plausibility import doubt_posture
 from kineme.formats.registry import Sketch, recognise, supported_formats

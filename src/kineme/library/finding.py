@@ -8,10 +8,9 @@ from os import PathLike
 import numpy as np
 
 from kineme._util.arrays import Float32s
-from kineme._util.checks import is_number
+from kineme._util.checks import is_number, warn
 from kineme.errors import ParameterError, ReadError
 from kineme.features.canonical import mirrored_features
-from kineme.formats.files import warn
 from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
 from kineme.library.index import Parts, Sought, matches_in, merge_overlapping, parts_like
