@@ -71,7 +71,7 @@ def columns_to_motion(
     flat = all(len(axes) == 2 for axes in joints.values())
     unsure = int((confidence < limit).sum())
     timing = table_timing(content, columns, options.fps, positions.reshape(len(positions), -1))
-    positions = place_points(timing, positions)
+    positions, gaps = place_points(timing, positions)
     notes = list(timing.notes)
     if unsure:
         notes.append(f"{format_count(unsure, 'position')} less sure than {limit:g} not used")
@@ -86,7 +86,7 @@ def columns_to_motion(
         names, positions, timing.fps, unit, up, stated_unit=stated, person=options.person
     )
     provenance = content.provenance(name, notes).timed(timing.clock, timing.row_seconds)
-    return split_at(to_motion(points, provenance), timing.gaps)
+    return split_at(to_motion(points, provenance), gaps)
 
 
 def is_used(column: str) -> bool:

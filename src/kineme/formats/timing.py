@@ -12,6 +12,7 @@ from kineme._util.checks import join_names
 from kineme.errors import ParameterError
 from kineme.formats.files import FileContent
 from kineme.recordings import Note
+from kineme.recordings.arrays import spans_of
 from kineme.recordings.regular import Timing, place_rows
 from kineme.recordings.times import UNITS_NAMED, as_seconds, is_rate, is_time, time_unit
 
@@ -69,17 +70,23 @@ def timing_of(content: FileContent, times: Floats, values: Floats | None = None)
         raise content.error(str(error)) from None
 
 
-def place_points(timing: Timing, points: Floats) -> Floats:
-    """Return points (rows, points, axes) in frames, NaN where they are missing for long.
+def place_points(timing: Timing, points: Floats) -> tuple[Floats, tuple[tuple[int, int], ...]]:
+    """Return points (rows, points, axes) in frames, and the gaps in which there are no rows.
 
-    Rows that are frames are left as they are, with their holes.
+    NaN where single points are missing for long. Rows that are frames are left as they are, with
+    their holes.
     """
     if timing.order is None:
-        return points
+        return points, timing.gaps
     found = timing.resample(points.reshape(len(points), -1))
+    gaps = timing.gaps
     if found.missing is not None:
-        found.values[found.missing] = np.nan
-    return found.values.reshape(-1, *points.shape[1:])
+        pause = found.missing.all(axis=1)
+        found.values[found.missing & ~pause[:, None]] = np.nan
+        for start, stop in gaps:
+            pause[start:stop] = True
+        gaps = tuple((start, stop) for start, stop in spans_of(pause).tolist())
+    return found.values.reshape(-1, *points.shape[1:]), gaps
 
 
 def numbers_in(

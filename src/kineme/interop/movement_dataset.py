@@ -161,7 +161,7 @@ def from_movement(
     source = FileContent(Path(str(attributes.get("source_file") or "dataset")), b"")
     timing = _read_timing(source, dataset, fps)
     flat = "z" not in axes
-    places = place_points(timing, places)
+    places, gaps = place_points(timing, places)
     points = Points(
         [str(name) for name in position["keypoints"].values],
         places,
@@ -170,8 +170,10 @@ def from_movement(
         up or attributes.get("up") or ("-y" if flat else None),
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
-    provenance = Provenance(str(source.path), name, clock=timing.clock).noted(*timing.notes, *notes)
-    motion = split_at(to_motion(points, provenance), timing.gaps)
+    provenance = Provenance(
+        str(source.path), name, clock=timing.clock, rows=timing.row_seconds
+    ).noted(*timing.notes, *notes)
+    motion = split_at(to_motion(points, provenance), gaps)
     if remarks := motion.provenance.warnings:
         warn(f"{provenance.path or 'dataset'}: {'; '.join(remarks)}")
     return motion

@@ -41,6 +41,7 @@ _ADDS_UP = 0.1  # share by which steps of whole periods may miss the duration
 _WHOLE = 0.01  # share by which the rate of uneven times may differ from whole frames a second
 _FEW = 0.01  # share of steps back in time up to which a clock was set, and rows are not shuffled
 _PACKETS = 1 / 3  # share of rows with the time of another from which on they come in packets
+_SAME = 1e-6  # share of a step below which times are the same
 _SLOWEST_S = 2.0  # period of a slow channel at most
 _ROOM = 8  # frames for each row at most, and as many values as follow
 _VALUES = 1_000_000
@@ -194,12 +195,17 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
     if (np.diff(at) < 0).any():
         sequence = np.argsort(at, kind="stable")
         rows, at, shown = rows[sequence], at[sequence], shown[sequence]
+        was_set = None if was_set is None else was_set[sequence]
         taken = None if taken is None else taken[sequence]
     ahead = shown - at  # constant but where the clock was set
     if not at[-1] > at[0]:
         raise ParameterError(
             f"times do not increase: row 2 has {at[0]:g} s, as all others have; give fps= (--fps)"
         )
+    steps = np.diff(at)
+    apart = np.append(True, steps > _SAME * np.median(steps[steps > 0]))
+    if not apart.all():  # numbers that differ by rounding are one time
+        at = at[apart][np.cumsum(apart) - 1]
     at, note = _spread_packets(at, taken)
     notes += note
     moments, merged = (np.unique(at), None) if taken is None else _merge(at, taken)
@@ -212,9 +218,30 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
             rate, frames = whole, _snap((at - at[0]) * whole, whole)
     elif not fps:
         rate = _round_rate(rate, max(1e-6, UNEVEN / max(1.0, float(frames[-1]))))
-    notes.append(_describe(np.diff(moments), len(at) - len(moments), rate))
+    exact = bool((frames == np.rint(frames)).all())
+    notes += _describe(np.diff(moments), len(at) - len(moments), rate, exact=exact)
     channels = 1 if taken is None else max(1, taken.shape[1])
-    frames, cut = _shorten_pauses(frames, _ROOM * len(at) + _VALUES // channels)
+    timing = Timing(rate, rows, frames, notes=tuple(notes))
+    return _split(timing, at, ahead, was_set, _ROOM * len(at) + _VALUES // channels)
+
+
+def _split(timing: Timing, at: Floats, ahead: Floats, was_set: Masks | None, most: int) -> Timing:
+    """Return the same with its clock and gaps, and pauses cut that no room is left for.
+
+    Parameters
+    ----------
+    timing : Timing
+        Without these.
+    at, ahead : (rows,) array
+        Seconds of the rows in order of time, and how far the clock was ahead of them.
+    was_set : (rows,) array of bool, optional
+        Right after the clock went back.
+    most : int
+        Frames.
+    """
+    assert timing.at is not None  # noqa: S101 (for mypy)
+    rate, notes = timing.fps, list(timing.notes)
+    frames, cut = _shorten_pauses(timing.at, most)
     if cut.any():
         k = int(cut.argmax())
         notes.append(
@@ -227,22 +254,20 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
         )
     # where the clock does not go on as the seconds do
     turns = np.flatnonzero(cut | (np.abs(np.diff(ahead)) > LONGEST_S)) + 1
-    starts = np.append(0, turns)
-    begins = (frames[starts] / rate).tolist()
-    clock = None
+    starts, clock = np.append(0, turns), None
+    begins, shown = frames[starts] / rate, (at + ahead)[starts]
     if len(starts) > 1 or abs(shown[0]) > 0.5 / rate:
-        clock = Clock(begins, shown[starts].tolist())
-    set_at = [] if was_set is None else np.flatnonzero(np.isin(at, was_set)).tolist()
-    split = sorted({*np.flatnonzero(cut).tolist(), *(k - 1 for k in set_at if k)})
-    gaps = ((int(np.floor(frames[k])) + 1, int(np.ceil(frames[k + 1]))) for k in split)
-    return Timing(
-        rate,
-        rows,
-        frames,
-        int(np.floor(frames[-1] + UNEVEN)) + 1,
-        tuple((start, stop) for start, stop in gaps if start < stop),
-        tuple(notes),
-        clock,
+        clock = Clock(begins.tolist(), shown.tolist())
+    split = cut if was_set is None else cut | was_set[1:]
+    ends = ((frames[k], frames[k + 1]) for k in np.flatnonzero(split).tolist())
+    gaps = ((int(np.floor(a)) + 1, int(np.ceil(b))) for a, b in ends)
+    return replace(
+        timing,
+        at=frames,
+        n_frames=int(np.floor(frames[-1] + UNEVEN)) + 1,
+        gaps=tuple((start, stop) for start, stop in gaps if start < stop),
+        notes=tuple(notes),
+        clock=clock,
     )
 
 
@@ -296,6 +321,7 @@ FROZEN_S = 3.0
 _CHANGES = 0.5  # share of steps that change, outside of such spans
 _CLIPPED = 3  # values in a row at the limit of a sensor
 _CLIPS = 0.001  # share of such values from which on it is said
+_COARSE = 5  # steps of the sensor by which values reach its limit at once
 _LEVELS = 50  # different values that a sensor has at least
 
 
@@ -335,13 +361,18 @@ def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
     long = runs[runs[:, 1] - runs[:, 0] >= _CLIPPED * held - 1]
     if len(long) < 2:
         return False
-    ends = track[long[:, 0]]
-    lengths = long[:, 1] - long[:, 0] + 1
+    firsts = long[:, 0]
+    ends, lengths = track[firsts], long[:, 1] - long[:, 0] + 1
+    # A smooth peak in coarse steps is flat, too, but values come near it step by step.
+    entries = np.abs(ends - track[np.maximum(firsts - 1, 0)])
+    moves = np.abs(np.diff(track))
+    coarse = _COARSE * float(moves[moves > 0].min(initial=np.inf))
     low, middle, high = np.percentile(track, (25, 50, 75))
     for limit in (track.min(), track.max()):
-        count = int(lengths[ends == limit].sum())
-        if abs(limit - middle) > high - low > 0 and count >= _CLIPS * len(track):
-            # a force of nothing is the smallest, too: only sensors with many values are cut off
+        cut = ends == limit
+        often = int(lengths[cut].sum()) >= _CLIPS * len(track) and cut.sum() > 1
+        far = abs(limit - middle) > high - low > 0  # a force of nothing is the smallest, too
+        if often and far and np.median(entries[cut]) >= coarse:
             return len(np.unique(track)) >= _LEVELS
     return False
 
@@ -406,8 +437,8 @@ def _is_even(times: Floats, steps: Floats) -> bool:
 
 def _correct_clock(
     shown: Floats, values: Floats | None
-) -> tuple[Floats, Floats | None, list[Note | str]]:
-    """Return times of a clock that nobody sets, those right after it was set, and notes."""
+) -> tuple[Floats, Masks | None, list[Note | str]]:
+    """Return times of a clock that nobody sets, which are right after it was set, and notes."""
     steps = np.diff(shown)
     back = steps < 0
     rising = steps[steps > 0]
@@ -442,7 +473,7 @@ def _correct_clock(
     at = at + np.append(0.0, np.cumsum(np.where(reset, 2 * usual - steps, 0.0)))
     times = format_count(int(reset.sum()), "time")
     notes.append(Note(f"the clock goes back {times}: the recording is split there", "warning"))
-    return at, at[1:][reset], notes
+    return at, np.append(False, reset), notes
 
 
 def _was_set(at: Floats, usual: float, values: Floats | None) -> bool:
@@ -555,17 +586,19 @@ def _shorten_pauses(frames: Floats, most: int) -> tuple[Floats, Masks]:
     return frames, cut
 
 
-def _describe(steps: Floats, doubled: int, fps: float) -> str:
-    """One sentence on uneven times."""
+def _describe(steps: Floats, doubled: int, fps: float, *, exact: bool) -> list[Note | str]:
+    """Return a sentence on times that are uneven; ``exact`` if rows are at frames all the same."""
     counts = [
         (doubled, "row", "with the time of another"),
         (int((steps * fps > 1.5).sum()), "step", "longer than a frame and a half"),
     ]
     parts = [f"{format_count(n, one)} {what}" for n, one, what in counts if n]
-    return f"times are uneven ({', '.join(parts) or 'jitter'}): brought to {fps:g} Hz"
+    if exact and not parts:
+        return []
+    return [f"times are uneven ({', '.join(parts) or 'jitter'}): brought to {fps:g} Hz"]
 
 
 def _round_rate(fps: float, share: float) -> float:
-    """Return the rate to thousandths of a hertz where it is within this share of that."""
-    rounded = round(fps, 3)
-    return rounded if rounded > 0 and abs(fps - rounded) <= share * fps else fps
+    """Return the rate in whole hertz or thousandths where it is within this share of these."""
+    near = (round(fps, digits) for digits in (0, 3))
+    return next((rate for rate in near if rate > 0 and abs(fps - rate) <= share * fps), fps)

@@ -274,7 +274,7 @@ def _unit_of_steps(numbers: Floats) -> str | None:
     steps = np.diff(finite)
     steps = steps[steps > 0]
     # Steps of one are a count of rows, or seconds.
-    step = float(np.median(steps)) if len(steps) else 0.0
+    step = float(np.median(steps)) if len(steps) > 1 else 0.0
     if step < 2:
         return None
     return next((u for u in ("ms", "us") if UNITS_OF_TIME[u] >= _SLOWEST * step), "ns")

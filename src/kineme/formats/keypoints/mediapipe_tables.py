@@ -60,11 +60,11 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
     poses[..., 3] = 1.0
     for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
         poses[:, landmark, field] = column
-    frames, clock = np.arange(len(rows)), Timing(options.fps or 0.0)
+    frames, clock, gaps = np.arange(len(rows)), Timing(options.fps or 0.0), ()
     if timing and not options.fps:
         columns = {table.names[i]: rows[:, len(at) + k] for k, i in enumerate(timing)}
         clock = table_timing(table.content, columns)
-        poses = place_points(clock, poses)
+        poses, gaps = place_points(clock, poses)
         frames = np.arange(len(poses))
     elif frame is not None:
         frames = frame_numbers(table.content, rows[:, -1])
@@ -82,7 +82,7 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
         notes=clock.notes,
     )
     provenance = motion.provenance.timed(clock.clock, clock.row_seconds)
-    return split_at(replace(motion, provenance=provenance), clock.gaps)
+    return split_at(replace(motion, provenance=provenance), gaps)
 
 
 def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
@@ -107,7 +107,7 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
         times = np.zeros(len(frames))
         times[place] = rows[:, -1]
         clock = table_timing(table.content, {table.names[timing[0]]: times})
-        poses, fps = place_points(clock, poses), clock.fps
+        poses, fps = place_points(clock, poses)[0], clock.fps
         frames = np.arange(len(poses)) if clock.order is not None else frames
     people = [
         Person(frame, pose[:, :3], pose[:, 3])

@@ -51,7 +51,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
         content.warn(f"{declared} frames declared, {len(table)} found and kept", 3)
     positions = table[:, 2:].reshape(len(table), -1, 3)
     timing = _rate(content, options, head, table[:, 1])
-    positions = place_points(timing, positions)
+    positions, gaps = place_points(timing, positions)
     unit = options.unit or ("pixel" if _is_image(content, head, positions) else None)
     points = Points(
         names,
@@ -64,7 +64,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     )
     notes = [*timing.notes, *text.remarks]
     provenance = content.provenance("TRC", notes).timed(timing.clock, timing.row_seconds)
-    return split_at(to_motion(points, provenance), timing.gaps)
+    return split_at(to_motion(points, provenance), gaps)
 
 
 def _is_image(content: FileContent, head: dict[str, str], positions: Floats) -> bool:
