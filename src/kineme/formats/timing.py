@@ -81,7 +81,7 @@ def place_points(timing: Timing, points: Floats) -> tuple[Floats, tuple[tuple[in
     found = timing.resample(points.reshape(len(points), -1))
     gaps = timing.gaps
     if found.missing is not None:
-        pause = found.missing.all(axis=1)
+        pause = np.asarray(found.missing.all(axis=1))
         found.values[found.missing & ~pause[:, None]] = np.nan
         for start, stop in gaps:
             pause[start:stop] = True

@@ -170,9 +170,8 @@ def from_movement(
         up or attributes.get("up") or ("-y" if flat else None),
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
-    provenance = Provenance(
-        str(source.path), name, clock=timing.clock, rows=timing.row_seconds
-    ).noted(*timing.notes, *notes)
+    provenance = Provenance(str(source.path), name).timed(timing.clock, timing.row_seconds)
+    provenance = provenance.noted(*timing.notes, *notes)
     motion = split_at(to_motion(points, provenance), gaps)
     if remarks := motion.provenance.warnings:
         warn(f"{provenance.path or 'dataset'}: {'; '.join(remarks)}")

@@ -172,7 +172,8 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
             return signals, timing.frames_of_rows(len(X))
         # one channel may come as a vector, of numbers alone
         row = np.asarray(X) if isinstance(X, list | tuple) else X
-        if getattr(row, "ndim", 2) == 1 and row.dtype.kind in "iufb":
+        of_one = reset or self.n_features_in_ == 1
+        if getattr(row, "ndim", 2) == 1 and row.dtype.kind in "iufb" and of_one:
             row = row.reshape(-1, 1)
         values = validate_data(self, row, **options)
         signals, timing = read_samples(values, fps=self.fps, assumed_fps=assumed)
@@ -208,7 +209,6 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
 
     def __sklearn_tags__(self) -> Any:
         tags = super().__sklearn_tags__()
-        tags.input_tags.one_d_array = True
         tags.input_tags.allow_nan = True
         return tags
 

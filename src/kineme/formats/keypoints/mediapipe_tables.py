@@ -60,7 +60,8 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
     poses[..., 3] = 1.0
     for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
         poses[:, landmark, field] = column
-    frames, clock, gaps = np.arange(len(rows)), Timing(options.fps or 0.0), ()
+    frames, clock = np.arange(len(rows)), Timing(options.fps or 0.0)
+    gaps = clock.gaps
     if timing and not options.fps:
         columns = {table.names[i]: rows[:, len(at) + k] for k, i in enumerate(timing)}
         clock = table_timing(table.content, columns)
