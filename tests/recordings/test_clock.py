@@ -10,10 +10,12 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from typer.testing import CliRunner
 
 import kineme
 from kineme import Signals, as_signals, join_signals
-from kineme.errors import KinemeWarning
+from kineme.cli.app import app
+from kineme.errors import KinemeWarning, ParameterError
 
 BORDER, LENGTH = 60.0, 120.0
 ACC, GYRO = ["acc_x", "acc_y", "acc_z"], ["gyro_x", "gyro_y", "gyro_z"]
@@ -172,3 +174,48 @@ def test_two_files_with_two_clocks_are_one_recording(tmp_path) -> None:
     assert np.abs(both.values[:, :3] - true)[inside].max() < 0.6  # noqa: PD011
     found = kineme.segment(both).activities.start_s + begun
     assert np.abs(found - undisturbed()).min() <= 0.1
+
+
+def test_the_command_joins_files_and_names_rows(tmp_path) -> None:
+    paths = [*map(str, two_clocks(tmp_path))]
+    out = tmp_path / "out.csv"
+    found = CliRunner().invoke(app, ["segment", *paths, "--join", "--quiet", "-o", str(out)])
+    assert (found.exit_code, out.is_file()) == (0, True)
+    assert len(kineme.read_segments(out).activities) == 2
+    frame, times = lost()
+    with pytest.warns(KinemeWarning, match="nothing in common: taken to begin at once"):
+        join_signals(as_signals(frame, times=times + 1.7e9), as_signals(frame, times=times))
+    with pytest.raises(ParameterError, match="do not overlap in time"):
+        join_signals(as_signals(frame, times=times), as_signals(frame, fps=50), offsets=[0, 900])
+    table = kineme.segment(frame, times=times).to_dataframe()
+    border = table[table.level == "activity"].start_row.to_numpy()[1]
+    assert abs(times[border] - undisturbed()) <= 0.1
+
+
+def test_frozen_and_saturated_channels_are_named() -> None:
+    times = np.arange(0, LENGTH, 0.02)
+    frame = movement(times, ACC)
+    frame.loc[1000:2000, "acc_y"] = frame.acc_y[1000]
+    loud = np.random.default_rng(0).standard_normal(len(times)).cumsum() % 7
+    frame["acc_z"] = np.clip(9 * np.sin(5 * times) ** 7 + 0.01 * loud, -2, 2)
+    with pytest.warns(KinemeWarning) as caught:
+        as_signals(frame, fps=50)
+    (said,) = caught
+    assert "do not change for a while: acc_y (20 s at 20 s)" in str(said.message)
+    assert "cut off at their largest values: acc_z" in str(said.message)
+
+
+@pytest.mark.parametrize("name", ["set", "reps", "weight", "label", "Set number", "frame"])
+def test_columns_that_count_or_label_are_no_channels(name, tmp_path) -> None:
+    frame = movement(np.arange(0, 2, 0.02), ACC).assign(**{name: 3})
+    assert as_signals(frame, fps=50).names == tuple(ACC)
+    frame.to_csv(tmp_path / "a.csv", index=False)
+    assert kineme.read(tmp_path / "a.csv", fps=50).names == tuple(ACC)
+
+
+def test_holes_in_arrays_are_filled_or_gaps() -> None:
+    values = np.arange(200.0)
+    values[[3, 4, *range(50, 90)]] = np.nan
+    signals = as_signals(values, fps=50)
+    assert signals.values[3:5, 0].tolist() == [3, 4]  # noqa: PD011
+    assert signals.gaps == ((50, 90),)

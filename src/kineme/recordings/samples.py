@@ -54,7 +54,7 @@ def as_signals(data: Any, *, fps: float | None = None, times: ArrayLike | None =
     Examples
     --------
     >>> import kineme
-    >>> kineme.as_signals([0.0, 1.0, 3.0, 4.0], times=[0, 20, 60, 80]).values.ravel().tolist()
+    >>> kineme.as_signals([0.0, 1.0, 3.0, 4.0], times=[0, 0.1, 0.3, 0.4]).values.ravel().tolist()
     [0.0, 1.0, 2.0, 3.0, 4.0]
     """
     return read_samples(data, fps=fps, times=times)[0]
