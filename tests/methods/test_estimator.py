@@ -70,7 +70,8 @@ def test_vectors_frames_and_lists_are_rows() -> None:
     t = np.arange(1200) / 30
     x = np.where(t < 20, np.sin(9 * t), 3 + np.sin(4 * t))
     labels = Segmenter(fps=30).fit_predict(x).tolist()
-    for rows in (x[:, None], x.tolist(), pd.Series(x), pd.DataFrame({"acc": x, "reps": 3})):
+    frames = (pd.DataFrame(x), pd.DataFrame({"acc": x, "reps": 3}))
+    for rows in (x[:, None], x.tolist(), pd.Series(x), *frames):
         assert Segmenter(fps=30).fit_predict(rows).tolist() == labels
     assert segment(x, fps=30).table == segment(Signals(x, 30)).table
     with pytest.raises(ParameterError, match="a recording has its own"):

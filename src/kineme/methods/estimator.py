@@ -167,7 +167,8 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         options = {"reset": reset, "dtype": np.float64, "ensure_all_finite": "allow-nan"}
         if hasattr(X, "dims") or hasattr(X, "columns") or hasattr(X, "to_frame"):
             signals, timing = read_samples(X, fps=self.fps, assumed_fps=assumed)
-            named = X[[*signals.names]] if hasattr(X, "columns") else signals.values
+            channels = [each for each in getattr(X, "columns", ()) if str(each) in signals.names]
+            named = X[channels] if channels else signals.values
             validate_data(self, named, **options)
             return signals, timing.frames_of_rows(len(X))
         # one channel may come as a vector, of numbers alone
