@@ -59,10 +59,14 @@ ROOMS = {
     "pose": Room(
         "poses of people in videos: estimators, and videos as recordings", "formats recordings"
     ),
+    "transfer": Room(
+        "`KnowledgeBase`; labels and cluster numbers for other recordings",
+        "features formats recordings segments",
+    ),
     "methods": Room(
         "`segment()` and `Segmenter`: recording → features → method → `Segmentation`; presets, "
         "and what their methods find in arrays: `kineme`, `region_growing`",
-        "features recordings segments",
+        "features recordings segments transfer",
     ),
     "labels": Room(
         "segment tables from files and back: one registry", "formats recordings segments"
@@ -78,10 +82,6 @@ ROOMS = {
     "interop": Room(
         "segments and recordings as other libraries have them",
         "formats labels methods recordings segments",
-    ),
-    "transfer": Room(
-        "`KnowledgeBase`; labels and cluster numbers for other recordings",
-        "features formats recordings segments",
     ),
     "synthesis": Room(
         "`MotionGraph`, routes through it, new motion from them",

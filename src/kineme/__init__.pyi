@@ -191,6 +191,12 @@ from .recordings import (
 from .recordings.operations import (
     resample as resample,
 )
+from .recordings.samples import (
+    as_signals as as_signals,
+)
+from .recordings.samples import (
+    join_signals as join_signals,
+)
 from .report.page import (
     write_report as write_report,
 )

@@ -104,8 +104,9 @@ def test_names_as_windows_writes_them(tmp_path) -> None:
 
 
 def test_a_first_row_with_holes_is_no_line_of_units(tmp_path) -> None:
-    text = "time,acc,said\n,nan,walk\n0.1,1,walk\n0.2,2,run\n"
-    assert read(write(tmp_path, "a.csv", text)).n_frames == 3
+    text = "time,acc,said\n,nan,walk\n0.1,1,walk\n0.2,2,run\n0.3,3,run\n"
+    signals = read(write(tmp_path, "a.csv", text))
+    assert (signals.n_frames, signals.fps) == (3, 10)
 
 
 def test_clocks_and_labels_under_other_names_are_no_channels(tmp_path) -> None:
@@ -209,8 +210,9 @@ def test_chosen_columns_in_the_order_given(tmp_path) -> None:
 
 def test_what_tells_the_rate(tmp_path) -> None:
     uptime = "".join(f"{86_400_000 + 10 * i},{i}\n" for i in range(9))
-    with pytest.raises(ReadError, match=r"times are 10 apart.*100 for milliseconds"):
-        read(write(tmp_path, "a.csv", "timestamp,a\n" + uptime))
+    path = write(tmp_path, "a.csv", "timestamp,a\n" + uptime)
+    with pytest.warns(KinemeWarning, match="timestamp is taken in milliseconds, by its steps"):
+        assert read(path).fps == 100
     assert read(tmp_path / "a.csv", fps=100).names == ("a",)
     with pytest.raises(ReadError, match="nothing in it tells the frame rate: give fps"):
         read(write(tmp_path, "b.csv", "a\n1\n2\n"))
@@ -260,35 +262,54 @@ def test_dates_tell_the_rate(tmp_path, moment) -> None:
 def clocked(folder: Path, times: np.ndarray) -> Signals:
     """Signals whose one channel counts the rows of the file."""
     rows = "".join(f"{float(t)!r},{i}\n" for i, t in enumerate(times))
-    signals = read(write(folder, "clock.csv", f"time,a\n{rows}"))
-    assert signals.values[:, 0].tolist() == list(range(len(times)))
-    return signals
+    return read(write(folder, "clock.csv", f"time,a\n{rows}"))
+
+
+def notes(signals: Signals) -> tuple[str, ...]:
+    return signals.provenance.notes
 
 
 EVEN = np.arange(400) / 100
 
 
 @pytest.mark.parametrize(
-    ("times", "gaps", "said"),
+    ("times", "n_frames", "gaps", "said"),
     [
-        (EVEN - 0.05 * (EVEN >= 2), (), "1 step back in time"),
-        (EVEN - 3600 * (EVEN >= 2), ((199, 200),), "jump -3600 s after frame 199"),
-        (EVEN + 5 * (EVEN >= 2), ((199, 200),), "jump 5.01 s after frame 199"),
-        (EVEN + 1.7e9 * (EVEN >= 1), ((99, 100),), "jump 1.7e+09 s after frame 99"),
-        (EVEN + 0.1 * (EVEN >= 2), (), "1 step longer"),
-        (EVEN + 0.004 * (np.arange(400) % 3), (), "jitter"),
-        (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), (), "19 rows with the time"),
-        (np.floor(EVEN * 4) / 4, (), "384 rows with the time"),
-        (np.floor(EVEN + 0.37), (), "395 rows with the time"),
+        (EVEN - 0.05 * (EVEN >= 2), 395, (), "5 rows with the time of another"),
+        (EVEN + 5 * (EVEN >= 2), 900, ((200, 700),), "1 step longer than a frame and a half"),
+        (EVEN + 0.1 * (EVEN >= 2), 410, (), "1 step longer"),
+        (EVEN + 0.004 * (np.arange(400) % 3), 400, (), "jitter"),
+        (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), 400, (), "19 rows with"),
     ],
 )
-def test_frames_are_rows_whatever_the_clock_does(tmp_path, times, gaps, said) -> None:
+def test_frames_are_where_the_clock_says(tmp_path, times, n_frames, gaps, said) -> None:
     signals = clocked(tmp_path, times)
-    assert signals.fps == pytest.approx(100, rel=0.005)
-    assert signals.gaps == gaps
-    (note,) = signals.provenance.notes
-    assert note.startswith("times are uneven")
-    assert said in note
+    assert (signals.fps, signals.n_frames, signals.gaps) == (100, n_frames, gaps)
+    assert any(note.startswith("times are uneven") and said in note for note in notes(signals))
+
+
+@pytest.mark.parametrize(
+    ("times", "n_frames", "gaps", "said"),
+    [
+        (EVEN - 3600 * (EVEN >= 2), 400, (), "change by an hour"),
+        (1.769e9 + EVEN + 3600 * (EVEN >= 2), 400, (), "change by an hour"),
+        (EVEN - 1.5 * (EVEN >= 2), 401, ((200, 201),), "goes back 1 time"),
+        (EVEN + 1.7e9 * (EVEN >= 1), 401, ((100, 101),), "of 1.7e\\+09 s after second 0.99"),
+        (np.floor(EVEN * 4) / 4, 400, (), "384 rows with the time of the row before"),
+        (np.floor(EVEN + 0.37), 400, (), "395 rows with the time of the row before"),
+    ],
+)
+def test_clocks_that_are_set_or_stand_still(tmp_path, times, n_frames, gaps, said) -> None:
+    with pytest.warns(KinemeWarning, match=said):
+        signals = clocked(tmp_path, times)
+    assert (signals.fps, signals.n_frames, signals.gaps) == (100, n_frames, gaps)
+    assert set(np.arange(400.0)) <= set(signals.values[:, 0])
+
+
+def test_midnight_is_no_end(tmp_path) -> None:
+    signals = clocked(tmp_path, (86398 + EVEN) % 86400)
+    assert (signals.n_frames, signals.gaps, notes(signals)) == (400, (), ())
+    assert signals.provenance.clock.time([1.0, 3.0]).tolist() == [86399, 1]
 
 
 def test_clocks_that_count_milliseconds(tmp_path) -> None:
@@ -296,23 +317,30 @@ def test_clocks_that_count_milliseconds(tmp_path) -> None:
     assert signals.fps == pytest.approx(120, rel=1e-3)
 
 
-def test_rows_without_a_time_are_frames(tmp_path) -> None:
+def test_rows_without_a_time_are_left_out(tmp_path) -> None:
     rows = "".join(f"{'' if 10 <= i < 14 else i / 50},{i}\n" for i in range(60))
     signals = read(write(tmp_path, "a.csv", "time,a\n" + rows))
     assert (signals.fps, signals.n_frames, signals.gaps) == (50, 60, ())
-    assert signals.provenance.notes == ("4 rows without a time counted as frames",)
+    assert signals.values[:, 0].tolist() == pytest.approx([*range(60)])
+    assert "4 rows without a time left out" in notes(signals)
 
 
-def test_rows_in_no_order_of_time_are_refused(tmp_path) -> None:
-    with pytest.raises(ReadError, match="in no order of time"):
-        clocked(tmp_path, np.random.default_rng(0).permutation(EVEN))
+def test_rows_in_no_order_of_time_are_sorted(tmp_path) -> None:
+    order = np.random.default_rng(0).permutation(400)
+    with pytest.warns(KinemeWarning, match="in no order of time: sorted"):
+        signals = clocked(tmp_path, EVEN[order])
+    assert signals.values[:, 0].tolist() == np.argsort(order).tolist()
 
 
+@settings(deadline=None)
 @given(st.lists(st.floats(-1e4, 1e4, width=32), min_size=2, max_size=30), st.booleans())
-def test_no_clock_adds_or_moves_a_frame(tmp_path_factory, times, ascending) -> None:
+def test_any_clock_is_read_or_refused(tmp_path_factory, times, ascending) -> None:
     at = np.array(sorted(times) if ascending else times)
-    with suppress(ReadError):
-        clocked(tmp_path_factory.getbasetemp(), at)
+    with suppress(ReadError), warnings.catch_warnings():
+        warnings.simplefilter("ignore", KinemeWarning)
+        signals = clocked(tmp_path_factory.getbasetemp(), at)
+        assert 0 <= signals.values.min() <= signals.values.max() <= len(times) - 1
+        assert np.isfinite(signals.duration)
 
 
 def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
@@ -352,7 +380,8 @@ def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels) -> None
     with pytest.raises(ReadError, match=rf"told apart by column '{column}' \(A, B\)"):
         read(path)
     path.write_text(path.read_text().replace("B", "A"), encoding="utf-8")
-    assert read(path).n_frames == 40
+    with pytest.warns(KinemeWarning, match="20 rows with the time of the row before"):
+        assert read(path).n_frames == 40
 
 
 def test_opensim_tables(tmp_path) -> None:

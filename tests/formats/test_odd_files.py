@@ -10,7 +10,7 @@ import pytest
 import kineme
 from kineme.errors import ReadError
 from kineme.formats.listing import recordings_in
-from kineme.formats.timing import date_seconds
+from kineme.recordings.times import date_seconds
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")

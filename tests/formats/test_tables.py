@@ -75,21 +75,29 @@ def test_rates_of_tables(tmp_path: Path) -> None:
             read(tmp_path, "a.csv", table(body(), **columns))
 
 
-def test_frames_are_rows_where_times_are_uneven(tmp_path: Path) -> None:
-    at = np.r_[0:8, 10:30] / 25  # two rows are missing
-    points = body(30)[np.r_[0:8, 10:30]]
-    motion = read(tmp_path, "a.csv", table(points, time=at.tolist()))
-    assert (motion.n_frames, motion.fps, motion.gaps) == (28, 25, ())
+def test_rows_that_were_lost_are_filled_in(tmp_path: Path) -> None:
+    at = np.r_[0:8, 10:30] / 25
+    points = body(30)
+    motion = read(tmp_path, "a.csv", table(points[np.r_[0:8, 10:30]], time=at.tolist()))
+    assert (motion.n_frames, motion.fps, motion.gaps) == (30, 25, ())
     assert np.allclose(motion.positions, points)
     assert any("times are uneven" in note for note in motion.provenance.notes)
 
 
-@pytest.mark.parametrize("jump", [3600.0, -2.0])
+def test_a_pause_is_a_gap_of_a_motion(tmp_path: Path) -> None:
+    at = np.arange(40) / 25 + 2.0 * (np.arange(40) >= 15)
+    motion = read(tmp_path, "a.csv", table(body(40), time=at.tolist()))
+    assert (motion.n_frames, motion.fps, motion.gaps) == (90, 25, ((15, 65),))
+    assert np.allclose(motion.positions[65:], body(40)[15:])
+
+
+@pytest.mark.parametrize("jump", [7e5, -2.0])
 def test_a_jump_of_the_clock_splits_a_motion(tmp_path: Path, jump: float) -> None:
     at = np.arange(40) / 25 + jump * (np.arange(40) >= 15)
-    motion = read(tmp_path, "a.csv", table(body(40), time=at.tolist()))
-    assert (motion.n_frames, motion.fps, motion.gaps) == (40, 25, ((14, 15),))
-    assert np.allclose(motion.positions, body(40))
+    with pytest.warns(KinemeWarning, match="the recording is split there"):
+        motion = read(tmp_path, "a.csv", table(body(40), time=at.tolist()))
+    assert (motion.n_frames, motion.fps, motion.gaps) == (41, 25, ((15, 16),))
+    assert np.allclose(np.delete(motion.positions, 15, axis=0), body(40))
 
 
 def test_dates_tell_the_rate_of_a_motion(tmp_path: Path) -> None:
@@ -110,8 +118,8 @@ def test_times_that_nobody_can_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("factor", "unit"), [(1e3, "milli"), (1e6, "micro"), (1e9, "nano")])
 def test_times_in_another_unit_are_told(tmp_path: Path, factor: float, unit: str) -> None:
     text = table(body(), time=[f"{i / 25 * factor:.0f}" for i in range(20)])
-    with pytest.raises(ReadError, match=rf"\(--fps; 25 for {unit}seconds\)"):
-        read(tmp_path, "a.csv", text)
+    with pytest.warns(KinemeWarning, match=f"time is taken in {unit}seconds, by its steps"):
+        assert read(tmp_path, "a.csv", text).fps == 25
 
 
 def test_units_in_the_names_of_columns(tmp_path: Path) -> None:

@@ -20,11 +20,13 @@ from kineme.recordings.clock import Clock
 from kineme.segments.segmentation import Segmentation
 
 FPS = 30.0
-PAUSE_S, BEGUN = 600.0, 1_769_851_800.25  # 2026-01-31T09:30:00.25Z
+PAUSE_S, BEGUN = 20_000.0, 1_769_851_800.25  # 2026-01-31T09:30:00.25Z
+AFTER = 40 + PAUSE_S
+pytestmark = pytest.mark.filterwarnings("ignore:.*the recording is split there")
 
 
 def times_with_a_pause() -> np.ndarray:
-    """40 s, ten minutes of nothing, and 40 s more."""
+    """40 s, hours of nothing, more than there is room for, and 40 s more."""
     seconds = np.arange(2400) / FPS
     return seconds + PAUSE_S * (seconds >= 40)
 
@@ -48,7 +50,8 @@ def placed(found) -> list[tuple[str, int, int]]:
     return [(row.label, row.start_frame, row.stop_frame) for row in found.activities if row.label]
 
 
-EVERYTHING = [("a", 0, 600), ("b", 600, 1200), ("c", 1200, 1500), ("d", 1500, 2400)]
+EVERYTHING = [("a", 0, 600), ("b", 600, 1200), ("c", 1201, 1501), ("d", 1501, 2401)]
+"""One frame of the pause is left, which is a gap."""
 
 
 @pytest.mark.parametrize(
@@ -64,33 +67,41 @@ EVERYTHING = [("a", 0, 600), ("b", 600, 1200), ("c", 1200, 1500), ("d", 1500, 24
 def test_labels_behind_a_pause_are_where_the_clock_says(tmp_path, head, start, told) -> None:
     times = times_with_a_pause() + start
     path = recording(tmp_path / "walk.csv", [*map(told, times.tolist())], head)
-    rows = [("a", 0, 20), ("b", 20, 40), ("c", 640, 650), ("d", 650, 680)]
+    rows = [("a", 0, 20), ("b", 20, 40), ("c", AFTER, AFTER + 10), ("d", AFTER + 10, AFTER + 40)]
     lines = [f"walk,{told(a + start)},{told(b + start)},{name}" for name, a, b in rows]
     assert placed(truth(tmp_path, "\n".join(lines), path)) == EVERYTHING
 
 
+ROWS = f"walk,0,20,a\nwalk,20,40,b\nwalk,{AFTER},{AFTER + 10},c\nwalk,{AFTER + 10},{AFTER + 40},d"
+
+
 def test_labels_counted_from_the_first_frame_are_known_by_what_they_meet(tmp_path) -> None:
     path = recording(tmp_path / "walk.csv", times_with_a_pause() + BEGUN, "timestamp")
-    found = truth(tmp_path, "walk,0,20,a\nwalk,20,40,b\nwalk,640,650,c\nwalk,650,680,d", path)
+    found = truth(
+        tmp_path,
+        ROWS,
+        path,
+    )
     assert placed(found) == EVERYTHING
     assert any("counted from the first frame" in note for note in found.provenance["notes"])
 
 
 def test_what_the_package_wrote_itself_counts_frames_and_is_found_again(tmp_path) -> None:
     path = recording(tmp_path / "walk.csv", times_with_a_pause())
-    found = truth(tmp_path, "walk,0,20,a\nwalk,20,40,b\nwalk,40,50,c\nwalk,50,80,d", path)
-    assert placed(found) == EVERYTHING
+    rows = f"walk,0,20,a\nwalk,20,40,b\nwalk,{1201 / FPS},{1501 / FPS},c\n"
+    assert placed(truth(tmp_path, f"{rows}walk,{1501 / FPS},81,d", path)) == EVERYTHING
 
 
 def test_labels_that_meet_nothing_are_named(tmp_path) -> None:
     path = recording(tmp_path / "walk.csv", times_with_a_pause())
-    rows = "walk,0,20,a\nwalk,100,130,rest\nwalk,640,680,c\nwalk,700,710,after"
+    rows = f"walk,0,20,a\nwalk,100,130,rest\nwalk,{AFTER},{AFTER + 40},c\n"
+    rows += f"walk,{AFTER + 60},{AFTER + 70},after"
     found = truth(tmp_path, rows, path)
-    assert placed(found) == [("a", 0, 600), ("c", 1200, 2400)]
+    assert placed(found) == [("a", 0, 600), ("c", 1201, 2401)]
     (note,) = found.provenance["notes"]
-    assert note == "meeting no frame, left out: 'rest' 100 to 130 s, 'after' 700 to 710 s"
-    with pytest.raises(ReadError, match="has no labels of this recording .*'b' 9000 to 9001 s"):
-        truth(tmp_path, "walk,9000,9001,b", path)
+    assert note == "meeting no frame, left out: 'rest' 100 to 130 s, 'after' 20100 to 20110 s"
+    with pytest.raises(ReadError, match="has no labels of this recording .*'b' 900000 to 900001 s"):
+        truth(tmp_path, "walk,900000,900001,b", path)
 
 
 def test_they_are_named_where_there_is_no_clock_too() -> None:
@@ -108,7 +119,7 @@ def test_a_pause_costs_a_folder_no_label(tmp_path) -> None:
     rows = [
         *(f"even,{a},{a + 10},{'xy'[a // 10 % 2]}" for a in range(0, 80, 10)),
         *(
-            f"paused,{a + 600 * (a >= 40)},{a + 10 + 600 * (a >= 40)},{'xy'[a // 10 % 2]}"
+            f"paused,{a + PAUSE_S * (a >= 40)},{a + 10 + PAUSE_S * (a >= 40)},{'xy'[a // 10 % 2]}"
             for a in range(0, 80, 10)
         ),
     ]
@@ -127,15 +138,15 @@ def test_one_result_and_its_table_have_the_clock(tmp_path) -> None:
     kineme.write_segments(kineme.segment(kineme.read(path)), tmp_path / "found.csv")
     found = kineme.read_segments(tmp_path / "found.csv")
     lines = (tmp_path / "found.csv").read_text().splitlines()
-    assert lines[0].endswith("start_time")
-    assert lines[1].endswith("2026-01-31T09:30:00.250+00:00")
+    assert lines[0].endswith("start_time,start_row,stop_row")
+    assert ",2026-01-31T09:30:00.250+00:00,0," in lines[1]
     (tmp_path / "labels.csv").write_text(
         f"start_s,stop_s,label\n{BEGUN},{BEGUN + 40},a\n{BEGUN + 100},{BEGUN + 101},rest\n"
-        f"{BEGUN + 640},{BEGUN + 680},b\n"
+        f"{BEGUN + AFTER},{BEGUN + AFTER + 40},b\n"
     )
     with pytest.warns(KinemeWarning, match="meeting no frame, left out: 'rest'"):
         annotation = read_truth(tmp_path / "labels.csv", found)
-    assert (annotation.labels, annotation.mean.tolist()) == (("a", "b"), [1200])
+    assert (annotation.labels, annotation.mean.tolist()) == (("a", "b"), [1201])
 
 
 def test_the_column_is_in_data_frames_where_there_is_a_clock(tmp_path) -> None:
@@ -150,9 +161,11 @@ def test_the_column_is_in_data_frames_where_there_is_a_clock(tmp_path) -> None:
 def test_a_slice_keeps_the_time_of_its_frames(tmp_path) -> None:
     read = kineme.read(recording(tmp_path / "walk.csv", times_with_a_pause()))
     clock = read[1500:].provenance.clock
-    assert clock.time([0.0, 1.0]).tolist() == pytest.approx([650.0, 651.0])
+    assert clock.time([0.0, 1.0]).tolist() == pytest.approx(
+        [AFTER + 10 - 1 / FPS, AFTER + 11 - 1 / FPS]
+    )
     across = read[900:].provenance.clock
-    assert across.time([0.0, 10.0]).tolist() == pytest.approx([30.0, 640.0], abs=0.05)
+    assert across.time([0.0, 11.0]).tolist() == pytest.approx([30.0, AFTER + 1], abs=0.05)
 
 
 def test_where_the_clock_is_set_back_the_first_of_two_is_meant() -> None:

@@ -13,14 +13,17 @@ from sklearn.utils.estimator_checks import parametrize_with_checks
 
 import kineme
 from kineme import Segmenter, Signals, segment
-from kineme.errors import ParameterError
+from kineme.errors import KinemeWarning, ParameterError
 
 ORDER_MATTERS = "the rows of this check are in no order, and clusters here are of stretches in time"
-EXPECTED = {"check_clustering": ORDER_MATTERS}
+EXPECTED = {
+    "check_clustering": ORDER_MATTERS,
+    "check_fit1d": "a series of one channel may be a vector, as for segmenters of other libraries",
+}
 
 
 @parametrize_with_checks(
-    [Segmenter(), Segmenter("krueger2017", fps=10.0, radius=0.4)],
+    [Segmenter(fps=30.0), Segmenter("krueger2017", fps=10.0, radius=0.4, level="primitive")],
     expected_failed_checks=lambda _: EXPECTED,
 )
 def test_scikit_learn_rules(estimator, check) -> None:
@@ -48,13 +51,73 @@ def test_two_movements_are_two_clusters_with_a_border_between(preset: str) -> No
     assert estimator.segmentation_.fps == 50
 
 
-def test_labels_are_those_of_the_segmentation() -> None:
+@pytest.mark.parametrize("level", ["activity", "primitive"])
+def test_labels_are_states_without_holes(level: str) -> None:
     x = two_movements()
-    estimator = Segmenter(fps=50, min_action=2.0).fit(x)
+    estimator = Segmenter(fps=50, level=level, min_action=2.0).fit(x)
     same = segment(Signals(x, 50), min_action=2.0)
     assert estimator.segmentation_.table == same.table
-    assert estimator.labels_.tolist() == same.per_frame("cluster").tolist()
+    clusters = same.per_frame("cluster", level=level)
+    between = clusters < 0
+    assert estimator.labels_[~between].tolist() == clusters[~between].tolist()
+    assert (estimator.labels_ >= 0).all()
+    assert len(np.unique(estimator.labels_)) == estimator.n_states_
+    assert estimator.change_points_.tolist() == same.cuts(level).tolist()
     assert estimator.segmentation_.provenance["parameters"]["min_action"] == 2.0
+
+
+def test_vectors_frames_and_lists_are_rows() -> None:
+    t = np.arange(1200) / 30
+    x = np.where(t < 20, np.sin(9 * t), 3 + np.sin(4 * t))
+    labels = Segmenter(fps=30).fit_predict(x).tolist()
+    frames = (pd.DataFrame(x), pd.DataFrame({"acc": x, "reps": 3}))
+    for rows in (x[:, None], x.tolist(), pd.Series(x), *frames):
+        assert Segmenter(fps=30).fit_predict(rows).tolist() == labels
+    assert segment(x, fps=30).table == segment(Signals(x, 30)).table
+    with pytest.raises(ParameterError, match="a recording has its own"):
+        segment(Signals(x, 30), fps=30)
+
+
+def test_as_many_segments_and_states_as_are_wanted() -> None:
+    x = two_movements()
+    for wanted in (1, 2):
+        assert Segmenter(fps=50, n_states=wanted).fit(x).n_states_ == wanted
+        found = Segmenter(fps=50, n_segments=wanted).fit(x)
+        assert len(found.segmentation_.activities) == wanted
+        assert len(found.change_points_) == wanted - 1
+    with pytest.warns(KinemeWarning, match="no level has 400 states: the nearest has"):
+        Segmenter(fps=50, n_states=400).fit(x)
+    with pytest.raises(ParameterError, match="krueger2017 has one level"):
+        Segmenter("krueger2017", fps=50, n_states=2).fit(x)
+    with pytest.raises(ParameterError, match="not both"):
+        Segmenter(n_states=2, n_segments=2).fit(x)
+    with pytest.raises(ParameterError, match="n_states is 0"):
+        Segmenter(n_states=0).fit(x)
+
+
+def test_other_recordings_are_in_the_same_states() -> None:
+    x = two_movements()
+    estimator = Segmenter(fps=50).fit(x)
+    turned = np.concatenate([x[600:], x[:600]])
+    found = estimator.predict(turned)
+    assert (found[50:550] == estimator.labels_[900]).all()
+    assert (found[650:1150] == estimator.labels_[300]).all()
+    assert (estimator.predict(x) == estimator.labels_).mean() > 0.95
+
+
+def test_rows_at_any_times_have_states() -> None:
+    t = np.sort(np.random.default_rng(0).choice(2000, 1500, replace=False)) / 50
+    x = np.where(t < 20, np.sin(9 * t), 3 + np.sin(4 * t))
+    frame = pd.DataFrame({"acc": x}, index=pd.to_timedelta(t, unit="s"))
+    order = np.random.default_rng(1).permutation(1500)
+    with pytest.warns(KinemeWarning, match="in no order of time"):
+        estimator = Segmenter().fit(frame.iloc[order])
+    states = np.empty(1500, int)
+    states[order] = estimator.labels_
+    sure = np.abs(t - 20) > 0.5
+    assert (states == (t > 20))[sure].all()
+    (border,) = estimator.change_points_
+    assert abs(t[border] - 20) < 0.4
 
 
 def test_constants_are_parameters_like_others() -> None:
@@ -71,13 +134,13 @@ def test_constants_are_parameters_like_others() -> None:
 
 def test_what_a_preset_cannot_take_is_said_by_fit() -> None:
     with pytest.raises(ParameterError, match="sensors has no parameter 'radius'"):
-        Segmenter(radius=0.4).fit(two_movements())
+        Segmenter(fps=50, radius=0.4).fit(two_movements())
     with pytest.raises(ParameterError, match="one of voegele2014 and krueger2017"):
-        Segmenter(radius=0.4).fit(two_movements())
+        Segmenter(fps=50, radius=0.4).fit(two_movements())
     with pytest.raises(ParameterError, match="no left and right"):
-        Segmenter("krueger2017", mirror=True).fit(two_movements())
+        Segmenter("krueger2017", fps=50, mirror=True).fit(two_movements())
     with pytest.raises(ParameterError, match="smoothing must be a number from 0 to 3600 s, not -1"):
-        Segmenter(smoothing=-1).fit(two_movements())
+        Segmenter(fps=50, smoothing=-1).fit(two_movements())
     with pytest.raises(ParameterError, match="frame rate is -5"):
         Segmenter(fps=-5).fit(two_movements())
 
@@ -92,12 +155,9 @@ def test_data_frames_name_the_channels_and_pipelines_hold_it() -> None:
 
 
 def test_a_rate_that_was_not_given_is_said() -> None:
-    estimator = Segmenter().fit(two_movements(30.0))
+    with pytest.warns(KinemeWarning, match="30 rows a second assumed: give fps= or times="):
+        estimator = Segmenter().fit(two_movements(30.0))
     assert estimator.segmentation_.fps == 30
-    assert (
-        "frame rate 30 Hz assumed: no fps was given"
-        in (estimator.segmentation_.provenance["notes"])
-    )
 
 
 def test_a_rate_of_nothing_is_refused() -> None:
@@ -111,8 +171,8 @@ def test_a_data_frame_that_knows_its_times_tells_the_rate(zone: str | None) -> N
     frame = pd.DataFrame(two_movements(), index=times, columns=["x", "y", "z"])
     told, given = Segmenter().fit(frame).segmentation_, Segmenter(fps=50).fit(frame).segmentation_
     assert told.table == given.table
-    assert "frame rate 50 Hz, as the times in the index" in told.provenance["notes"][0]
-    counted = Segmenter().fit(frame.reset_index(drop=True)).segmentation_
+    with pytest.warns(KinemeWarning, match="30 rows a second assumed"):
+        counted = Segmenter().fit(frame.reset_index(drop=True)).segmentation_
     assert counted.fps == 30
 
 

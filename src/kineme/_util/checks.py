@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import warnings
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -349,3 +350,11 @@ def _objects_at(path: str, home: str) -> Iterable[Any]:
 
 def _all_of(found: Any) -> Iterable[Any]:
     return found if isinstance(found, tuple | list) else (found,)
+
+
+def warn(message: str) -> None:
+    """Warn (`KinemeWarning`) at the line outside the package from which it was called."""
+    level, frame = 1, sys._getframe()  # noqa: SLF001
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("kineme."):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, KinemeWarning, stacklevel=level)

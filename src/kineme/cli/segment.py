@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from json import dumps
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._util.parallel import announce_compilation
-from kineme.cli.help import OUTPUT, TABLES, option
+from kineme.cli.help import INPUT, OUTPUT, TABLES, option
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, FilesOfFormats, Recursive
 from kineme.cli.options.method import SEGMENTING
@@ -59,6 +60,14 @@ def segment(
         ),
     ] = None,
     level: PrintedLevel = "activity",
+    join: Annotated[
+        bool,
+        option(
+            INPUT,
+            "Take the files for sensors of one recording, each with its own rate and clock, and "
+            "join them by time. Results are called after the first.",
+        ),
+    ] = False,
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
@@ -73,6 +82,7 @@ def segment(
     For example: kineme segment walk.bvh --output walk.csv --plot walk.png
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
+    joined = batch.join() if join else []
     tables = batch.targets("--output", output, ".csv")
     pictures = batch.targets("--plot", plot, ".png")
     pages = batch.targets("--report", report, ".html")
@@ -80,13 +90,33 @@ def segment(
     def work(path: Path, options: ReadOptions, _: None, *targets: Path | None) -> None:
         check_writable(*targets)
         with batch.progress(path) as stage:
-            recording, result = read_and_segment(path, options, None, segment_options, stage)
+            if joined:
+                stage("reading")
+                recording: Motion | Signals = _read_joined(joined, options)
+                result = load_or_find_segments(recording, None, segment_options, stage)
+            else:
+                recording, result = read_and_segment(path, options, None, segment_options, stage)
             write_results(result, recording, segment_options, *targets)
         print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
         batch.each_person(path, read_options, work, *targets)
     batch.exit()
+
+
+def _read_joined(paths: Sequence[Path], options: ReadOptions) -> Signals:
+    """Return the channels of several files on one clock."""
+    from kineme.errors import ReadError
+    from kineme.recordings import Signals
+    from kineme.recordings.samples import join_signals
+
+    parts = []
+    for path in paths:
+        part = read(path, **vars(options))
+        if not isinstance(part, Signals):
+            raise ReadError(path, "is a motion, and --join takes channels of sensors: leave it out")
+        parts.append(part)
+    return join_signals(*parts)
 
 
 def read_and_segment(

@@ -7,7 +7,7 @@ their own. Velocities, rotations and the like of joints are passed over. Besides
 
 - the time: ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or ``seconds``,
   with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``: numbers or dates, see
-  `kineme.formats.timing`;
+  `kineme.recordings.times`;
 - a rate in every row: ``fps`` or ``rate``;
 - how sure a pose estimator is: ``hip_confidence``, ``_likelihood``, ``_score``,
   ``_visibility``, ``_presence`` or ``_c``. Below 0.5 the joint counts as not seen.
@@ -30,10 +30,11 @@ from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
-from kineme.formats.timing import is_timing, numbers_in, table_timing
+from kineme.formats.timing import numbers_in, place_points, table_timing
 from kineme.formats.units import METRIC, metres
 from kineme.recordings import Motion, Note
 from kineme.recordings.coordinates import COORDINATE, axes_by_point, beginnings, is_body
+from kineme.recordings.times import is_timing
 
 Joints = Mapping[str, Mapping[str, str]]
 """For each joint the columns of its axes."""
@@ -68,9 +69,11 @@ def columns_to_motion(
     limit = limit if options.confidence is None else options.confidence
     positions[confidence < limit] = np.nan
     flat = all(len(axes) == 2 for axes in joints.values())
-    timing = table_timing(content, columns, options.fps)
+    unsure = int((confidence < limit).sum())
+    timing = table_timing(content, columns, options.fps, positions.reshape(len(positions), -1))
+    positions, gaps = place_points(timing, positions)
     notes = list(timing.notes)
-    if unsure := int((confidence < limit).sum()):
+    if unsure:
         notes.append(f"{format_count(unsure, 'position')} less sure than {limit:g} not used")
     unit, stated, up = options.unit, None, options.up
     if unit is None:
@@ -82,8 +85,8 @@ def columns_to_motion(
     points = Points(
         names, positions, timing.fps, unit, up, stated_unit=stated, person=options.person
     )
-    provenance = content.provenance(name, notes).timed(timing.clock)
-    return split_at(to_motion(points, provenance), timing.gaps)
+    provenance = content.provenance(name, notes).timed(timing.clock, timing.row_seconds)
+    return split_at(to_motion(points, provenance), gaps)
 
 
 def is_used(column: str) -> bool:

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.formats.files import FileContent, numbers, unique
-from kineme.formats.timing import (
+from kineme.recordings.times import (
     append_unit,
     date_columns,
     date_seconds,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-import warnings
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -18,9 +16,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.checks import is_text
+from kineme._util.checks import is_text, warn
 from kineme._util.files import atomic_write, read_head, refuse_pipe
-from kineme.errors import KinemeWarning, ReadError, WriteError
+from kineme.errors import ReadError, WriteError
 from kineme.recordings import Motion, Note, Provenance
 
 MOST_EXPANSION = 100
@@ -176,14 +174,6 @@ def numbers(words: Sequence[str | bytes]) -> list[float]:
         wrong = next(word for word, value in zip(words, values, strict=True) if not isfinite(value))
         raise ValueError(f"{_excerpt(wrong)} is not a finite number")
     return values
-
-
-def warn(message: str) -> None:
-    """A KinemeWarning at the line outside the package that asked for the file."""
-    level, frame = 1, sys._getframe()  # noqa: SLF001
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("kineme."):
-        level, frame = level + 1, frame.f_back
-    warnings.warn(message, KinemeWarning, stacklevel=level)
 
 
 def save(path: Path, text: Iterable[str]) -> None:

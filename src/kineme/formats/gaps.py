@@ -17,14 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats, bridge_line
-from kineme.formats.files import warn
+from kineme._util.checks import warn
 from kineme.recordings import Motion
 from kineme.recordings.arrays import spans_of
+from kineme.recordings.regular import LONGEST_S
 
 Spans = NDArray[np.intp]
-
-LONGEST_S = 0.2
-"""Seconds: gaps up to this long are filled."""
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.keypoints.poses import POSES
 from kineme.formats.label_tables import program_of_labels
 from kineme.formats.registry import is_video, speaks, supported_formats
-from kineme.formats.timing import is_timing
+from kineme.recordings.times import is_timing
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""

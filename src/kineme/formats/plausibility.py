@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count, join_names
-from kineme.formats.gaps import LONGEST_S
 from kineme.formats.units import blocks, lying_axis
 from kineme.recordings import Motion, Note
+from kineme.recordings.regular import LONGEST_S
 
 FASTEST = 15.0
 """Sizes of the body that a point moves in a second at most, beside the other points.

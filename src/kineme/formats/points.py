@@ -23,12 +23,13 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import format_count, join_names
 from kineme.errors import ReadError
 from kineme.formats.files import unique
-from kineme.formats.gaps import LONGEST_S, Gaps, bridge, fill_gaps, mark_spans
+from kineme.formats.gaps import Gaps, bridge, fill_gaps, mark_spans
 from kineme.formats.persons import chosen_person
 from kineme.formats.plausibility import doubt_rigid, drop_implausible
 from kineme.formats.units import scale_of, up_axis, upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 from kineme.recordings.joint_names import PARENTS, find_body
+from kineme.recordings.regular import LONGEST_S
 
 Body = dict[str, tuple[int, ...]]
 Spans = tuple[tuple[int, int], ...]

@@ -8,10 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from kineme._util.checks import check_path, check_type
+from kineme._util.checks import check_path, check_type, warn
 from kineme._util.files import AnyPath, translate_read_errors
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
-from kineme.formats.files import FileContent, load, load_head, warn
+from kineme.formats.files import FileContent, load, load_head
 from kineme.formats.options import ReadOptions
 from kineme.formats.plausibility import doubt_posture
 from kineme.formats.registry import Sketch, is_video, recognise, supported_formats

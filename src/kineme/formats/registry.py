@@ -16,10 +16,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from kineme._util.checks import Registry, check_suffixes
+from kineme._util.checks import Registry, check_suffixes, warn
 from kineme._util.files import HEAD
 from kineme.errors import ReadError
-from kineme.formats.files import FileContent, warn
+from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion, Signals
 

@@ -28,7 +28,7 @@ from kineme.formats.delimited import (
     separator_of,
 )
 from kineme.formats.files import FileContent
-from kineme.formats.timing import is_date, is_timing
+from kineme.recordings.times import is_date, is_timing
 
 HIGHEST = 200
 """Lines above the names at most."""

@@ -34,8 +34,8 @@ from kineme.formats.keypoints.poses import holds_poses, parse_poses, poses_to_mo
 from kineme.formats.label_tables import refuse_labels
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.formats.timing import NO_TIMES, RATE, is_date, is_timing
 from kineme.recordings import Motion, Signals
+from kineme.recordings.times import NO_TIMES, RATE, is_date, is_timing
 
 
 def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.checks import require_extra
-from kineme.interop.adapters import to_aeon
 from kineme.methods.estimator import Segmenter
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
@@ -34,6 +33,8 @@ class KinemeSegmenter(BaseSegmenter):  # type: ignore[misc]
         Whose borders are change points, ``activity`` or ``primitive``.
     constants : mapping of str to anything, optional
         Of the preset, to change.
+    n_segments : int, optional
+        How many are wanted, see `kineme.Segmenter`.
     """
 
     _tags = {"capability:multivariate": True, "fit_is_empty": True, "returns_dense": True}  # noqa: RUF012
@@ -44,14 +45,20 @@ class KinemeSegmenter(BaseSegmenter):  # type: ignore[misc]
         fps: float | None = None,
         level: Level = "activity",
         constants: Mapping[str, Any] | None = None,
+        n_segments: int | None = None,
     ):
         self.preset = preset
         self.fps = fps
         self.level = level
         self.constants = constants
-        super().__init__(axis=0, n_segments=None)
+        super().__init__(axis=0, n_segments=n_segments)
 
     def _predict(self, X: NDArray[Any]) -> NDArray[np.int64]:  # noqa: N803
-        segmenter = Segmenter(self.preset, fps=self.fps, **(self.constants or {}))
-        segmenter.fit(X.reshape(len(X), -1))
-        return to_aeon(segmenter.segmentation_, level=self.level)
+        options = {"level": self.level, "n_segments": self.n_segments, **(self.constants or {})}
+        segmenter = Segmenter(self.preset, fps=self.fps, **options)
+        return segmenter.fit(X.reshape(len(X), -1)).change_points_
+
+    @classmethod
+    def _get_test_params(cls, parameter_set: str = "default") -> dict[str, Any]:  # noqa: ARG003
+        """Parameters with which aeon's own checks try it."""
+        return {"fps": 10.0}

@@ -21,14 +21,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.checks import require_extra
+from kineme._util.checks import require_extra, warn
 from kineme.errors import ParameterError, ReadError
 from kineme.formats.columns import LIMIT
-from kineme.formats.files import FileContent, warn
+from kineme.formats.files import FileContent
 from kineme.formats.gaps import mark_spans, split_at
 from kineme.formats.points import Points, to_motion
-from kineme.formats.timing import Timing, timing_of
+from kineme.formats.timing import place_points, timing_of
 from kineme.recordings import Motion, Provenance
+from kineme.recordings.regular import Timing
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -160,6 +161,7 @@ def from_movement(
     source = FileContent(Path(str(attributes.get("source_file") or "dataset")), b"")
     timing = _read_timing(source, dataset, fps)
     flat = "z" not in axes
+    places, gaps = place_points(timing, places)
     points = Points(
         [str(name) for name in position["keypoints"].values],
         places,
@@ -168,8 +170,9 @@ def from_movement(
         up or attributes.get("up") or ("-y" if flat else None),
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
-    provenance = Provenance(str(source.path), name, clock=timing.clock).noted(*timing.notes, *notes)
-    motion = split_at(to_motion(points, provenance), timing.gaps)
+    provenance = Provenance(str(source.path), name).timed(timing.clock, timing.row_seconds)
+    provenance = provenance.noted(*timing.notes, *notes)
+    motion = split_at(to_motion(points, provenance), gaps)
     if remarks := motion.provenance.warnings:
         warn(f"{provenance.path or 'dataset'}: {'; '.join(remarks)}")
     return motion

@@ -63,11 +63,17 @@ class KinemeSegmenter(BaseDetector):  # type: ignore[misc]
         super().__init__()
 
     def _predict(self, X: pd.DataFrame | pd.Series) -> pd.DataFrame:  # noqa: N803
-        segmenter = Segmenter(self.preset, fps=self.fps, **(self.constants or {}))
-        segmenter.fit(X.to_numpy().reshape(len(X), -1))
-        return to_sktime(segmenter.segmentation_, level=self.level)
+        segmenter = Segmenter(self.preset, fps=self.fps, level=self.level, **(self.constants or {}))
+        found = to_sktime(segmenter.fit(X).segmentation_, level=self.level)
+        if rows := segmenter.segmentation_.rows():  # frames are not the rows of X
+            import pandas as pd
+
+            at = segmenter.segmentation_.table.level == self.level
+            ends = rows["start_row"][at], rows["stop_row"][at]
+            found["ilocs"] = pd.IntervalIndex.from_arrays(*ends, closed="left")
+        return found
 
     @classmethod
     def get_test_params(cls, parameter_set: str = "default") -> list[dict[str, Any]]:  # noqa: ARG003
         """Parameters with which sktime's own checks try it."""
-        return [{}, {"fps": 10.0, "level": "primitive"}]
+        return [{"fps": 30.0}, {"fps": 10.0, "level": "primitive"}]

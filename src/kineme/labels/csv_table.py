@@ -29,7 +29,6 @@ from typing import Any, Literal
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.delimited import from_text, replace_decimal_comma
-from kineme.formats.timing import date_seconds, is_date
 from kineme.labels.delimited import (
     CUTS_KEY,
     digest_cuts,
@@ -43,12 +42,12 @@ from kineme.labels.delimited import columns as columns_of
 from kineme.labels.json_table import SCHEMA, head_of, join_head, parse
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span
+from kineme.recordings.times import date_seconds, is_date
 from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import (
     COLUMNS,
     COMMENT,
-    START_TIME,
     Level,
     Segment,
     lacking,
@@ -70,9 +69,10 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
         with draft.open("w", encoding="utf-8", newline="") as file:
             names = [*COLUMNS]
             rows: Iterable[list[Any]] = map(_cells, segmentation)
-            if times := segmentation.start_times():
-                names.append(START_TIME)
-                rows = ([*cells, time] for cells, time in zip(rows, times, strict=True))
+            if more := segmentation.more_columns():
+                names += more
+                both = zip(rows, zip(*more.values(), strict=True), strict=True)
+                rows = ([*cells, *others] for cells, others in both)
             if any(comments := assign_comments(segmentation)):
                 names.append(COMMENT)
                 rows = ([*cells, text] for cells, text in zip(rows, comments, strict=True))

@@ -24,7 +24,6 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import (
     COLUMNS,
     COMMENT,
-    START_TIME,
     Segment,
     lacking,
 )
@@ -38,8 +37,7 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
         import pyarrow as pa
         from pyarrow import parquet
     columns: dict[str, Any] = {**segmentation.table.columns()}
-    if times := segmentation.start_times():
-        columns[START_TIME] = times
+    columns |= segmentation.more_columns()
     if any(comments := assign_comments(segmentation)):
         columns[COMMENT] = comments
     table = pa.table(columns)

@@ -8,11 +8,10 @@ from os import PathLike
 import numpy as np
 
 from kineme._util.arrays import Float32s
-from kineme._util.checks import is_number
+from kineme._util.checks import is_number, warn
 from kineme._util.files import AnyPath
 from kineme.errors import ParameterError, ReadError
 from kineme.features.canonical import mirrored_features
-from kineme.formats.files import warn
 from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
 from kineme.library.open_library import OpenTables, numbers_of

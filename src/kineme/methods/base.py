@@ -76,7 +76,9 @@ class Found(Protocol):
 class Leveled(Protocol):
     """What a method can give beside `Found`: the same at other levels of detail."""
 
-    def levels(self, columns: Columns) -> Mapping[float, Columns]:
+    def levels(
+        self, columns: Columns, details: tuple[float, ...] | None = None
+    ) -> Mapping[float, Columns]:
         """Columns of a segment table by their detail: below 1 coarser, above 1 finer.
 
         A detail may be left out where it is like the next coarser one.
@@ -88,6 +90,8 @@ class Leveled(Protocol):
         ----------
         columns : dict of str to array
             Those of `Found.columns`, which are detail 1.
+        details : tuple of float, optional
+            Which; by default those that the method offers.
         """
 
 

@@ -12,28 +12,38 @@ from typing import Any, Self
 
 import numpy as np
 from sklearn.base import BaseEstimator, ClusterMixin
-from sklearn.utils.validation import validate_data
+from sklearn.utils.validation import check_is_fitted, validate_data
 
+from kineme._util.arrays import Ints
+from kineme._util.checks import format_count, is_number, warn
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
-from kineme.methods.segmenter import segment
+from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals
+from kineme.recordings.samples import ASSUMED_FPS, read_samples
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level
 
-ASSUMED_FPS = 30.0
-"""Rows per second, where nobody says and the preset is not slower."""
+EVERY_DETAIL = (*(k / 64 for k in range(1, 64)), *(2 ** (k / 8) for k in range(1, 49)))
+"""Details among which that with so many segments or states is looked for."""
 
 
 class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
-    """Segments of a multivariate time series; ``fit_predict`` gives a cluster for each row.
+    """Segments of a time series; ``fit_predict`` gives a state for each row.
 
     Parameters
     ----------
     preset : str or Preset
         ``kineme``, or another of `kineme.PRESETS`.
     fps : float, optional
-        Rows per second; by default what the index of a data frame says if it holds times, else
-        30, or the working rate of the preset if that is lower.
+        Rows per second; by default what the times of a data frame say, as `kineme.as_signals` finds
+        them, else 30, or the working rate of the preset if that is lower, with a warning.
+    level : {"activity", "primitive"}
+        Whose segments are states and change points.
+    n_segments, n_states : int, optional
+        How many segments or different states are wanted: the level of the hierarchy that has as
+        many, else the nearest, with a warning. By default the method decides.
     standardize : bool
         Divide each column by its standard deviation; not for an embedding.
     unit : float, optional
@@ -48,9 +58,14 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
     Attributes
     ----------
     labels_ : (rows,) array of int
-        Cluster of the repetition that each row is in, -1 in transitions.
+        State of each row: the cluster of its segment. All transitions are one state more, and
+        rows in a gap are in the state before it.
+    change_points_ : (changes,) array of int
+        Rows, in order of time, at which a segment begins; not the first.
+    n_states_ : int
     segmentation_ : Segmentation
-        Activities and repetitions in rows and seconds.
+        Activities and repetitions in frames and seconds; frames are rows where their times are
+        even.
     n_features_in_ : int
     feature_names_in_ : (columns,) array
         Where X had names.
@@ -63,9 +78,11 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
     Examples
     --------
     >>> import numpy as np
-    >>> angle = np.linspace(0, 16 * np.pi, 480)
-    >>> Segmenter().fit_predict(np.column_stack([np.sin(angle), np.cos(angle)]))[:5]
-    array([0, 0, 0, 0, 0])
+    >>> t = np.arange(1200) / 30
+    >>> x = np.where(t < 20, np.sin(9 * t), 3 + np.sin(4 * t))
+    >>> segmenter = Segmenter(fps=30).fit(x)
+    >>> segmenter.n_states_, segmenter.predict(3 + np.sin(4 * t[:300]))[:3]
+    (2, array([1, 1, 1]))
     """
 
     labels_: np.ndarray[tuple[int], np.dtype[np.int64]]
@@ -75,6 +92,9 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         preset: str | Preset = DEFAULT,
         *,
         fps: float | None = None,
+        level: Level = "activity",
+        n_segments: int | None = None,
+        n_states: int | None = None,
         standardize: bool = True,
         unit: float | None = None,
         emg: bool = False,
@@ -82,34 +102,116 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
     ):
         self.preset = preset
         self.fps = fps
+        self.level = level
+        self.n_segments = n_segments
+        self.n_states = n_states
         self.standardize = standardize
         self.unit = unit
         self.emg = emg
         self._constants = constants
 
     def fit(self, X: Any, y: Any = None) -> Self:  # noqa: ARG002, N803 (scikit-learn's names)
-        """Segment the rows of X, (frames, channels); y is there for scikit-learn alone."""
+        """Segment the rows of X, (rows,) or (rows, channels); y is for scikit-learn alone."""
+        for name in ("n_segments", "n_states"):
+            wanted = getattr(self, name)
+            if wanted is not None and not (
+                is_number(wanted) and wanted >= 1 and wanted == int(wanted)
+            ):
+                raise ParameterError(f"{name} is {wanted!r:.60}: give a whole number above 0")
+        if self.n_segments and self.n_states:
+            raise ParameterError("give n_segments or n_states, not both")
+        signals, frames = self._read(X, reset=True)
+        result = self._choose(self._segment(signals))
+        states = _fill_states(result, self.level, signals)
+        starts = result.rows().get("start_row", result.table.start_frame)
+        starts = np.unique(starts[result.table.level == self.level])
+        self.segmentation_ = result
+        self.labels_ = states[frames]
+        self.change_points_ = starts[(starts > 0) & (starts < len(frames))]
+        self.n_states_ = len(np.unique(states))
+        self._signals, self._states = signals, states
+        return self
+
+    def predict(self, X: Any) -> Ints:  # noqa: N803
+        """Return the states of another recording: those of its segments in what was fitted.
+
+        Each of its segments is in the state whose rows are nearest on average, see
+        `kineme.transfer`.
+
+        Parameters
+        ----------
+        X : (rows,) or (rows, channels) array_like
+            Of the same channels.
+
+        Returns
+        -------
+        (rows,) array of int
+        """
+        from kineme.transfer.sharing import assign_to_labels
+
+        check_is_fitted(self)
+        signals, frames = self._read(X, reset=False)
+        found = self._segment(signals).level(self.level)
+        borders = zip(found.start_frame.tolist(), found.stop_frame.tolist(), strict=True)
+        states = assign_to_labels(self._signals, self._states, signals, [*borders])
+        return np.repeat(states, found.stop_frame - found.start_frame)[frames]
+
+    def _read(self, X: Any, *, reset: bool) -> tuple[Signals, Ints]:  # noqa: N803
+        """Return the rows as signals, and the frame of each row."""
         if isinstance(X, Motion | Signals):
             raise ParameterError(
                 "a Segmenter takes rows of numbers: kineme.segment takes recordings"
             )
-        values = validate_data(self, X, dtype=np.float64)
         preset = resolve_preset(self.preset, signals=True, **self._constants)
-        names = getattr(self, "feature_names_in_", ())
-        fps, note = self.fps, ""
-        if fps is None and (fps := _rate_of(X)):
-            note = f"frame rate {fps:g} Hz, as the times in the index of the data frame say"
-        elif fps is None:
-            fps = min(preset.working_fps, ASSUMED_FPS)
-            note = f"frame rate {fps:g} Hz assumed: no fps was given"
-        signals = Signals(values, fps, tuple(map(str, names)))
-        signals = signals.noted(note) if note else signals
-        result = segment(
-            signals, preset=preset, emg=self.emg, standardize=self.standardize, unit=self.unit
+        assumed = min(preset.working_fps, ASSUMED_FPS)
+        options = {"reset": reset, "dtype": np.float64, "ensure_all_finite": "allow-nan"}
+        if hasattr(X, "dims") or hasattr(X, "columns") or hasattr(X, "to_frame"):
+            signals, timing = read_samples(X, fps=self.fps, assumed_fps=assumed)
+            channels = [each for each in getattr(X, "columns", ()) if str(each) in signals.names]
+            named = X[channels] if channels else signals.values
+            validate_data(self, named, **options)
+            return signals, timing.frames_of_rows(len(X))
+        # one channel may come as a vector, of numbers alone
+        row = np.asarray(X) if isinstance(X, list | tuple) else X
+        of_one = reset or self.n_features_in_ == 1
+        if getattr(row, "ndim", 2) == 1 and row.dtype.kind in "iufb" and of_one:
+            row = row.reshape(-1, 1)
+        values = validate_data(self, row, **options)
+        signals, timing = read_samples(values, fps=self.fps, assumed_fps=assumed)
+        return signals, timing.frames_of_rows(len(values))
+
+    def _segment(self, signals: Signals) -> Segmentation:
+        options = SegmentOptions(
+            preset=self.preset,
+            constants=self._constants,
+            emg=self.emg,
+            standardize=self.standardize,
+            unit=self.unit,
         )
-        self.segmentation_ = result
-        self.labels_ = result.per_frame("cluster")
-        return self
+        details = EVERY_DETAIL if self.n_segments or self.n_states else None
+        return segment_with_options(signals, options, details=details)[0]
+
+    def _choose(self, result: Segmentation) -> Segmentation:
+        """Return the level of the hierarchy with as many segments or states as are wanted."""
+        wanted = self.n_segments or self.n_states
+        if wanted is None:
+            return result
+        if result.hierarchy is None:
+            name = result.provenance["preset"]
+            raise ParameterError(f"{name} has one level: leave out n_segments and n_states")
+        tables = [table.select(table.level == self.level) for table in result.hierarchy.tables]
+        counts = [len(t) if self.n_segments else len(np.unique(t.cluster)) for t in tables]
+        # the coarsest of the nearest
+        at = int(np.abs(np.array(counts) - wanted).argmin())
+        if counts[at] != wanted:
+            unit = "segment" if self.n_segments else "state"
+            warn(f"no level has {format_count(int(wanted), unit)}: the nearest has {counts[at]}")
+        return result.at_detail(result.hierarchy.details[at])
+
+    def __sklearn_tags__(self) -> Any:
+        tags = super().__sklearn_tags__()
+        tags.input_tags.allow_nan = True
+        return tags
 
     def get_params(self, deep: bool = True) -> dict[str, Any]:
         """Return the parameters and the constants that were changed."""
@@ -145,12 +247,10 @@ def _constants_of(preset: str | Preset) -> Mapping[str, Any]:
         return {}
 
 
-def _rate_of(rows: Any) -> float | None:
-    """Rows per second of a data frame whose index holds times; None where nothing tells it."""
-    index = getattr(rows, "index", None)
-    kind = getattr(getattr(index, "dtype", None), "kind", None)
-    if index is None or kind not in ("m", "M") or len(index) < 2:
-        return None
-    times = np.asarray(index, f"{kind}8[ns]")
-    step = float(np.median(np.diff(times) / np.timedelta64(1, "s")))
-    return 1 / step if step > 0 else None
+def _fill_states(result: Segmentation, level: Level, signals: Signals) -> Ints:
+    """Return the state of each frame: clusters, transitions as one more, gaps as before them."""
+    states = result.per_frame("cluster", level=level).astype(np.int64)
+    states[states < 0] = states.max() + 1
+    for start, stop in signals.gaps:
+        states[start:stop] = states[start - 1] if start else states[min(stop, len(states) - 1)]
+    return states

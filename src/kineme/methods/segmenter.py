@@ -10,6 +10,7 @@ import time
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,7 @@ from kineme.methods.prepare import Prepared, RecordedSpan, prepare_motion, prepa
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.methods.stages import Progress, stopwatch
 from kineme.recordings import Motion, Signals
+from kineme.recordings.samples import as_signals
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import segment_table
@@ -33,8 +35,10 @@ FEW_CHANNELS = 20
 
 
 def segment(
-    recording: Motion | Signals,
+    recording: Motion | Signals | Any,
     *,
+    fps: float | None = None,
+    times: ArrayLike | None = None,
     preset: str | Preset = DEFAULT,
     effectors: Names | None = None,
     detail: float = DEFAULT_DETAIL,
@@ -54,8 +58,13 @@ def segment(
 
     Parameters
     ----------
-    recording : Motion or Signals
-        At least one frame. What is too short or never repeats is one segment.
+    recording : Motion or Signals, or rows of numbers
+        At least one frame. What is too short or never repeats is one segment. Arrays, data frames
+        and objects of xarray are taken as `kineme.as_signals` takes them.
+    fps : float, optional
+        Of rows of numbers, how many are a second.
+    times : (rows,) array_like, optional
+        Of rows of numbers, when each was taken.
     preset : str or Preset
         ``kineme``, or another of `kineme.PRESETS`.
     effectors : joints, optional
@@ -102,6 +111,11 @@ def segment(
     >>> kineme.segment(motion).repetitions()
     {0: 9, 1: 4, ...}
     """
+    known = isinstance(recording, Motion | Signals)
+    if known and (fps is not None or times is not None):
+        raise ParameterError("fps and times are of rows of numbers: a recording has its own")
+    if not known and not isinstance(recording, str | PathLike):
+        recording = as_signals(recording, fps=fps, times=times)
     options = SegmentOptions(
         preset=preset,
         constants=constants,
@@ -147,7 +161,11 @@ def segment_and_found(
 
 
 def segment_with_options(
-    recording: Motion | Signals, options: SegmentOptions, *, progress: Progress | None = None
+    recording: Motion | Signals,
+    options: SegmentOptions,
+    *,
+    progress: Progress | None = None,
+    details: tuple[float, ...] | None = None,
 ) -> tuple[Segmentation, Found]:
     """Return the same for options that are together already.
 
@@ -159,6 +177,8 @@ def segment_with_options(
         How it is segmented.
     progress : callable, optional
         Called with the name of each stage before it runs.
+    details : tuple of float, optional
+        Of the hierarchy, if others than the method offers.
 
     Returns
     -------
@@ -169,7 +189,7 @@ def segment_with_options(
     if not isinstance(recording, Motion | Signals):
         raise ParameterError(
             f"segment takes a Motion or Signals, not {type(recording).__name__}: "
-            f"kineme.read(path) gives one; arrays go to Segmenter"
+            f"kineme.read(path) and kineme.as_signals(array) give one"
         )
     if progress is not None:
         progress("features")
@@ -201,7 +221,7 @@ def segment_with_options(
     found = chosen.analyze(
         np.concatenate(view.features), mirror=view.mirror, progress=progress, **facts
     )
-    segmentation = _make_segmentation(recording, chosen, view, found, timings)
+    segmentation = _make_segmentation(recording, chosen, view, found, timings, details)
     if options.detail != DEFAULT_DETAIL:
         segmentation = segmentation.at_detail(options.detail)
     return segmentation, found
@@ -259,6 +279,7 @@ def _make_segmentation(
     view: Prepared,
     found: Found,
     timings: dict[str, float],
+    details: tuple[float, ...] | None,
 ) -> Segmentation:
     """Return what was found, in frames of the recording, with where it came from."""
     n_frames, fps = recording.n_frames, recording.fps
@@ -287,9 +308,15 @@ def _make_segmentation(
     if isinstance(found, Leveled):
         with stopwatch(seconds, None)("levels"):
             tables = {DEFAULT_DETAIL: table}
-            for detail, level in found.levels(samples).items():
+            for detail, level in found.levels(samples, details).items():
                 tables[detail] = segment_table(placed(level), fps)
             hierarchy = Hierarchy.of(tables)
+    if source.rows is not None:
+        finest = table if hierarchy is None else hierarchy.tables[-1]
+        borders = np.unique(np.append(finest.start_frame, [0, n_frames]))
+        # the first row that is nearer to a border's frame, or a later one, than to the one before
+        rows = np.searchsorted(source.rows, (borders - 0.5) / fps)
+        provenance["rows"] = {"frames": borders.tolist(), "rows": rows.tolist()}
     return Segmentation(table, int(n_frames), float(fps), provenance, seconds, hierarchy)
 
 

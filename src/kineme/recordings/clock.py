@@ -80,6 +80,8 @@ class Clock:
         if np.abs(ahead).max(initial=0.0) <= near:
             return None
         starts, since = [0], float(ahead[0])
+        if np.abs(ahead - since).max() <= CLOSE_S:
+            return cls([0.0], [since])
         for i, off in enumerate(ahead.tolist()):
             # Small errors of single times begin no new span.
             if abs(off - since) > CLOSE_S:
@@ -101,7 +103,7 @@ class Clock:
     @property
     def tells_dates(self) -> bool:
         """Return whether it counts from 1970, which the size of its times tells."""
-        return _DATES[0] <= self.times[0] < _DATES[1]
+        return tells_dates(self.times[0])
 
     def time(self, seconds: ArrayLike) -> Floats:
         """Return what it shows at seconds of the recording."""
@@ -144,3 +146,8 @@ class Clock:
         if not self.tells_dates:
             return repr(round(time, 6))
         return datetime.fromtimestamp(time, UTC).isoformat(timespec="milliseconds")
+
+
+def tells_dates(seconds: float) -> bool:
+    """Return whether a time is one since 1970, by its size."""
+    return bool(_DATES[0] <= seconds < _DATES[1])

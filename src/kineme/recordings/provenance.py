@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal, Self
 
+from kineme._util.arrays import Floats
 from kineme.recordings.clock import Clock
 
 Severity = Literal["info", "warning"]
@@ -72,6 +73,9 @@ class Provenance:
         Who was read, of a file that may have several people.
     people : sequence of str
         Those who could have been.
+    rows : (rows,) array, optional
+        The second of the recording at which each row of the source was taken, in order of time.
+        None where rows are frames, or there are none.
 
     Examples
     --------
@@ -89,6 +93,7 @@ class Provenance:
     takes: tuple[str, ...] = ()
     person: str | None = None
     people: tuple[str, ...] = ()
+    rows: Floats | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "notes", _as_notes(self.notes))
@@ -120,9 +125,9 @@ class Provenance:
         """Return the same with these events, seconds and labels, in place of its own."""
         return replace(self, events=tuple(events))
 
-    def timed(self, clock: Clock | None) -> Provenance:
-        """Return the same with this clock in place of its own."""
-        return replace(self, clock=clock)
+    def timed(self, clock: Clock | None, rows: Floats | None = None) -> Provenance:
+        """Return the same with this clock and these seconds of rows in place of its own."""
+        return replace(self, clock=clock, rows=rows)
 
     def of_take(self, name: str, names: Iterable[str]) -> Provenance:
         """Return the same of this take, one of those in the file."""

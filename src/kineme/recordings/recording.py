@@ -194,4 +194,5 @@ def _cut(provenance: Provenance, start: int, stop: int, fps: float) -> Provenanc
         (at - first, name) for at, name in provenance.events if first <= at < last
     )
     clock = provenance.clock and provenance.clock.between(first, last)
-    return provenance.noted(f"cut to frames {start} to {stop}").marked(events).timed(clock)
+    rows = None if provenance.rows is None else provenance.rows - first
+    return provenance.noted(f"cut to frames {start} to {stop}").marked(events).timed(clock, rows)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypedDict, get_args
 
@@ -158,7 +158,8 @@ class Segmentation:
     provenance : mapping
         What JSON can hold: ``kineme`` (version), ``preset``, ``parameters``,
         ``input`` (``path``, ``format``, ``sha256``), ``notes`` (sentences on what was
-        inferred), and where the recording has one its ``clock``. A producer may add more.
+        inferred), and where the recording has them its ``clock`` and the ``rows`` of the source
+        at its borders. A producer may add more.
     timings : mapping of str to float
         Seconds spent per stage; two results that differ in these alone are equal.
     hierarchy : Hierarchy, optional
@@ -386,13 +387,36 @@ class Segmentation:
         clock = self.clock
         return [] if clock is None else [clock.shown(row.start_s) for row in self]
 
+    def rows(self) -> dict[str, NDArray[np.int64]]:
+        """Return ``start_row`` and ``stop_row`` of each segment, in the source in order of time.
+
+        Returns
+        -------
+        dict of str to (segments,) array
+            Empty where frames are the rows of the source.
+        """
+        known = self.provenance.get("rows")
+        if known is None:
+            return {}
+        # Borders that a person moved lie between those that are known.
+        ends = {"start_row": self.table.start_frame, "stop_row": self.table.stop_frame}
+        places = {n: np.interp(end, known["frames"], known["rows"]) for n, end in ends.items()}
+        return {name: np.rint(rows).astype(np.int64) for name, rows in places.items()}
+
+    def more_columns(self) -> dict[str, Sequence[Any]]:
+        """Return columns that files and data frames have where the recording's times need them."""
+        times = self.start_times()
+        clock: dict[str, Sequence[Any]] = {START_TIME: times} if times else {}
+        return clock | {name: rows.tolist() for name, rows in self.rows().items()}
+
     def to_dataframe(self) -> pd.DataFrame:
         """Return the table of both levels, as `SegmentTable.to_dataframe` gives it.
 
         Returns
         -------
         pandas.DataFrame
-            With a column ``start_time`` where the recording has a clock, see `start_times`.
+            With a column ``start_time`` where the recording has a clock, see `start_times`, and
+            ``start_row`` and ``stop_row`` where its frames are not the rows of the source.
 
         Raises
         ------
@@ -400,8 +424,8 @@ class Segmentation:
             pandas is not installed.
         """
         frame = self.table.to_dataframe()
-        if times := self.start_times():
-            frame[START_TIME] = times
+        for name, values in self.more_columns().items():
+            frame[name] = values
         return frame
 
     def __len__(self) -> int:

@@ -369,7 +369,7 @@ def assign_to_centres(
     for load, groups in zip(loads, spans, strict=True):
         rows = load(1)
         features = to_features(rows).astype(np.float64)
-        means += [features[_samples_in(rows[:, 0], group)].mean(axis=0) for group in groups]
+        means += [features[samples_in(rows[:, 0], group)].mean(axis=0) for group in groups]
     distances = np.sqrt(((np.array(means)[:, None] - centres) ** 2).sum(axis=2))
     # A centre may be nobody's nearest: there is no cluster of it.
     used, cluster = np.unique(distances.argmin(axis=1), return_inverse=True)
@@ -378,7 +378,7 @@ def assign_to_centres(
     return _number_by_seconds(found, lasts)
 
 
-def _samples_in(seconds: NDArray[Any], spans: Floats) -> Ints:
+def samples_in(seconds: NDArray[Any], spans: Floats) -> Ints:
     """Return which samples lie in spans; of a span without any, the next one."""
     firsts = np.minimum(np.searchsorted(seconds, spans[:, 0]), len(seconds) - 1)
     stops = np.maximum(np.searchsorted(seconds, spans[:, 1]), firsts + 1)

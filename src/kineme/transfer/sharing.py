@@ -11,12 +11,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.recordings import Motion, Signals
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.channel_samples import ChannelSamples, channel_samples, thin_samples
+from kineme.transfer.channel_samples import (
+    ChannelSamples,
+    channel_samples,
+    fit_units,
+    thin_samples,
+)
 from kineme.transfer.clusters import (
     CONSTANTS,
     ClusterSet,
@@ -26,6 +32,7 @@ from kineme.transfer.clusters import (
     find_local_clusters,
     keep_numbers,
     link_clusters,
+    samples_in,
     spans_with_clusters,
     to_samples,
 )
@@ -95,6 +102,46 @@ def share_clusters(
         raise ParameterError("clusters are shared over motions or over signals, not over both")
     samples = [channel_samples(each) for each in signals]
     return share_by_samples(samples, segmentations, n_clusters=n_clusters)
+
+
+def assign_to_labels(
+    signals: Signals, labels: Ints, others: Signals, spans: Sequence[tuple[int, int]]
+) -> Ints:
+    """Return the label of each span of other signals: that whose samples are nearest on average.
+
+    Parameters
+    ----------
+    signals : Signals
+        In which the labels are known.
+    labels : (frames,) array of int
+        One for each of its frames.
+    others : Signals
+        Of the same channels.
+    spans : sequence of (int, int)
+        Frames [start, stop) of the others.
+
+    Raises
+    ------
+    ParameterError
+        Signals of other channels.
+    """
+    if signals.names != others.names:
+        raise ParameterError(
+            f"signals have the channels {', '.join(others.names)}, not {', '.join(signals.names)}"
+        )
+    known, new = channel_samples(signals).rows, channel_samples(others).rows
+    # deviations of both are measured by those of the known ones
+    to_features = fit_units(known)
+    points, unknown = to_features(known), to_features(new)
+    frames = np.rint(known[:, 0] * signals.fps).astype(np.intp)
+    here = labels[np.minimum(frames, len(labels) - 1)]
+    there = np.unique(here)
+    centres = np.array([points[here == label].mean(axis=0) for label in there])
+    means = [
+        unknown[samples_in(new[:, 0], np.array([span]) / others.fps)].mean(axis=0) for span in spans
+    ]
+    apart = ((np.array(means)[:, None] - centres) ** 2).sum(axis=2)
+    return np.asarray(there[apart.argmin(axis=1)], np.int64)
 
 
 def _share_by_search(

@@ -85,6 +85,16 @@ class Batch:
         """Return whether there is one recording, given by its own name."""
         return len(self.paths) == 1 and self._is_named(self.paths[0])
 
+    def join(self) -> list[Path]:
+        """Return all recordings, of which the first stands for all from now on."""
+        together = self.paths
+        if len(together) > 1:
+            self.paths = together[:1]
+            first = self._given_as[absolute(together[0])]
+            for path in together[1:]:
+                first |= self._given_as[absolute(path)]
+        return together
+
     def targets(self, option: str, given: Path | None, suffix: str) -> list[Path | None]:
         """Where the result of each recording goes; see `kineme.cli.options.targets`."""
         if given is None:

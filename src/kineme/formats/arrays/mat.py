@@ -33,9 +33,9 @@ from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
-from kineme.formats.timing import is_timing
 from kineme.recordings import Motion, Signals
 from kineme.recordings.coordinates import is_body
+from kineme.recordings.times import is_timing
 
 _RATES = (
     "fps", "fs", "rate", "frame_rate", "framerate", "samplerate", "sampling_rate", "frequency",

@@ -18,7 +18,7 @@ from kineme.formats.channels.reading import (
 )
 from kineme.formats.delimited import make_unique_names
 from kineme.formats.files import FileContent
-from kineme.formats.timing import is_timing
+from kineme.recordings.times import is_timing
 
 
 def parquet_file(content: FileContent) -> Any:

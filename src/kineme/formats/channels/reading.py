@@ -11,14 +11,12 @@ MAT            vectors, and columns of matrices, of the length that most have
 
 The frame rate comes from the file (its own, or a column ``time``, ``time_ms``
 or ``fps``, see `kineme.formats.columns`) or from the user. Columns that count
-rows, and those that do not hold numbers, are no channels; this is said.
-Channels with holes of up to 0.2 s are filled in a straight line; longer ones
-are gaps of the recording.
+rows, and those that do not hold numbers, are no channels; this is said. Rows become
+frames as `kineme.recordings.regular` says.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
@@ -27,30 +25,16 @@ from itertools import islice
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._util.arrays import Floats, bridge_line
-from kineme._util.checks import format_count
+from kineme._util.arrays import Floats
+from kineme.errors import ParameterError
 from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import FileContent
-from kineme.formats.gaps import LONGEST_S, mark_spans
-from kineme.formats.timing import NO_TIMES, Timing, clock_name, table_timing
+from kineme.formats.timing import table_timing
 from kineme.recordings import Signals
-from kineme.recordings.arrays import spans_of
+from kineme.recordings.channel_names import is_channel_name
+from kineme.recordings.regular import Timing, fill_gaps_in_channels
+from kineme.recordings.times import NO_TIMES, clock_name
 
-COUNTERS = frozenset(
-    {"frame", "frames", "frame#", "index", "idx", "sample", "row", "id", "unnamed: 0"}
-    | {"__index_level_0__"}
-)
-"""Names of columns that count rows."""
-
-LABELS = frozenset(
-    {"label", "labels", "class", "annotation", "ground_truth"} | {"class_id", "label_id"}
-)
-"""Names of columns in which people say what is done."""
-SURROUNDINGS = re.compile(
-    r"(?:.*[\W_])?(?:temp(?:erature)?|battery|humidity|lux|latitude|longitude)(?:[\W_].*)?",
-    re.IGNORECASE,
-)
-"""Names of columns that tell of a device or the place it is at, and not how somebody moves."""
 WILD = frozenset("*?[")
 """Characters by which a pattern is told from a name."""
 
@@ -71,16 +55,16 @@ class ChannelTable:
     nominal: float | None = None  # what a header says beside times
 
     def timed(self, content: FileContent, fps: float | None) -> Timing:
-        """Frames per second, pauses, and what was seen of the times."""
+        """Return frames per second, and the frame of each row."""
         if fps or self.rate:
             return Timing(fps or self.rate or 0.0)
         if not self.timing:
             raise content.error(f"nothing in it tells the frame rate: give fps (--fps){self.hint}")
-        timing = table_timing(content, self.timing)
+        timing = table_timing(content, self.timing, values=self.values)
         # times rounded to milliseconds miss the rate by a little
-        if self.nominal and abs(timing.fps - self.nominal) <= 0.005 * self.nominal:
-            return timing._replace(fps=self.nominal)
-        return timing
+        nominal = self.nominal or 0.0
+        near = abs(timing.fps - nominal) <= 0.005 * nominal
+        return replace(timing, fps=nominal) if near and timing.order is None else timing
 
 
 def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float | None) -> Signals:
@@ -89,9 +73,13 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
     ``fps`` stands in place of what the table tells.
     """
     timing = table.timed(content, fps)
-    values, gaps, filled = fill_or_split_gaps(content, table.values, timing, table.names)
+    try:
+        values, gaps, filled = fill_gaps_in_channels(timing, table.values, table.names)
+    except ParameterError as error:
+        raise content.error(str(error)) from None
     provenance = content.provenance(name, [*table.notes, *timing.notes, *filled])
-    return Signals(values, timing.fps, table.names, gaps, provenance.timed(timing.clock))
+    provenance = provenance.timed(timing.clock, timing.row_seconds)
+    return Signals(values, timing.fps, table.names, gaps, provenance)
 
 
 def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
@@ -181,13 +169,13 @@ def channel_table(
     timing = {times[name]: column for name, column in values.items() if name in times}
     hints = [f"; {name!r} {NO_TIMES}" for name in times if name not in values]
     if not times:
-        clocks = (name for name in values if clock_name(name) and _is_clock(values[name]))
+        clocks = (name for name in values if clock_name(name) and _mostly_rises(values[name]))
         times = {name: clock_name(name) or "" for name in islice(clocks, 1)}
         timing = {called: values[name] for name, called in times.items()}
     if columns is not None:
         chosen, notes = list(columns), []
     else:
-        chosen = [name for name in values if name not in times and not _is_no_channel(name)]
+        chosen = [name for name in values if name not in times and _may_be_channel(name)]
         chosen = [name for name in chosen if np.isfinite(values[name]).any()] or chosen
         rising = {name: None for name in chosen if _is_clock(values[name])}
         if len(rising) < len(chosen):
@@ -202,48 +190,8 @@ def channel_table(
     return ChannelTable(chosen, channels, timing, None, tuple(notes), "".join(hints[:1]))
 
 
-def fill_or_split_gaps(
-    content: FileContent, values: Floats, timing: Timing, names: Sequence[str]
-) -> tuple[Floats, list[tuple[int, int]], list[str]]:
-    """Finite values, the spans in which a channel is missing for long, and what was done.
-
-    Values are (frames, channels), NaN or infinite where there is nothing. ReadError where the holes
-    leave nothing.
-    """
-    missing = ~np.isfinite(values)
-    if not missing.any():
-        return values, list(timing.gaps), []
-    if missing.all(axis=0).any():
-        name = names[int(missing.all(axis=0).argmax())]
-        raise content.error(f"column {name!r} holds no number at all: name the others (--columns)")
-    filled = np.array(values)
-    long = np.zeros(len(values), np.bool_)
-    for channel in np.flatnonzero(missing.any(axis=0)).tolist():
-        bridge_line(filled[:, channel], missing[:, channel])
-        for start, stop in spans_of(missing[:, channel]).tolist():
-            if stop - start > LONGEST_S * timing.fps + 1e-9:
-                long[start:stop] = True
-    jumps = mark_spans(timing.gaps, len(values))
-    if (long | jumps).all():
-        raise content.error("in every frame some channel is missing for long: choose columns")
-    holes = spans_of(long)
-    gaps = [(start, stop) for start, stop in spans_of(long | jumps).tolist()]
-    short = int((missing & ~long[:, None]).sum())
-    notes = [f"{format_count(short, 'missing value')} filled in a straight line"] if short else []
-    if len(holes):
-        notes.append(
-            f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, "
-            f"{format_count(int(long.sum()), 'frame')}"
-        )
-    return filled, gaps, notes
-
-
-def _is_no_channel(name: str) -> bool:
-    """Whether a column of this name counts rows, is nameless, or says what is done or around."""
-    plain = name.strip().lower()
-    if plain in COUNTERS or plain in LABELS or name.startswith(NAMELESS):
-        return True
-    return SURROUNDINGS.fullmatch(plain) is not None
+def _may_be_channel(name: str) -> bool:
+    return is_channel_name(name) and not name.startswith(NAMELESS)
 
 
 def _is_clock(values: Floats) -> bool:
@@ -255,6 +203,11 @@ def _is_clock(values: Floats) -> bool:
         return False
     line = values[0] + _step(values) * np.arange(len(values))
     return bool(np.abs(values - line).max() <= _step(values))
+
+
+def _mostly_rises(values: Floats) -> bool:
+    """Return whether a column rises as clocks do, be it with holes or set now and then."""
+    return len(values) >= CLOCK_ROWS and bool((np.diff(values) > 0).mean() > 0.9)
 
 
 def _step(values: Floats) -> float:

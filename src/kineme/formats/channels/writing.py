@@ -32,8 +32,8 @@ from kineme.formats.delimited import as_text, make_unique_names, replace_decimal
 from kineme.formats.dialects import find_table
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import mark_spans
-from kineme.formats.timing import RATE, is_rate, is_timing
 from kineme.recordings import Signals
+from kineme.recordings.times import RATE, is_rate, is_timing
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
 TEXT = ("table", "MOT/STO")

@@ -19,8 +19,10 @@ from kineme.formats.gaps import split_at
 from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion, plain
 from kineme.formats.keypoints.video import Person, frame_numbers
 from kineme.formats.options import ReadOptions
-from kineme.formats.timing import Timing, is_timing, table_timing
+from kineme.formats.timing import place_points, table_timing
 from kineme.recordings import Motion
+from kineme.recordings.regular import Timing
+from kineme.recordings.times import is_timing
 
 _BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # read, stacked and placed
 
@@ -59,9 +61,12 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
     for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
         poses[:, landmark, field] = column
     frames, clock = np.arange(len(rows)), Timing(options.fps or 0.0)
+    gaps = clock.gaps
     if timing and not options.fps:
         columns = {table.names[i]: rows[:, len(at) + k] for k, i in enumerate(timing)}
         clock = table_timing(table.content, columns)
+        poses, gaps = place_points(clock, poses)
+        frames = np.arange(len(poses))
     elif frame is not None:
         frames = frame_numbers(table.content, rows[:, -1])
     people = [
@@ -77,8 +82,8 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
         frames=frames.tolist(),
         notes=clock.notes,
     )
-    timed_motion = replace(motion, provenance=motion.provenance.timed(clock.clock))
-    return split_at(timed_motion, clock.gaps)
+    provenance = motion.provenance.timed(clock.clock, clock.row_seconds)
+    return split_at(replace(motion, provenance=provenance), gaps)
 
 
 def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
@@ -102,7 +107,9 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
     if timing and not fps:
         times = np.zeros(len(frames))
         times[place] = rows[:, -1]
-        fps = table_timing(table.content, {table.names[timing[0]]: times}).fps
+        clock = table_timing(table.content, {table.names[timing[0]]: times})
+        poses, fps = place_points(clock, poses)[0], clock.fps
+        frames = np.arange(len(poses)) if clock.order is not None else frames
     people = [
         Person(frame, pose[:, :3], pose[:, 3])
         for frame, pose in zip(frames.tolist(), poses, strict=True)

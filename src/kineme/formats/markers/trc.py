@@ -10,6 +10,7 @@ y, OpenSim's, is taken where head and feet do not tell.
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -21,9 +22,10 @@ from kineme.formats.gaps import split_at, unseen
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
-from kineme.formats.timing import Timing, timing_of
+from kineme.formats.timing import place_points, timing_of
 from kineme.formats.units import unit_named
 from kineme.recordings import Motion
+from kineme.recordings.regular import Timing
 
 _MM = 0.001
 _HEADER_LINES = 5
@@ -49,6 +51,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
         content.warn(f"{declared} frames declared, {len(table)} found and kept", 3)
     positions = table[:, 2:].reshape(len(table), -1, 3)
     timing = _rate(content, options, head, table[:, 1])
+    positions, gaps = place_points(timing, positions)
     unit = options.unit or ("pixel" if _is_image(content, head, positions) else None)
     points = Points(
         names,
@@ -60,8 +63,8 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
         person=options.person,
     )
     notes = [*timing.notes, *text.remarks]
-    provenance = content.provenance("TRC", notes).timed(timing.clock)
-    return split_at(to_motion(points, provenance), timing.gaps)
+    provenance = content.provenance("TRC", notes).timed(timing.clock, timing.row_seconds)
+    return split_at(to_motion(points, provenance), gaps)
 
 
 def _is_image(content: FileContent, head: dict[str, str], positions: Floats) -> bool:
@@ -134,7 +137,7 @@ def _rate(
     fps = timing.fps
     # The declared rate is taken where the times agree up to rounding.
     if abs(fps - declared) <= 0.005 * fps:
-        return timing._replace(fps=declared)
+        return replace(timing, fps=declared) if timing.order is None else timing
     if declared > 0:
         content.warn(f"DataRate is {declared:g}, but the times are {fps:g} Hz apart: taken")
     return timing

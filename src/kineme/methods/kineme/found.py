@@ -90,7 +90,9 @@ class KinemeFound:
         """How probable it is that each thing found is right."""
         return confidence(self.evidence, self.preset)
 
-    def levels(self, columns: Columns) -> Mapping[float, Columns]:
+    def levels(
+        self, columns: Columns, details: tuple[float, ...] | None = None
+    ) -> Mapping[float, Columns]:
         """Return the table at coarser and finer details: the tree, pruned at scaled costs.
 
         Details that are equal to their coarser neighbour are left out.
@@ -98,7 +100,7 @@ class KinemeFound:
         segments, frames = self._fine_segments()
         at = clusters_at(
             segments,
-            DETAILS,
+            details or DETAILS,
             border_price=self.preset.samples(self.preset.segment_cost),
             cluster_price=self.preset.cluster_price(len(self.features)),
         )

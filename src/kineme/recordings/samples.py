@@ -1,0 +1,343 @@
+"""Signals from arrays, data frames and xarray, and from several sensors with their own clocks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_floats, check_type, is_number, join_names, warn
+from kineme.errors import ParameterError
+from kineme.recordings.arrays import as_rate
+from kineme.recordings.channel_names import is_channel_name
+from kineme.recordings.clock import Clock
+from kineme.recordings.provenance import Note, Provenance
+from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
+from kineme.recordings.signals import Signals
+from kineme.recordings.times import UNITS_NAMED, as_seconds, is_rate, is_time, time_unit
+
+ASSUMED_FPS = 30.0
+"""Rows per second, where nobody says."""
+
+
+def as_signals(data: Any, *, fps: float | None = None, times: ArrayLike | None = None) -> Signals:
+    """Return rows of numbers as signals on a true clock.
+
+    What had to be guessed is a `KinemeWarning`, which `fps` or `times` silence.
+
+    Parameters
+    ----------
+    data : array_like, data frame or xarray object
+        (rows,) or (rows, channels), NaN where there is nothing. Columns that count, label or are
+        no numbers are left out.
+    fps : float, optional
+        Rows per second. Rows are then frames, whatever the index says.
+    times : (rows,) array_like, optional
+        When each row was taken: numbers in any unit since any beginning, dates, or texts of these.
+        By default the dates in the index, the coordinate ``time``, or a column that is called so.
+
+    Returns
+    -------
+    Signals
+        Frames are rows where the times are even, else see `kineme.recordings.regular`.
+
+    Raises
+    ------
+    ParameterError
+        No numbers, times that tell no rate, or as many times as there are no rows.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> kineme.as_signals([0.0, 1.0, 3.0, 4.0], times=[0, 0.1, 0.3, 0.4]).values.ravel().tolist()
+    [0.0, 1.0, 2.0, 3.0, 4.0]
+    """
+    return read_samples(data, fps=fps, times=times)[0]
+
+
+def read_samples(
+    data: Any,
+    *,
+    fps: float | None = None,
+    times: ArrayLike | None = None,
+    assumed_fps: float = ASSUMED_FPS,
+) -> tuple[Signals, Timing]:
+    """Return what `as_signals` does, and the frame of each row; ``assumed_fps`` where none tells.
+
+    See `as_signals`.
+    """
+    samples = _samples_of(data)
+    if times is not None:
+        samples = replace(samples, times=times, unit=None)
+    timing, notes = _time(samples, fps, times, assumed_fps)
+    values, gaps, filled = fill_gaps_in_channels(timing, samples.values, samples.names)
+    notes = [*samples.notes, *notes, *timing.notes, *filled]
+    provenance = Provenance().noted(*notes).timed(timing.clock, timing.row_seconds)
+    if remarks := provenance.warnings:
+        warn("; ".join(remarks))
+    return Signals(values, timing.fps, samples.names, gaps, provenance), timing
+
+
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """Rows of channels, and what tells their times."""
+
+    values: Floats
+    names: tuple[str, ...]
+    times: Any = None
+    unit: str | None = None
+    rate: float | None = None
+    order: Any = None  # of whole numbers in the index, which may be shuffled
+    notes: list[Note | str] = field(default_factory=list)
+
+
+def _time(
+    samples: _Samples, fps: float | None, times: ArrayLike | None, assumed_fps: float
+) -> tuple[Timing, list[Note | str]]:
+    """Return the rate and the frames of rows, and notes."""
+    n = len(samples.values)
+    if samples.times is not None and (fps is None or times is not None):
+        try:
+            seconds, guessed = as_seconds(samples.times, samples.unit)
+        except (ValueError, TypeError) as error:
+            raise ParameterError(f"the times are none: {error}") from None
+        if seconds.shape != (n,):
+            raise ParameterError(f"there are {n} rows and times of shape {seconds.shape}")
+        remark = guessed and f"times are taken in {UNITS_NAMED[guessed]}, by their steps"
+        timing = place_rows(seconds, samples.values, fps=0.0 if fps is None else as_rate(fps))
+        return timing, [Note(remark, "warning")] if remark else []
+    notes: list[Note | str] = []
+    rate = samples.rate if fps is None else as_rate(fps)
+    if rate is None:
+        rate = assumed_fps
+        notes = [Note(f"{rate:g} rows a second assumed: give fps= or times=", "warning")]
+    if samples.order is None:
+        return Timing(rate), notes
+    notes.append(Note("rows are not in the order of their index: sorted", "warning"))
+    return Timing(rate, samples.order, np.arange(n, dtype=np.float64), n), notes
+
+
+def _samples_of(data: Any) -> _Samples:
+    """Return the rows in an array, a data frame or series, or an object of xarray."""
+    if isinstance(data, Signals):
+        raise ParameterError("these are signals already, whose fps is theirs")
+    if hasattr(data, "dims") and hasattr(data, "coords"):
+        return _samples_of_xarray(data)
+    if hasattr(data, "to_frame") and hasattr(data, "index"):
+        data = data.to_frame()  # a series
+    if hasattr(data, "columns") and hasattr(data, "__getitem__"):
+        return _samples_of_frame(data)
+    values = as_floats(data, "signals")
+    if values.ndim == 1:
+        values = values[:, None]
+    if values.ndim != 2 or 0 in values.shape:
+        raise ParameterError(f"signals are rows x channels, not of shape {values.shape}")
+    return _Samples(values, tuple(map(str, range(1, values.shape[1] + 1))))
+
+
+def _samples_of_xarray(data: Any) -> _Samples:
+    """Return variables along ``time`` or their first dimension, a channel for each column."""
+    arrays = list(data.data_vars.values()) if hasattr(data, "data_vars") else [data]
+    along = "time" if "time" in data.dims else next(iter(data.dims), None)
+    columns = [pair for array in arrays if along in array.dims for pair in _columns(array, along)]
+    if not columns:
+        raise ParameterError("there is no variable of numbers along a dimension such as time")
+    names, values = zip(*columns, strict=True)
+    times = data.coords[along].values if along == "time" and along in data.coords else None
+    return _Samples(np.column_stack(values).astype(np.float64), _each_once(names), times)
+
+
+def _columns(array: Any, along: Any) -> Iterator[tuple[str, Any]]:
+    """Yield names and values of the columns of a data array."""
+    if array.dtype.kind not in "iufb":
+        return
+    others = [dim for dim in array.dims if dim != along]
+    values = array.transpose(along, *others).values
+    called = [] if array.name is None else [str(array.name)]
+    labels = [
+        array.coords[d].values if d in array.coords else range(array.sizes[d]) for d in others
+    ]
+    for place in np.ndindex(*values.shape[1:]):
+        parts = [str(label[i]) for label, i in zip(labels, place, strict=True)]
+        yield "_".join([*called, *parts]) or "1", values[(slice(None), *place)]
+
+
+def _samples_of_frame(frame: Any) -> _Samples:
+    """Return the columns of numbers of a data frame, and its times."""
+    names = list(frame.columns)
+    by_place = getattr(frame, "iloc", None)
+    columns = [frame[n] if by_place is None else by_place[:, i] for i, n in enumerate(names)]
+    kinds = [getattr(column.dtype, "kind", "O") for column in columns]
+    called = [name if isinstance(name, str) else str(name) for name in names]
+    numbers = [i for i, kind in enumerate(kinds) if kind in "iufb"]
+    timing = [i for i, name in enumerate(called) if is_time(name)]
+    rates = [i for i, name in enumerate(called) if is_rate(name) and i in numbers]
+    chosen = [i for i in numbers if i not in (*timing, *rates)]
+    chosen = [i for i in chosen if is_channel_name(called[i])] or chosen
+    if not chosen:
+        raise ParameterError(f"none of the columns is a channel ({join_names(called)})")
+    left = [called[i] for i in range(len(called)) if i not in (*chosen, *timing[:1])]
+    notes: list[Note | str] = []
+    if left:
+        notes.append(f"columns that are no channels: {', '.join(left)}")
+    values = np.column_stack([_numbers(columns[i]) for i in chosen])
+    found = _Samples(values, _each_once(called[i] for i in chosen), notes=notes)
+    index: Any = getattr(frame, "index", None)
+    kind = getattr(getattr(index, "dtype", None), "kind", "O")
+    named = isinstance(getattr(index, "name", None), str) and is_time(index.name)
+    if kind in "mM" or (named and kind in "iufO"):
+        return replace(found, times=index, unit=time_unit(index.name) if named else None)
+    if timing:
+        return replace(found, times=columns[timing[0]], unit=time_unit(called[timing[0]]))
+    if rates:
+        rate = _numbers(columns[rates[0]])
+        if rate[0] > 0 and np.ptp(rate) == 0:
+            return replace(found, rate=float(rate[0]))
+    if kind in "iu" and not index.is_monotonic_increasing and index.is_unique:
+        return replace(found, order=np.argsort(np.asarray(index), kind="stable"))
+    return found
+
+
+def _numbers(column: Any) -> Floats:
+    """Return a column as numbers, NaN for what pandas calls missing."""
+    try:
+        return np.asarray(column, np.float64)
+    except (ValueError, TypeError):
+        return np.asarray(column.to_numpy(dtype=np.float64, na_value=np.nan))
+
+
+def _each_once(names: Any) -> tuple[str, ...]:
+    """Return names, those that repeat an earlier one with a number behind them."""
+    found: dict[str, None] = {}
+    for name in names:
+        new, number = name, 1
+        while new in found:
+            number += 1
+            new = f"{name}_{number}"
+        found[new] = None
+    return tuple(found)
+
+
+def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> Signals:
+    """Return the channels of several sensors on one clock, for as long as all of them recorded.
+
+    Parameters
+    ----------
+    *signals : Signals
+        Of one person at one time, each with its own rate and clock.
+    offsets : sequence of float, optional
+        Seconds at which each begins, on a clock in common. By default their clocks tell, if these
+        are dates or overlap; else all begin at once, with a warning.
+
+    Returns
+    -------
+    Signals
+        At the rate of the fastest, with the gaps of all. A name that several have is put behind
+        the name of its file, or its number.
+
+    Raises
+    ------
+    ParameterError
+        They do not overlap, or are no signals.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> one = kineme.Signals([0.0, 2.0, 4.0], 1.0, ["acc"])
+    >>> other = kineme.Signals([0.0, 1.0, 2.0, 3.0, 4.0], 2.0, ["gyro"])
+    >>> kineme.join_signals(one, other, offsets=[0, 0]).values.tolist()
+    [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [3.0, 3.0], [4.0, 4.0]]
+    """
+    for each in signals:
+        check_type(each, Signals, "join_signals", "kineme.as_signals(array, fps=...) gives some")
+    if not signals:
+        raise ParameterError("join_signals takes one or more signals")
+    clocks, notes = _clocks_in_common(signals, offsets)
+    begins = [float(clock.time(0.0)) for clock in clocks]
+    ends = [
+        float(clock.time((each.n_frames - 1) / each.fps))
+        for clock, each in zip(clocks, signals, strict=True)
+    ]
+    fps = max(each.fps for each in signals)
+    first = next(k for k, each in enumerate(signals) if each.fps == fps)
+    # the frames of the fastest stay where they are
+    start = begins[first] + np.ceil((max(begins) - begins[first]) * fps - 1e-3) / fps
+    n_frames = int(np.floor((min(ends) - start) * fps + 1e-3)) + 1
+    if n_frames < 1:
+        raise ParameterError(
+            f"the recordings do not overlap in time: the last begins {max(begins) - min(ends):.4g} "
+            "s after the first ends; offsets= tells when each begins"
+        )
+    lost = max(ends) - min(begins) - (n_frames - 1) / fps
+    if lost > LONGEST_S:
+        notes.append(f"{lost:.4g} s in which not all sensors recorded left out")
+    times = start + np.arange(n_frames) / fps
+    columns, missing = [], np.zeros(n_frames, np.bool_)
+    for clock, each in zip(clocks, signals, strict=True):
+        seconds = clock.second(times)
+        at = np.clip(seconds * each.fps, 0, each.n_frames - 1)
+        columns.append(_values_at(each.values, at))
+        hidden = np.zeros(each.n_frames + 1, np.bool_)
+        for begin, stop in each.gaps:
+            hidden[begin:stop] = True
+        missing |= hidden[np.rint(at).astype(np.intp)]
+        missing |= np.abs(clock.time(seconds) - times) > LONGEST_S  # in a pause
+    names = _names_in_common(signals)
+    source = signals[0].provenance
+    notes = [*(note for each in signals for note in each.provenance.notes), *notes]
+    joined = Provenance(source.path, source.format, source.sha256).noted(*dict.fromkeys(notes))
+    begun = Clock([0.0], [start]) if abs(start) > 0.5 / fps else None
+    edges = np.flatnonzero(np.diff(missing, prepend=False, append=False)).reshape(-1, 2)
+    gaps = [(begin, stop) for begin, stop in edges.tolist()]
+    return Signals(np.concatenate(columns, axis=1), fps, names, gaps, joined.timed(begun))
+
+
+def _values_at(values: Floats, at: Floats) -> Floats:
+    grid = np.arange(len(values), dtype=np.float64)
+    return np.stack([np.interp(at, grid, channel) for channel in values.T], axis=1)
+
+
+def _clocks_in_common(
+    signals: Sequence[Signals], offsets: Sequence[float] | None
+) -> tuple[list[Clock], list[Note | str]]:
+    """Return the clock of each as far as they can be compared, and notes."""
+    if offsets is not None:
+        if len(offsets) != len(signals) or not all(map(is_number, offsets)):
+            raise ParameterError(f"offsets are {len(signals)} numbers, not {offsets!r:.60}")
+        clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
+        started = zip(clocks, offsets, strict=True)
+        return [_shift(c.since_first(), offset) for c, offset in started], []
+    clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
+    if all(clock.tells_dates for clock in clocks):
+        return clocks, []
+    lasts = [float(c.time(each.duration)) for c, each in zip(clocks, signals, strict=True)]
+    overlap = min(lasts) - max(clock.times[0] for clock in clocks)
+    if overlap > 0.5 * min(each.duration for each in signals):
+        return clocks, []
+    remark = (
+        "the clocks of the sensors have nothing in common: taken to begin at once; give offsets"
+    )
+    warn(remark)
+    return [clock.since_first() for clock in clocks], [Note(remark, "warning")]
+
+
+def _shift(clock: Clock, seconds: float) -> Clock:
+    return Clock(clock.seconds, [time + seconds for time in clock.times])
+
+
+def _names_in_common(signals: Sequence[Signals]) -> tuple[str, ...]:
+    """Return the names of all channels, those of several sensors behind the name of theirs."""
+    every = [name for each in signals for name in each.names]
+    stems = [Path(each.provenance.path or str(k)).stem for k, each in enumerate(signals, 1)]
+    if len(set(stems)) < len(stems):
+        stems = [str(k) for k in range(1, len(signals) + 1)]
+    return _each_once(
+        f"{stem}_{name}" if every.count(name) > 1 else name
+        for stem, each in zip(stems, signals, strict=True)
+        for name in each.names
+    )

@@ -1,0 +1,280 @@
+"""Times of rows: what their columns are called, and how they are written.
+
+Columns of times are called ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or
+``seconds``, with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``; those with
+a rate in every row ``fps`` or ``rate``.
+
+Times may be dates: ISO 8601 with or without a zone (UTC without), the time of day, or a date as
+loggers and spreadsheets write it, ``31.01.2026 09:30:00`` or ``1/31/2026 9:30:00 AM``.
+Numbers may count from 1970 in seconds, milli-, micro- or nanoseconds, which their size
+tells: those of the years 2001 to 2100 in one unit are none of these years in another. Numbers from
+any other beginning, such as the start of a phone, are told by their steps.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from datetime import UTC, datetime, time
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kineme._util.arrays import Floats
+
+UNITS_OF_TIME = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "μs": 1e6, "ns": 1e9}
+"""How many of each make a second."""
+
+UNITS_NAMED = {"ms": "milliseconds", "us": "microseconds", "ns": "nanoseconds"}
+"""Units that are guessed, in words."""
+
+RATE = "fps"
+"""A column that tells a rate, as it is written."""
+
+NO_TIMES = "holds neither numbers nor ISO dates such as 2026-01-31T09:30:00.25"
+"""Of a column that is called as times are, and tells none."""
+
+_EPOCH = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
+_SLOWEST = 4.0  # rows per second at least, in the unit that is guessed
+
+_TIME = re.compile(
+    r"((?:unix|epoch|utc|sensor|elapsed)?[\s_]*time(?:[\s_]*stamp)?|t|date[\s_]*time|elapsed|"
+    rf"seconds?(?:[\s_]*elapsed)?|epoch?(?=[\s_]*[\[(]?[mun]?s\b))[\s_]*(?:[\[(]?({'|'.join(UNITS_OF_TIME)})?[\])]?|"
+    r"[\[(]?(?:utc|iso|[+-]\d{2}:?\d{2})[\])]?)",
+    re.IGNORECASE,
+)
+_RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
+_CLOCK = re.compile(  # a name that says time, with a unit perhaps
+    r".*(?:[Tt]ime[Ss]tamp|[Tt]ime(?![a-z])|TIME).*?"
+    rf"(?:[\s_]*[\[(_\s]({'|'.join(UNITS_OF_TIME)})[\])]?)?"
+)
+_MONTHS = ["jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec"]
+_WRITTEN = re.compile(
+    rf"(?P<first>\d{{1,4}})(?P<mark>[-/. ])(?P<second>\d{{1,2}}|{'|'.join(_MONTHS)})(?P=mark)"
+    r"(?P<third>\d{2,4})[ T,]+(?P<hour>\d{1,2})(?P<rest>:\d\d(?::\d\d(?:[.,]\d+)?)?)"
+    r"(?:\s*(?P<half>[ap])\.?m\.?)?\s*(?P<zone>Z|[+-]\d\d:?\d\d)?",
+    re.IGNORECASE,
+)
+_LEAP = re.compile(r"(?<=:\d\d:)60(?!\d)")
+
+
+def is_timing(column: str) -> bool:
+    """Return whether a column of this name tells a time or a rate."""
+    return any(pattern.fullmatch(column.strip()) for pattern in (_TIME, _RATE))
+
+
+def is_rate(column: str) -> bool:
+    """Return whether a column of this name tells a rate."""
+    return _RATE.fullmatch(column.strip()) is not None
+
+
+def date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
+    """Return which columns of a text table tell the time by dates, as their first cells do.
+
+    Where none is called as times are, the first that holds a time of day, whatever its name.
+    """
+    dates = [i for i, (_, cell) in enumerate(zip(names, cells, strict=False)) if is_date(cell)]
+    if any(map(is_timing, names)):
+        return [i for i in dates if _TIME.fullmatch(names[i].strip())]
+    return [i for i in dates if ":" in cells[i]][:1]
+
+
+def append_unit(name: str, unit: str) -> str:
+    """Return the name of a column of times with the unit that stands below it.
+
+    As it is where none does.
+
+    Examples
+    --------
+    >>> append_unit("time", "ms"), append_unit("time", "hh:mm"), append_unit("time_s", "ms")
+    ('time (ms)', 'time', 'time_s')
+    """
+    match = _TIME.fullmatch(name.strip())
+    if match is None or match[2] or unit.lower() not in UNITS_OF_TIME:
+        return name
+    return f"{name} ({unit.lower()})"
+
+
+def clock_name(name: str) -> str | None:
+    """Return what to call a column that rises as clocks do, if its name says that it is one.
+
+    Examples
+    --------
+    >>> clock_name("accelerometerTimestamp_sinceReboot(s)"), clock_name("SampleTimeFine")
+    ('time (s)', 'time')
+    >>> clock_name("PacketCounter")
+    """
+    match = _CLOCK.fullmatch(name.strip())
+    return match and (f"time ({match[1]})" if match[1] else "time")
+
+
+def time_unit(column: str) -> str | None:
+    """Return the unit that the name of a column of times tells; None where it tells none."""
+    match = _TIME.fullmatch(column.strip())
+    return match[2].lower() if match and match[2] else None
+
+
+def is_time(column: str) -> bool:
+    """Return whether a column of this name tells times."""
+    return _TIME.fullmatch(column.strip()) is not None
+
+
+def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str | None]:
+    """Return times as seconds, and the unit if it was guessed from their steps.
+
+    Parameters
+    ----------
+    values : (rows,) array_like
+        Numbers, dates of numpy and pandas, or texts.
+    unit : str, optional
+        One of `UNITS_OF_TIME`. By default what numbers of this size since 1970 must be, else
+        seconds, else the coarsest unit in which there are four rows a second.
+
+    Returns
+    -------
+    seconds : (rows,) array
+        NaN where there is no time.
+    guessed : str or None
+
+    Raises
+    ------
+    ValueError, TypeError
+        They are no times.
+
+    Examples
+    --------
+    >>> as_seconds([81_000_000_000, 81_020_000_000, 81_040_000_000])
+    (array([81.  , 81.02, 81.04]), 'ns')
+    """
+    times = np.asarray(values)
+    zone = getattr(getattr(values, "dtype", None), "tz", None)
+    if zone is not None:  # pandas gives objects for dates with a time zone
+        times = np.asarray(values, "M8[ns]")
+    if times.dtype.kind in "mM":
+        stamps = times.astype(f"{times.dtype.kind}8[ns]")
+        return np.where(np.isnat(stamps), np.nan, stamps.astype(np.int64) / 1e9), None
+    if times.dtype.kind in "OUS":
+        if any(isinstance(value, str) for value in times.ravel()[:9]):
+            return np.array([_nan_or_date(value) for value in times.tolist()]), None
+        if any(isinstance(value, datetime) for value in times.ravel()[:9]):
+            return np.array([_seconds_of(value) for value in times.tolist()]), None
+    numbers = np.asarray(times, np.float64)
+    if unit or (unit := _unit_since_1970(numbers)):
+        return numbers / UNITS_OF_TIME[unit], None
+    guessed = _unit_of_steps(numbers)
+    return numbers / UNITS_OF_TIME[guessed or "s"], guessed
+
+
+def is_date(text: str) -> bool:
+    """Return whether a cell holds a date or a time of day."""
+    try:
+        date_seconds(text)
+    except ValueError:
+        return False
+    return True
+
+
+def date_seconds(text: str, *, day_first: bool | None = None) -> float:
+    """Seconds since 1970, or since midnight for a time of day; ValueError if it is neither.
+
+    A leap second, ``23:59:60``, is the first of the next minute, as clocks since 1970 count.
+    ``day_first`` is what `day_comes_first` found; None for what is usual.
+    """
+    if not any(mark in text for mark in "-:"):
+        raise ValueError(f"{text[:40]!r} is no ISO date")
+    if leap := _LEAP.search(text):
+        before = f"{text[: leap.start()]}59{text[leap.end() :]}"
+        return date_seconds(before, day_first=day_first) + 1
+    try:
+        when = datetime.fromisoformat(text)
+    except ValueError:
+        if written := _WRITTEN.fullmatch(text):
+            when = datetime.fromisoformat(_iso(written, day_first))
+        else:
+            when = datetime.combine(datetime(1970, 1, 1).date(), _time_of_day(text))  # noqa: DTZ001
+    return (when if when.tzinfo else when.replace(tzinfo=UTC)).timestamp()
+
+
+def day_comes_first(texts: Sequence[str]) -> bool | None:
+    """Return whether days stand before months in dates of numbers that end in the year.
+
+    None where they are written otherwise, or each could be either.
+
+    Examples
+    --------
+    >>> day_comes_first(["5/6/2026 23:59:59", "13/6/2026 0:00:00"])
+    True
+    >>> day_comes_first(["5/6/2026 1:00"])
+    """
+    for text in texts:
+        match = _WRITTEN.fullmatch(text)
+        if match and max(int(match["first"]), int(match["second"])) > 12:
+            return int(match["first"]) > 12
+    return None
+
+
+def is_ambiguous(text: str) -> bool:
+    """Return whether a date names day and month in an order that it does not tell."""
+    match = _WRITTEN.fullmatch(text)
+    if match is None or len(match["first"]) == 4 or match["mark"] == ".":
+        return False
+    return match["second"].isdigit()
+
+
+def _nan_or_date(value: Any) -> float:
+    """As `date_seconds`; NaN for None and empty text."""
+    return date_seconds(value.strip()) if value and value.strip() else np.nan
+
+
+def _iso(date: re.Match[str], day_first: bool | None) -> str:
+    """Return a date as ISO 8601 writes it."""
+    first, second, third = date["first"], date["second"].lower(), date["third"]
+    if len(first) == 4:
+        year, month, day = first, second, third
+    else:
+        if day_first is None:
+            day_first = date["mark"] != "/" or int(first) > 12
+        year = third if len(third) == 4 else f"20{third}"
+        month, day = (second, first) if day_first or second in _MONTHS else (first, second)
+    if month in _MONTHS:
+        month = str(_MONTHS.index(month) + 1)
+    hour = int(date["hour"])
+    if date["half"]:
+        hour = hour % 12 + 12 * (date["half"].lower() == "p")
+    zone = date["zone"] or ""
+    return f"{year}-{int(month):02}-{int(day):02}T{hour:02}{date['rest']}{zone}"
+
+
+def _time_of_day(text: str) -> time:
+    try:
+        return time.fromisoformat(text)
+    except ValueError:
+        raise ValueError(f"{text[:40]!r} is no ISO date such as 2026-01-31T09:30:00.25") from None
+
+
+def _seconds_of(value: Any) -> float:
+    """Return a date of Python or pandas as seconds since 1970, UTC without a zone."""
+    if not isinstance(value, datetime) or value != value:  # noqa: PLR0124 (what is no time)
+        return np.nan
+    return (value if value.tzinfo else value.replace(tzinfo=UTC)).timestamp()
+
+
+def _unit_since_1970(numbers: Floats) -> str | None:
+    """Return the unit in which these numbers are dates of this century; None for others."""
+    finite = numbers[np.isfinite(numbers)]
+    middle = float(np.median(finite)) if len(finite) else 0.0
+    units = ("s", "ms", "us", "ns")
+    return next((u for u in units if _EPOCH[0] <= middle / UNITS_OF_TIME[u] < _EPOCH[1]), None)
+
+
+def _unit_of_steps(numbers: Floats) -> str | None:
+    """Return the unit in which steps are of a sensor's rate; None where they may be seconds."""
+    finite = np.sort(numbers[np.isfinite(numbers)])
+    steps = np.diff(finite)
+    steps = steps[steps > 0]
+    # Steps of one are a count of rows, or seconds.
+    step = float(np.median(steps)) if len(steps) > 1 else 0.0
+    if step < 2:
+        return None
+    return next((u for u in ("ms", "us") if UNITS_OF_TIME[u] >= _SLOWEST * step), "ns")
