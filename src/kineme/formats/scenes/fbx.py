@@ -65,12 +65,14 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     fps, rated = _rate(scene, take, joints, options)
     at = _frames(scene, take, joints, fps)
     turn, turned = _turn(scene, options)
+    pose = Pose(scene, take, Sampler(at))
     notes = [f"FBX {version // 1000}.{version % 1000 // 100}", *notes, *character.notes]
     return assemble(
         content,
         nodes,
         character.joints,
-        Pose(scene, take, Sampler(at)).transform,
+        pose.transform,
+        pose.rest,
         len(at),
         fps,
         unit=options.unit or _unit(scene),
@@ -78,6 +80,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         provenance=content.provenance("FBX", [*notes, *rated, *turned])
         .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
+        numbers=[model.number for model in scene.models],
     )
 
 

@@ -26,8 +26,7 @@ from kineme.formats.scenes.assembly import (
     Transform,
     assemble,
     claim_frames,
-    orthogonal,
-    quaternions,
+    decompose,
 )
 from kineme.formats.scenes.characters import (
     SceneNode,
@@ -114,6 +113,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         nodes,
         character.joints,
         transform,
+        lambda j: Transform(*_rest(objects[j]).values()),
         len(at),
         fps,
         unit=options.unit or 1.0,
@@ -121,6 +121,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         provenance=content.provenance("glTF", [*notes, *character.notes, *rated])
         .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
+        numbers=order,
     )
 
 
@@ -227,13 +228,9 @@ def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> T
 def _rest(node: SceneObject) -> dict[str, Floats]:
     """Translation, rotation (w, x, y, z) and scale of a node without an animation."""
     if node.matrix is not None and len(node.matrix) == 16:
-        matrix = np.array(node.matrix).reshape(4, 4).T  # columns are stored one after another
-        scale = np.linalg.norm(matrix[:3, :3], axis=0)
-        # A reflection: it belongs to the scale, so that the axes are a rotation.
-        if np.linalg.det(matrix[:3, :3]) < 0:
-            scale = -scale
-        axes = orthogonal((matrix[:3, :3] / np.where(scale == 0, 1, scale))[None])
-        return {TRANSLATION: matrix[:3, 3], ROTATION: quaternions(axes)[0], SCALE: scale}
+        # Columns are stored one after another.
+        found = decompose(np.array(node.matrix).reshape(4, 4).T)
+        return dict(zip((TRANSLATION, ROTATION, SCALE), found, strict=False))
     turn = np.roll(_numbers(node.rotation, [0.0, 0.0, 0.0, 1.0]), 1)
     norm = np.linalg.norm(turn)
     return {
