@@ -15,10 +15,11 @@ from __future__ import annotations
 import numpy as np
 
 from kineme._util.arrays import Floats
+from kineme._util.rotations import quaternions
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames, quaternions
+from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames
 from kineme.formats.scenes.characters import character_of, choose_take, lively_takes
 from kineme.formats.scenes.fbx_curves import SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx

@@ -28,6 +28,7 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
 from kineme._util.files import translate_read_errors
+from kineme._util.rotations import quaternions
 from kineme.errors import KinemeError, ReadError
 from kineme.formats.files import FileContent, load, unique
 from kineme.formats.options import ReadOptions
@@ -37,7 +38,6 @@ from kineme.formats.scenes.assembly import (
     assemble,
     claim_frames,
     orthogonal,
-    quaternions,
 )
 from kineme.formats.scenes.characters import SceneNode, character_of, choose_take, is_end
 from kineme.formats.scenes.usd_layers import LONGEST, SUFFIXES, open_stage
