@@ -64,6 +64,9 @@ class Format:
         much sooner than ``read``; None where that cannot be.
     write_animations : callable, optional
         From motions of one skeleton, by their names, to a path; for formats that hold several.
+    copy_animations : callable, optional
+        From the same and the file that they came from to a path: a copy of that file with these
+        animations instead of its own.
 
     Examples
     --------
@@ -84,6 +87,7 @@ class Format:
     analog: bool = False
     sketch: Callable[[FileContent, ReadOptions, int], Sketch | None] | None = None
     write_animations: Callable[[Mapping[str, Motion], Path], None] | None = None
+    copy_animations: Callable[[Mapping[str, Motion], Path, Path], None] | None = None
 
     def __post_init__(self) -> None:
         check_suffixes(self.suffixes, self.name)

@@ -74,3 +74,39 @@ def align_to_rest(motion: Motion) -> Motion:
     # What rounding leaves of a bone of no length would be a bone.
     offsets[np.abs(offsets) < 1e-12] = 0.0
     return replace(motion, skeleton=replace(skeleton, offsets=offsets), rotations=local)
+
+
+def add_root(motion: Motion) -> Motion:
+    """Return the motion with a joint above its roots that stays at the origin, called ``root``."""
+    skeleton, n = motion.skeleton, motion.n_frames
+    name = "root"
+    while name in skeleton.names:
+        name += "_"
+    rig = rig_of(skeleton)
+    at = rig.above
+    # Joints that hung on what carries the body, or on nothing, hang on the new one.
+    parents = [p + 1 if p >= at else at if node >= at else p for node, p in enumerate(rig.parents)]
+    turn = rig.turn if at == 0 else rot.multiply(rig.turn, rig.world[1][at - 1])
+    rig = replace(
+        rig,
+        names=(*rig.names[:at], name, *rig.names[at:]),
+        parents=(*parents[:at], at - 1, *parents[at:]),
+        translations=np.insert(rig.translations, at, 0.0, axis=0),
+        rotations=np.insert(rig.rotations, at, rot.IDENTITY, axis=0),
+        scales=np.insert(rig.scales, at, 1.0, axis=0),
+        # At rest its axes are those of the world.
+        axes=np.concatenate([rot.conjugate(turn)[None], rig.axes]),
+        numbers=(*rig.numbers[:at], -1, *rig.numbers[at:]) if rig.numbers else (),
+    )
+    rooted = Skeleton(
+        (name, *skeleton.names),
+        (-1, *(parent + 1 for parent in skeleton.parents)),
+        np.insert(skeleton.offsets, 0, 0.0, axis=0),
+        frozenset(end + 1 for end in skeleton.end_sites),
+        rig,
+    )
+    rotations = motion.rotations
+    if rotations is not None:
+        rotations = np.concatenate([np.broadcast_to(rot.IDENTITY, (n, 1, 4)), rotations], axis=1)
+    positions = np.concatenate([np.zeros((n, 1, 3)), motion.positions], axis=1)
+    return replace(motion, skeleton=rooted, positions=positions, rotations=rotations)

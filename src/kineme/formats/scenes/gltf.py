@@ -36,6 +36,7 @@ from kineme.formats.scenes.characters import (
     is_end,
     lively_takes,
 )
+from kineme.formats.scenes.gltf_copy import copy_animations
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
 from kineme.formats.scenes.gltf_writer import EXTRAS, write_animations, write_gltf
 from kineme.formats.scenes.sampling import find_keys
@@ -296,4 +297,5 @@ FORMAT = Format(
     read_gltf,
     write_gltf,
     write_animations=write_animations,
+    copy_animations=copy_animations,
 )

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -64,24 +64,36 @@ def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
 
     A ``.gltf`` has its buffer in it.
     """
+    file = _Writer(check_animations(motions, path), path)
+    for name, motion in motions.items():
+        file.animate(name, motion)
+    save_gltf(file.tree, bytes(file.data), path)
+
+
+def check_animations(motions: Mapping[str, Motion], path: Path) -> Motion:
+    """Return the first of motions that are to be written as animations of one skeleton.
+
+    WriteError where one has no rotations or another skeleton.
+    """
     first = next(iter(motions.values()))
     for motion in motions.values():
         rotations_of(motion, path, "a glTF")
         if motion.skeleton is not first.skeleton and not _same(motion.skeleton, first.skeleton):
             raise WriteError(path, "its animations are of different skeletons: write several files")
     warn_of_gaps(motions.values(), path)
-    file = _Writer(first, path)
-    for name, motion in motions.items():
-        file.animate(name, motion)
-    buffer: dict[str, Any] = {"byteLength": len(file.data)}
+    return first
+
+
+def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
+    """Leave the JSON and its only buffer in a GLB, or in a ``.gltf`` with the buffer in it."""
+    buffer: dict[str, Any] = {"byteLength": len(data)}
     binary = path.suffix.lower() != ".gltf"
     if not binary:
-        stored = base64.b64encode(file.data).decode()
+        stored = base64.b64encode(data).decode()
         buffer["uri"] = f"data:application/octet-stream;base64,{stored}"
-    tree = {**file.tree, "buffers": [buffer]}
-    text = json.dumps(tree, ensure_ascii=False, separators=(",", ":")).encode()
+    text = json.dumps({**tree, "buffers": [buffer]}, ensure_ascii=False, separators=(",", ":"))
     with atomic_write(path) as draft:
-        draft.write_bytes(_glb(text, bytes(file.data)) if binary else text)
+        draft.write_bytes(_glb(text.encode(), data) if binary else text.encode())
 
 
 def _same(one: Skeleton, other: Skeleton) -> bool:
@@ -89,13 +101,82 @@ def _same(one: Skeleton, other: Skeleton) -> bool:
     return same and np.allclose(one.offsets, other.offsets, atol=RIGID)
 
 
-class _Writer:
+class Animator:
+    """Adds animations to the JSON and the buffer of a file.
+
+    ``numbers`` are those of the nodes of the joints.
+    """
+
+    def __init__(
+        self, skeleton: Skeleton, rig: Rig, numbers: Sequence[int], tree: dict[str, Any]
+    ) -> None:
+        self.skeleton, self.rig, self.numbers, self.tree = skeleton, rig, numbers, tree
+        self.data = bytearray()
+        self.free_views: list[int] = []
+        self.free_accessors: list[int] = []
+
+    def animate(self, name: str, motion: Motion) -> None:
+        """Add a motion of the same skeleton."""
+        skeleton, n, rig = self.skeleton, motion.n_frames, self.rig
+        shifts, turns = pose_rig(motion, rig)
+        # Joints that leave their place at rest; the size of each one's parent tells how far.
+        away = np.abs(shifts - rig.translations[rig.above :]).max(axis=(0, 2))
+        still = np.ptp(shifts, axis=0).max(axis=1)
+        nodes = range(rig.above, len(rig.names))
+        sizes = np.array([rig.parent_world(node, *rig.world)[2] for node in nodes])
+        limit = RIGID / rig.unit / sizes
+        seconds = self.accessor(np.arange(n)[:, None] / motion.fps, _KEYS, bounds=True)
+        start = self.accessor(np.zeros((1, 1)), _KEYS, bounds=True) if n > 1 else seconds
+        channels: list[dict[str, Any]] = []
+        samplers: list[dict[str, Any]] = []
+
+        def add(joint: int, what: str, values: Floats) -> None:
+            target = {"node": self.numbers[joint], "path": what}
+            channels.append({"sampler": len(samplers), "target": target})
+            keys = {"input": start if len(values) == 1 else seconds}
+            samplers.append({**keys, "output": self.accessor(values, _KEYS)})
+
+        for j in range(skeleton.n_joints):
+            if away[j] > limit[j] or skeleton.parents[j] < 0:
+                # A place that is another than at rest, but always the same, needs one key.
+                add(j, "translation", shifts[: 1 if still[j] < limit[j] else n, j])
+            if j not in skeleton.end_sites:
+                # The format has w last.
+                add(j, "rotation", np.roll(_steady(turns[:, j]), -1, axis=1))
+        self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
+
+    def accessor(
+        self, values: NDArray[Any], target: int | None, kind: int = _FLOAT, *, bounds: bool = False
+    ) -> int:
+        """Keep an array (elements, numbers of each); its number."""
+        codes = {_FLOAT: "<f4", _BYTE: "<u1", _SHORT: "<u2", _INT: "<u4"}
+        stored = np.ascontiguousarray(values, codes[kind])
+        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": stored.nbytes}
+        if target is not None:
+            view["target"] = target
+        self.data += stored.tobytes()
+        # Accessors must begin at multiples of four bytes.
+        self.data += bytes(-len(self.data) % 4)
+        accessor: dict[str, Any] = {
+            "bufferView": _put(self.tree["bufferViews"], view, self.free_views),
+            "componentType": kind,
+            "count": len(stored),
+            "type": _TYPES[stored.shape[1]],
+        }
+        # The format demands the extent of times and positions.
+        if bounds:
+            accessor |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
+        return _put(self.tree["accessors"], accessor, self.free_accessors)
+
+
+class _Writer(Animator):
     """Gathers the parts of a file."""
 
     def __init__(self, motion: Motion, path: Path) -> None:
-        self.skeleton = motion.skeleton
-        self.data = bytearray()
-        self.tree: dict[str, Any] = {
+        skeleton = motion.skeleton
+        # Lengths are metres in a glTF, and y is up.
+        rig = rig_of(skeleton).to_metres()
+        tree: dict[str, Any] = {
             "asset": {
                 "version": "2.0",
                 "generator": f"kineme {__version__}",
@@ -107,9 +188,7 @@ class _Writer:
             "animations": [],
         }
         # Those above the joints come behind them, so that a joint's number is that of its node.
-        self.rig = rig_of(self.skeleton).to_metres()
-        self.joints = range(self.rig.above, len(self.rig.names))
-        self.numbers = range(self.skeleton.n_joints)
+        super().__init__(skeleton, rig, range(skeleton.n_joints), tree)
         self.tree["nodes"] = self._nodes(path)
         n = len(self.tree["nodes"])
         self.tree["nodes"].append({"name": f"{path.stem}_mesh", "mesh": 0, "skin": 0})
@@ -169,58 +248,15 @@ class _Writer:
             }
         ]
 
-    def animate(self, name: str, motion: Motion) -> None:
-        """Add a motion of the same skeleton."""
-        skeleton, n, rig = self.skeleton, motion.n_frames, self.rig
-        shifts, turns = pose_rig(motion, rig)
-        # Joints that leave their place at rest; the size of each one's parent tells how far.
-        away = np.abs(shifts - rig.translations[rig.above :]).max(axis=(0, 2))
-        still = np.ptp(shifts, axis=0).max(axis=1)
-        limit = RIGID / np.array([rig.parent_world(node, *rig.world)[2] for node in self.joints])
-        seconds = self.accessor(np.arange(n)[:, None] / motion.fps, _KEYS, bounds=True)
-        start = self.accessor(np.zeros((1, 1)), _KEYS, bounds=True) if n > 1 else seconds
-        channels: list[dict[str, Any]] = []
-        samplers: list[dict[str, Any]] = []
 
-        def add(joint: int, what: str, values: Floats) -> None:
-            target = {"node": self.numbers[joint], "path": what}
-            channels.append({"sampler": len(samplers), "target": target})
-            keys = {"input": start if len(values) == 1 else seconds}
-            samplers.append({**keys, "output": self.accessor(values, _KEYS)})
-
-        for j in range(skeleton.n_joints):
-            if away[j] > limit[j] or skeleton.parents[j] < 0:
-                # A place that is another than at rest, but always the same, needs one key.
-                add(j, "translation", shifts[: 1 if still[j] < limit[j] else n, j])
-            if j not in skeleton.end_sites:
-                # The format has w last.
-                add(j, "rotation", np.roll(_steady(turns[:, j]), -1, axis=1))
-        self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
-
-    def accessor(
-        self, values: NDArray[Any], target: int | None, kind: int = _FLOAT, *, bounds: bool = False
-    ) -> int:
-        """Keep an array (elements, numbers of each); its number."""
-        codes = {_FLOAT: "<f4", _BYTE: "<u1", _SHORT: "<u2", _INT: "<u4"}
-        stored = np.ascontiguousarray(values, codes[kind])
-        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": stored.nbytes}
-        if target is not None:
-            view["target"] = target
-        self.data += stored.tobytes()
-        # Accessors must begin at multiples of four bytes.
-        self.data += bytes(-len(self.data) % 4)
-        self.tree["bufferViews"].append(view)
-        accessor: dict[str, Any] = {
-            "bufferView": len(self.tree["bufferViews"]) - 1,
-            "componentType": kind,
-            "count": len(stored),
-            "type": _TYPES[stored.shape[1]],
-        }
-        # The format demands the extent of times and positions.
-        if bounds:
-            accessor |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
-        self.tree["accessors"].append(accessor)
-        return len(self.tree["accessors"]) - 1
+def _put(parts: list[Any], part: Any, free: list[int]) -> int:
+    """Keep a part in a list of the JSON, at a number that is free; its number."""
+    if free:
+        number = free.pop(0)
+        parts[number] = part
+        return number
+    parts.append(part)
+    return len(parts) - 1
 
 
 def transform_of(rig: Rig, node: int) -> dict[str, Any]:
