@@ -39,7 +39,7 @@ def test_split_takes_the_segments_it_would_find(kineme, tmp_path: Path) -> None:
 def test_the_best_loops_in_place_straight_and_mirrored(kineme, tmp_path: Path) -> None:
     options = ("--segments", bundled_truth(), "--level", "primitive", "--loop", "--format", "glb")
     done = kineme("split", bundled_recording(), *options, "--best", 1, "-o", "best", "-q",
-                  "--in-place", "--straight", "--mirror")  # fmt: skip
+                  "--root-motion", "in-place", "--straight", "--mirror")  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
     told = json.loads((tmp_path / "best" / "manifest.json").read_text(encoding="utf-8"))["clips"]
     assert {clip["rank"] for clip in told} == {1}

@@ -35,7 +35,11 @@ Confidence = Annotated[
 ]
 Take = Annotated[
     str | None,
-    option(READING_OPTIONS, "Which of several animations, by name or number.", metavar="NAME"),
+    option(
+        READING_OPTIONS,
+        "Which of several animations, by name or number; all for each of them.",
+        metavar="NAME",
+    ),
 ]
 Effectors = Annotated[
     str | None,

@@ -126,10 +126,12 @@ class Request:
         return read(path, **self.reading)
 
     def of_each_person(self, path: Path) -> list[tuple[str, Request]]:
-        """Return the people in a file where all are asked for, and what is asked of each of them.
+        """Return the people and takes in a file where all are asked for, and what is asked of each.
 
-        A single one, or the one who was named, goes without a name.
+        A single one, or the one that was named, goes without a name.
         """
+        if self.reading.get("take") == EVERYBODY:
+            return self._of_each_take(path)
         everybody, others = split_everybody(self.reading)
         if not everybody:
             return [("", self)]
@@ -139,6 +141,21 @@ class Request:
         if not people:
             return [("", replace(self, reading=others))]
         return [(who, replace(self, reading={**others, "person": who})) for who in people]
+
+    def _of_each_take(self, path: Path) -> list[tuple[str, Request]]:
+        """Return the same where all takes are asked for; names are those of take and person."""
+        from kineme.formats import ReadOptions, takes_in
+
+        _, others = split_everybody(self.reading)
+        del others["take"]
+        takes: Sequence[str | None] = takes_in(path, ReadOptions(**others)) or (None,)
+        found = []
+        for take in takes:
+            reading = {name: value for name, value in self.reading.items() if name != "take"}
+            asked = replace(self, reading=reading | ({} if take is None else {"take": take}))
+            for who, each in asked.of_each_person(path):
+                found.append(("_".join(filter(None, (take, who))), each))
+        return found
 
     def read_motion(self, path: Path) -> Motion:
         """Return the motion in a file; ReadError for signals, which have no body to compare."""
