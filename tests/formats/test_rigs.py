@@ -9,7 +9,8 @@ import pytest
 
 import kineme
 from kineme.errors import MotionError
-from kineme.formats.read_write import read_motion
+from kineme.formats.read_write import read_motion, takes_in
+from kineme.formats.scenes.fbx_writer import write_takes
 from kineme.recordings import Motion
 from kineme.recordings.operations import scale
 from kineme.recordings.posing import align_to_rest, pose_rig, rig_of
@@ -110,3 +111,30 @@ def test_a_negative_scale_is_no_rig() -> None:
     one = np.array([[1.0, 0.0, 0.0, 0.0]])
     with pytest.raises(MotionError, match="not one positive number"):
         Rig(("hips",), (-1,), np.zeros((1, 3)), one, -np.ones((1, 3)), one)
+
+
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+@pytest.mark.parametrize("name", RIGGED)
+def test_an_fbx_has_the_rest_pose_and_the_places(data_dir: Path, tmp_path: Path, name: str) -> None:
+    motion = read(data_dir, name)
+    kineme.write(motion, tmp_path / "clip.fbx")
+    again = read_motion(tmp_path / "clip.fbx")
+    assert again.fps == motion.fps
+    here, there = shared(motion, again)
+    assert len(here) == motion.skeleton.n_joints
+    np.testing.assert_allclose(again.positions[:, there], motion.positions[:, here], atol=NEAR)
+    rest, found = (rig_of(each.skeleton).rest()[0] for each in (motion, again))
+    np.testing.assert_allclose(found[there], rest[here], atol=1e-9)
+
+
+def test_an_fbx_has_a_take_for_each_motion(tmp_path: Path) -> None:
+    motion = kineme.read(kineme.bundled_recording())
+    path = tmp_path / "takes.fbx"
+    write_takes({"walk": motion[:60], "jump": motion[300:420]}, path)
+    with pytest.warns(kineme.errors.KinemeWarning, match="2 takes are in it and 'walk' is read"):
+        assert read_motion(path).n_frames == 60
+    jump = read_motion(path, take="jump")
+    assert takes_in(path) == ("walk", "jump")
+    there = [jump.joint(each) for each in motion.skeleton.names]
+    np.testing.assert_allclose(jump.positions[:, there], motion.positions[300:420], atol=NEAR)
+    assert jump.fps == motion.fps

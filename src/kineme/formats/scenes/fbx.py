@@ -6,6 +6,8 @@ and does not play it faster. Unit and axes are those of the file (``UnitScaleFac
 Meshes, cameras, lights and constraints are passed over: a rig that is moved by these is baked to
 keys when it is exported.
 
+What is written is described in `kineme.formats.scenes.fbx_writer`.
+
 See `kineme.formats.scenes.characters` for what counts as a character,
 `kineme.formats.scenes.fbx_scene` for how its joints are placed.
 """
@@ -21,23 +23,14 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames
 from kineme.formats.scenes.characters import character_of, choose_take, lively_takes
-from kineme.formats.scenes.fbx_curves import SLACK, TICKS, Sampler
+from kineme.formats.scenes.fbx_curves import CUSTOM, RATES, SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx
 from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
 from kineme.formats.scenes.fbx_text import TEXT
+from kineme.formats.scenes.fbx_writer import write_fbx, write_takes
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
-
-RATES = {
-    1: 120.0, 2: 100.0, 3: 60.0, 4: 50.0, 5: 48.0, 6: 30.0, 7: 30.0, 8: 30 / 1.001, 9: 30 / 1.001,
-    10: 25.0, 11: 24.0, 12: 1000.0, 13: 24 / 1.001, 15: 96.0, 16: 72.0, 17: 60 / 1.001,
-    18: 120 / 1.001,
-}  # fmt: skip
-"""Frames per second of a ``TimeMode``."""
-
-CUSTOM = 14
-"""``TimeMode`` whose rate is in ``CustomFrameRate``."""
 
 USUAL_RATE = 30.0
 """Of files that tell none, and have no keys that do."""
@@ -175,4 +168,6 @@ FORMAT = Format(
     (".fbx",),
     lambda head: head.startswith(MAGIC) or TEXT.search(head) is not None,
     read_fbx,
+    write_fbx,
+    write_animations=write_takes,
 )

@@ -70,14 +70,14 @@ def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
     save_gltf(file.tree, bytes(file.data), path)
 
 
-def check_animations(motions: Mapping[str, Motion], path: Path) -> Motion:
+def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a glTF") -> Motion:
     """Return the first of motions that are to be written as animations of one skeleton.
 
     WriteError where one has no rotations or another skeleton.
     """
     first = next(iter(motions.values()))
     for motion in motions.values():
-        rotations_of(motion, path, "a glTF")
+        rotations_of(motion, path, what)
         if motion.skeleton is not first.skeleton and not _same(motion.skeleton, first.skeleton):
             raise WriteError(path, "its animations are of different skeletons: write several files")
     warn_of_gaps(motions.values(), path)
