@@ -182,7 +182,7 @@ def test_convert_turns_a_recording_into_another_format(kineme, tmp_path: Path) -
     )
     assert len(shared) > 20
     assert abs(here - there).max() < 1e-3
-    done = kineme("convert", bundled_recording(), "take.fbx")
+    done = kineme("convert", bundled_recording(), "take.mvnx")
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
 
