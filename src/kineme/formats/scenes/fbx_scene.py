@@ -274,7 +274,8 @@ class Pose:
         if self.scene.models[number].number not in self.scene.binds:
             return self.transform(number, animated=False)
         parent = self.scene.models[number].parent
-        return decompose(np.linalg.solve(self._rest_matrix(parent), self._rest_matrix(number)))
+        local = np.linalg.solve(self._rest_matrix(parent), self._rest_matrix(number))
+        return decompose(np.asarray(local, np.float64))
 
     def _rest_matrix(self, number: int) -> Floats:
         """Return the matrix of a node in the world, in the bind pose; the ground is -1."""

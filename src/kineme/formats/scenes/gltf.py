@@ -114,7 +114,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         nodes,
         character.joints,
         transform,
-        lambda j: Transform(*_rest(objects[j]).values()),
+        lambda j: _rest(objects[j]),
         len(at),
         fps,
         unit=options.unit or 1.0,
@@ -218,7 +218,7 @@ def _span(keys: dict[tuple[int, str], Keys], fps: float) -> tuple[float, int]:
 
 def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> Transform:
     """Return a node's transform at these seconds."""
-    rest = _rest(node)
+    rest = dict(zip(_WIDTHS, _rest(node)[:3], strict=True))
     found = {
         what: rest[what] if track is None else _sample_channel(track, at, turns=what == ROTATION)
         for what, track in keys.items()
@@ -226,19 +226,18 @@ def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> T
     return Transform(found[TRANSLATION], found[ROTATION], found[SCALE])
 
 
-def _rest(node: SceneObject) -> dict[str, Floats]:
-    """Translation, rotation (w, x, y, z) and scale of a node without an animation."""
+def _rest(node: SceneObject) -> Transform:
+    """Return the transform of a node without an animation."""
     if node.matrix is not None and len(node.matrix) == 16:
         # Columns are stored one after another.
-        found = decompose(np.array(node.matrix).reshape(4, 4).T)
-        return dict(zip((TRANSLATION, ROTATION, SCALE), found, strict=False))
+        return decompose(np.array(node.matrix).reshape(4, 4).T)
     turn = np.roll(_numbers(node.rotation, [0.0, 0.0, 0.0, 1.0]), 1)
     norm = np.linalg.norm(turn)
-    return {
-        TRANSLATION: _numbers(node.translation, [0.0] * 3),
-        ROTATION: turn / norm if norm > 0 else rot.IDENTITY,
-        SCALE: _numbers(node.scale, [1.0] * 3),
-    }
+    return Transform(
+        _numbers(node.translation, [0.0] * 3),
+        turn / norm if norm > 0 else rot.IDENTITY,
+        _numbers(node.scale, [1.0] * 3),
+    )
 
 
 def _numbers(values: list[float] | None, usual: list[float]) -> Floats:

@@ -76,8 +76,8 @@ def write_amc(motion: Motion, path: Path) -> None:
             blocks.append([f"{bone.name} {row}" for row in rows])
     save(path.with_suffix(".asf"), _asf(bones))
     head = f"# fps {motion.fps!r}\n:FULLY-SPECIFIED\n:DEGREES\n"
-    frames = (f"{i}\n{''.join(lines)}" for i, lines in enumerate(zip(*blocks, strict=True), 1))
-    save(path, [head, *frames])
+    lines = (f"{i}\n{''.join(each)}" for i, each in enumerate(zip(*blocks, strict=True), 1))
+    save(path, [head, *lines])
 
 
 def _bones(
