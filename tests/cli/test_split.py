@@ -39,7 +39,7 @@ def test_split_takes_the_segments_it_would_find(kineme, tmp_path: Path) -> None:
 def test_the_best_loops_in_place_straight_and_mirrored(kineme, tmp_path: Path) -> None:
     options = ("--segments", bundled_truth(), "--level", "primitive", "--loop", "--format", "glb")
     done = kineme("split", bundled_recording(), *options, "--best", 1, "-o", "best", "-q",
-                  "--in-place", "--straight", "--mirror")  # fmt: skip
+                  "--root-motion", "in-place", "--straight", "--mirror")  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
     told = json.loads((tmp_path / "best" / "manifest.json").read_text(encoding="utf-8"))["clips"]
     assert {clip["rank"] for clip in told} == {1}
@@ -182,7 +182,7 @@ def test_convert_turns_a_recording_into_another_format(kineme, tmp_path: Path) -
     )
     assert len(shared) > 20
     assert abs(here - there).max() < 1e-3
-    done = kineme("convert", bundled_recording(), "take.fbx")
+    done = kineme("convert", bundled_recording(), "take.mvnx")
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
 

@@ -98,8 +98,8 @@ def test_clips_in_any_format_that_motions_are_written_in(tmp_path, motion, truth
         paths = split(motion, truth, tmp_path / suffix, cluster=0, format=suffix)
         assert {path.suffix for path in paths} == {f".{suffix}"}
         assert kineme.read(paths[0]).n_frames == truth.activities[0].stop_frame
-    with pytest.raises(ParameterError, match="format is 'fbx': motions are written as amc, bvh"):
-        split(motion, truth, tmp_path / "fbx", format="fbx")
+    with pytest.raises(ParameterError, match="format is 'mvnx': motions are written as amc, bvh"):
+        split(motion, truth, tmp_path / "mvnx", format="mvnx")
     bare = Motion(motion.skeleton, motion.positions, motion.fps)
     with pytest.raises(WriteError, match="a glTF needs rotations"):
         split(bare, truth, tmp_path / "bare", format="glb")

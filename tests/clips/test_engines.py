@@ -48,7 +48,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("engines") / "loops"
     path = kineme.bundled_recording()
     truth = kineme.read_segments(path.with_suffix(".json"))
-    options = {"loops": True, "best": 1, "in_place": True, "close": True, "format": "glb"}
+    options = {"loops": True, "best": 1, "root_motion": "in-place", "close": True, "format": "glb"}
     split(kineme.read(path), truth, place, level="primitive", **options)
     return place
 

@@ -153,7 +153,7 @@ def test_the_best_loops_of_each_cluster_stand_first(tmp_path: Path, motion, trut
 
 
 def test_the_manifest_knows_feet_poses_and_root_motion(tmp_path: Path, motion, truth) -> None:
-    options = {"level": "primitive", "cluster": 0, "loops": True, "in_place": True}
+    options = {"level": "primitive", "cluster": 0, "loops": True, "root_motion": "in-place"}
     paths = split(motion, truth, tmp_path / "walk", format="glb", **options)
     told = manifest(tmp_path / "walk")
     assert len(told) == len(paths)
@@ -181,7 +181,7 @@ def test_a_mirrored_clip_plants_the_other_foot(tmp_path: Path, motion, truth) ->
 
 def test_clips_without_rotations_are_put_in_place_as_those_with(tmp_path, motion, truth) -> None:
     bare = Motion(motion.skeleton, motion.positions, motion.fps)
-    options = {"level": "primitive", "cluster": 0, "in_place": True, "straight": True}
+    options = {"level": "primitive", "cluster": 0, "root_motion": "in-place", "straight": True}
     (path, *_), (other, *_) = (
         split(each, truth, tmp_path / name, format="csv", **options)
         for each, name in ((bare, "bare"), (motion, "turned"))
@@ -191,9 +191,9 @@ def test_clips_without_rotations_are_put_in_place_as_those_with(tmp_path, motion
     assert np.abs(positions - others).max() < 0.05
 
 
-@pytest.mark.parametrize("in_place", [False, True])
-def test_a_closed_loop_ends_where_it_begins(tmp_path: Path, motion, truth, in_place) -> None:
-    options = {"level": "primitive", "cluster": 0, "loops": True, "in_place": in_place}
+@pytest.mark.parametrize("root_motion", ["keep", "in-place"])
+def test_a_closed_loop_ends_where_it_begins(tmp_path: Path, motion, truth, root_motion) -> None:
+    options = {"level": "primitive", "cluster": 0, "loops": True, "root_motion": root_motion}
     opened = split(motion, truth, tmp_path / "open", **options)
     closed = split(motion, truth, tmp_path / "closed", close=True, **options)
     told = {clip["file"]: clip for clip in manifest(tmp_path / "closed")}
@@ -228,7 +228,7 @@ def test_signals_have_no_place(tmp_path: Path) -> None:
     signals = kineme.Signals(np.zeros((60, 2)), 30)
     columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [60]}
     one = kineme.Segmentation.from_columns(columns, n_frames=60, fps=30)
-    with pytest.raises(ParameterError, match="signals have no pose: leave out in_place"):
-        split(signals, one, tmp_path / "clips", in_place=True)
+    with pytest.raises(ParameterError, match="signals have no pose: leave out root_motion"):
+        split(signals, one, tmp_path / "clips", root_motion="in-place")
     split(signals, one, tmp_path / "clips")
     assert manifest(tmp_path / "clips")[0]["root"] is None

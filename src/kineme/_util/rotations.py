@@ -136,6 +136,40 @@ def normalize(q: Floats) -> Floats:
     return np.where(norm > 0, q / np.where(norm > 0, norm, 1.0), IDENTITY)
 
 
+def matrices(rotations: Floats) -> Floats:
+    """Unit quaternions (..., 4) as matrices (..., 3, 3)."""
+    # The rotated unit vectors are the columns.
+    axes = [rotate(rotations, axis) for axis in np.eye(3)]
+    return np.stack(axes, axis=-1)
+
+
+def quaternions(axes: Floats) -> Floats:
+    """Rotation matrices (frames, 3, 3) as unit quaternions: the largest component first.
+
+    Source: S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1, 1978.
+    """
+    # Four times the squares of the components follow from trace and diagonal.
+    trace = np.trace(axes, axis1=1, axis2=2)
+    diagonal = np.diagonal(axes, axis1=1, axis2=2)
+    squares = np.column_stack([1 + trace, *(1 + 2 * diagonal - trace[:, None]).T])
+    # The largest component divides best: small ones would lose digits.
+    largest = squares.argmax(axis=1)
+    x = axes[:, 2, 1] - axes[:, 1, 2], axes[:, 0, 2] - axes[:, 2, 0], axes[:, 1, 0] - axes[:, 0, 1]
+    xy, yz, zx = (axes[:, i, j] + axes[:, j, i] for i, j in ((0, 1), (1, 2), (2, 0)))
+    w2, x2, y2, z2 = squares.T
+    rows = np.stack(
+        [
+            np.column_stack([w2, *x]),
+            np.column_stack([x[0], x2, xy, zx]),
+            np.column_stack([x[1], xy, y2, yz]),
+            np.column_stack([x[2], zx, yz, z2]),
+        ]
+    )
+    # The row that belongs to the largest component of each rotation.
+    found = rows[largest, np.arange(len(axes))]
+    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True), np.float64)
+
+
 def components(array: Floats) -> tuple[Floats, ...]:
     """Return the slices of the last axis."""
     return tuple(array[..., i] for i in range(array.shape[-1]))

@@ -16,7 +16,7 @@ from kineme.cli.messages import Failures
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import ALL_PEOPLE, READING, Quiet
+from kineme.cli.options.reading import EVERYTHING, READING, Quiet
 from kineme.cli.segment import read_and_segment
 from kineme.errors import ParameterError
 from kineme.formats import read_analog
@@ -118,7 +118,7 @@ def cycles(
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
     _check_targets(output, plot, compare, sides)
-    if compare is not None and len(batch.paths) != 2 and read_options.person != ALL_PEOPLE:
+    if compare is not None and len(batch.paths) != 2 and read_options.person != EVERYTHING:
         raise typer.BadParameter("takes two recordings", param_hint="--compare")
     if common and segments is None:
         reason = "is for tables whose clusters have numbers in common: give them with --segments"

@@ -15,6 +15,7 @@ from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import READING, Quiet
 from kineme.cli.options.targets import make_folder_of
 from kineme.cli.segment import read_and_segment
+from kineme.clips import RootMotionMode
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.table import Level
@@ -29,7 +30,7 @@ def split(
         Path,
         option(
             OUTPUT,
-            "Folder to make; of several recordings each has a folder in it, or a path with {name}.",
+            "Folder to make, or a .glb for all clips; of several recordings a path with {name}.",
             "--output",
             "-o",
         ),
@@ -42,9 +43,10 @@ def split(
     best: Annotated[
         int | None, option(OUTPUT, "Of loops: so many of each cluster.", "--best", min=1)
     ] = None,
-    in_place: Annotated[
-        bool, option(OUTPUT, "Put clips to the origin, without root motion.", "--in-place")
-    ] = False,
+    root_motion: Annotated[
+        RootMotionMode,
+        option(OUTPUT, "Keep it, move it to a root bone, or put clips to the origin without it."),
+    ] = "keep",
     straight: Annotated[
         bool, option(OUTPUT, "Take the turn out of each clip.", "--straight")
     ] = False,
@@ -88,13 +90,14 @@ def split(
             loops=loop,
             format=to_format,
             best=best,
-            in_place=in_place,
+            root_motion=root_motion,
             straight=straight,
             mirror=mirror,
             close=close,
         )
         if not quiet:
-            where = "; manifest.csv tells how good each loop is (cost, less is better)" * loop
+            loop_table = loop and folder.is_dir()
+            where = "; manifest.csv tells how good each loop is (cost, less is better)" * loop_table
             typer.echo(f"{format_count(len(clips), 'clip')} in {folder}{where}")
 
     for path, folder in zip(batch.paths, folders, strict=True):

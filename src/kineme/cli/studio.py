@@ -12,7 +12,7 @@ from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.declare import add_options, are_given
 from kineme.cli.options.method import Effectors
-from kineme.cli.options.reading import ALL_PEOPLE, BODY
+from kineme.cli.options.reading import BODY, EVERYTHING
 from kineme.errors import ParameterError
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
@@ -67,7 +67,7 @@ def studio(
         from kineme.library.storage.layout import HEAD
         from kineme.studio.server import serve
 
-        if read_options.person == ALL_PEOPLE:
+        if read_options.person == EVERYTHING:
             read_options = replace(read_options, person=None)
             _tell_apart(recordings, read_options)
 

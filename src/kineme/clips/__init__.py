@@ -1,1 +1,6 @@
 """Recordings cut into clips: a file per segment, loops that close, a manifest."""
+
+from typing import Literal
+
+RootMotionMode = Literal["keep", "extract", "in-place"]
+"""What becomes of the root motion of clips: see `kineme.clips.root_motion`."""

@@ -22,6 +22,8 @@ from kineme.clips.loops import Carry
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import heading
 from kineme.recordings import Motion
+from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.posing import add_root, rig_of
 
 STILL = 1e-9
 """Radians a round below which a path is a line."""
@@ -77,6 +79,35 @@ def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion
     return _add_note(settled, "root motion taken out, put to the origin"), removed
 
 
+def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
+    """Return the motion with a root bone on the floor that moves as the root motion does.
+
+    All other joints stay where they are. It is the topmost bone above the hips; one is added
+    where there is none.
+    """
+    _, path, turns = _path(motion, carry)
+    places = _start(motion) + path
+    places[:, 1] = 0.0
+    facing = _facing(_follow_path(motion, carry, np.zeros(3)))
+    if motion.skeleton.parents[motion.skeleton.carrier] < 0:
+        motion = add_root(motion)
+    skeleton = motion.skeleton
+    root = skeleton.ancestry(skeleton.carrier)[0]
+    positions, rotations = np.array(motion.positions), motion.rotations
+    positions[:, root] = places
+    if rotations is not None:
+        world = world_rotations(skeleton, rotations)
+        rotations = np.array(rotations)
+        # Turned as at rest where the body faces +z.
+        rest = rig_of(skeleton).rest()[1][root]
+        rotations[:, root] = rot.multiply(rot.rotate_about_y(turns + facing), rest)
+        for child in skeleton.children[root]:
+            back = rot.conjugate(rotations[:, root])
+            rotations[:, child] = rot.multiply(back, world[:, child])
+    moved = replace(motion, positions=positions, rotations=rotations)
+    return _add_note(moved, "root motion moved to a root bone")
+
+
 def straighten(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
     """Return the motion with its turn taken out, so that the body goes on as it begins."""
     shift = _generator(_move_origin(carry, _start(motion)))
@@ -86,8 +117,18 @@ def straighten(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
 
 def _follow_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
     """Without its root motion, but with an even shift instead."""
+    shares, path, turns = _path(motion, carry)
     start = _start(motion)
-    about = _move_origin(carry, start)
+    target = start + shares[:, None] * shift
+    return _turn_frames(motion, -turns, start + path, target)
+
+
+def _path(motion: Motion, carry: Carry) -> tuple[Floats, Floats, Floats]:
+    """Return the share of a round (frames,), and how far the body went and turned by then.
+
+    The shift is (frames, 3), the turn (frames,) radians.
+    """
+    about = _move_origin(carry, _start(motion))
     speed = _generator(about)
     # The frame after the last one would be share 1, so the end is left out.
     shares = np.linspace(0.0, 1.0, motion.n_frames, endpoint=False)
@@ -95,8 +136,7 @@ def _follow_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
         # Position along the arc: the time times the mean direction so far, times the speed.
         [share * (_arc(share * about.turn) @ speed) for share in shares.tolist()]
     )
-    target = start + shares[:, None] * shift
-    return _turn_frames(motion, shares * -about.turn, start + path, target)
+    return shares, path, shares * about.turn
 
 
 def _turn_frames(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> Motion:

@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
 from kineme._util.arrays import Masks
-from kineme._util.checks import check_flag, is_number
+from kineme._util.checks import check_flag, is_number, is_one_of
+from kineme.clips import RootMotionMode
 from kineme.clips.loops import Carry, carry_of, loop, repeat_first_frame
 from kineme.clips.quality import LoopQuality, distances, loop_quality, ranks, usual_steps
 from kineme.clips.root_motion import (
     RootMotion,
+    extract_root_motion,
     remove_root_motion,
     root_motion,
     straighten,
@@ -42,8 +44,8 @@ class Shape:
         Blend the ends of all but transitions.
     best : int, optional
         Of the loops of a cluster; all by default.
-    in_place : bool
-        Without root motion, at the origin and facing +z.
+    root_motion : {"keep", "extract", "in-place"}
+        As it is; moved to a root bone; or taken out, at the origin and facing +z.
     straight : bool
         Without turning.
     mirror : bool
@@ -54,14 +56,17 @@ class Shape:
 
     loops: bool = False
     best: int | None = None
-    in_place: bool = False
+    root_motion: RootMotionMode = "keep"
     straight: bool = False
     mirror: bool = False
     close: bool = False
 
     def __post_init__(self) -> None:
-        for name in ("loops", "in_place", "straight", "mirror", "close"):
+        for name in ("loops", "straight", "mirror", "close"):
             check_flag(getattr(self, name), name)
+        if not is_one_of(self.root_motion, get_args(RootMotionMode)):
+            modes = ", ".join(get_args(RootMotionMode))
+            raise ParameterError(f"root_motion is {self.root_motion!r:.60}: choose from {modes}")
         best = self.best
         if best is not None:
             if not is_number(best) or best != int(best) or best < 1:
@@ -75,7 +80,8 @@ class Shape:
     def changes(self) -> tuple[str, ...]:
         """Return what was done, in the words of the manifest."""
         given = (
-            ("in place", self.in_place),
+            ("in place", self.root_motion == "in-place"),
+            ("root bone", self.root_motion == "extract"),
             ("straight", self.straight),
             ("mirror", self.mirror),
             ("close", self.close),
@@ -230,7 +236,9 @@ def _shape_clip(
         clip, carry = straighten(clip, carry)
         # The path changed, and with it the root motion.
         root = root_motion(clip, carry)
-    if shape.in_place:
+    if shape.root_motion == "extract":
+        clip = extract_root_motion(clip, carry)
+    elif shape.root_motion == "in-place":
         clip, root = remove_root_motion(clip, carry)
         carry = Carry(0.0, 0.0, 0.0)
     # Before the first frame is repeated, so that `last` is the last frame of the round.

@@ -2,7 +2,9 @@
 
 A clip of a motion is a BVH, or of another format that is asked for; a CSV of joint positions
 where it has no rotations (see `kineme.formats.tables`). Of a format that holds several motions,
-such as GLB, there is one file for each recording, with its clips as animations. A clip of signals
+such as GLB, there is one file for each recording, with its clips as animations; given the path of
+such a file instead of a folder, all clips go there, into a copy of the file that they came from
+where that is of the same format. A clip of signals
 is rows of their own file (see `kineme.formats.channels.writing`). Files are called
 ``RECORDING_NUMBER_TEXT`` (see `kineme.clips.names`), with the text of `kineme.labels.spans`.
 
@@ -34,6 +36,7 @@ from typing import Any, get_args
 
 from kineme._util.checks import is_number, is_one_of
 from kineme._util.files import atomic_folder
+from kineme.clips import RootMotionMode
 from kineme.clips.manifest import Clip, write_manifests
 from kineme.clips.names import file_name, safe_name, unlike
 from kineme.clips.shaping import Shape, ShapedClip, shape_clips
@@ -58,7 +61,7 @@ def split(
     loops: bool = False,
     format: str | None = None,  # noqa: A002 (as in read_segments)
     best: int | None = None,
-    in_place: bool = False,
+    root_motion: RootMotionMode = "keep",
     straight: bool = False,
     mirror: bool = False,
     close: bool = False,
@@ -72,7 +75,8 @@ def split(
     segmentation : Segmentation
         Its segments, of as many frames.
     folder : str or PathLike
-        To be made; one that is there must be empty.
+        To be made; one that is there must be empty. A path that ends as a format that holds several
+        motions, such as ``clips.glb``, is one file with all clips as its animations.
     level : {"activity", "primitive"}, optional
         The segments to take; without a cluster all, transitions too.
     cluster : int, optional
@@ -84,9 +88,9 @@ def split(
     best : int, optional
         Of loops: so many of each cluster, the best ones (see `kineme.clips.quality`), and no
         transitions.
-    in_place : bool, optional
-        Put each clip to the origin, facing +z, and take its root motion out, which the
-        manifest keeps (see `kineme.clips.root_motion`).
+    root_motion : {"keep", "extract", "in-place"}, optional
+        Keep it; move it to a root bone, which is added where there is none; or put each clip to
+        the origin, facing +z, without it (see `kineme.clips.root_motion`). The manifest has it.
     straight : bool, optional
         Take the turn out, so that the body goes straight on.
     mirror : bool, optional
@@ -133,7 +137,7 @@ def split(
         loops=loops,
         format=format,
         best=best,
-        in_place=in_place,
+        root_motion=root_motion,
         straight=straight,
         mirror=mirror,
         close=close,
@@ -147,7 +151,7 @@ def write_clips(
     loops: bool = False,
     format: str | None = None,  # noqa: A002
     best: int | None = None,
-    in_place: bool = False,
+    root_motion: RootMotionMode = "keep",
     straight: bool = False,
     mirror: bool = False,
     close: bool = False,
@@ -158,7 +162,10 @@ def write_clips(
     `split`; loops are ranked among those of their recording.
     """
     target, chosen = Path(folder), _format(format)
-    shape = Shape(loops, best, in_place, straight, mirror, close)
+    shape = Shape(loops, best, root_motion, straight, mirror, close)
+    one_file = writer_of(target.suffix.lower()) if target.suffix else None
+    if one_file is not None and one_file.write_animations is not None and not target.is_dir():
+        return _write_one_file(clips, target, one_file, shape, format)
     entries: list[Clip] = []
     several = chosen is not None and chosen.write_animations is not None
     with atomic_folder(target) as draft:
@@ -185,14 +192,45 @@ def write_clips(
     return [target / clip.file for clip in entries]
 
 
+def _write_one_file(
+    clips: Iterable[tuple[Motion | Signals, Sequence[Segment]]],
+    target: Path,
+    chosen: Format,
+    shape: Shape,
+    suffix: str | None,
+) -> list[Path]:
+    """Leave all clips of a recording in one file, a copy of its own where it is of that format."""
+    if suffix is not None and f".{suffix}" != target.suffix.lower():
+        raise ParameterError(f"format is {suffix!r:.60}, but the file is {target.name!r:.60}")
+    (recording, rows), *others = clips
+    if others:
+        raise ParameterError(f"{target.name} holds clips of one recording: give a folder")
+    if isinstance(recording, Signals):
+        raise ParameterError(f"signals are no animations of {target.name}: give a folder")
+    run = _Run(recording, 0, target.parent, shape.changes)
+    source = Path(run.source)
+    if run.source and source.exists() and target.exists() and source.samefile(target):
+        raise ParameterError(f"{target} would take the place of its recording: give another name")
+    motion = mirrored(recording) if shape.mirror else recording
+    made = list(shape_clips(motion, rows, shape))
+    animations = {run.shaped_clip(each, target.name).name: each.motion for each in made}
+    if not animations:
+        raise ParameterError(f"there is no clip to write to {target.name}")
+    if chosen.copy_animations is not None and chosen.name == recording.provenance.format:
+        chosen.copy_animations(animations, source, target)
+    elif chosen.write_animations is not None:
+        chosen.write_animations(animations, target)
+    return [target] * len(made)
+
+
 def _refuse_poses(shape: Shape, format: str | None) -> None:  # noqa: A002
     """ParameterError where signals are to be treated as bodies."""
     if shape.loops:
         raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
     if shape.changes:
         raise ParameterError(
-            "signals have no pose: leave out in_place, straight and mirror "
-            "(--in-place, --straight, --mirror)"
+            "signals have no pose: leave out root_motion, straight and mirror "
+            "(--root-motion, --straight, --mirror)"
         )
     if format is not None:
         raise ParameterError("signals are rows of their file: leave out format")
@@ -221,7 +259,7 @@ class _Run:
 
     @property
     def stem(self) -> str:
-        return Path(self._path or "recording").stem
+        return Path(self.source or "recording").stem
 
     def file(self, index: int, segment: Segment, suffix: str) -> str:
         """Return the name of the file of one clip, the segment of that place among those given."""
@@ -232,7 +270,7 @@ class _Run:
         return Clip(
             name=safe_name(self.stem, self.first + index, text_of(segment)),
             file=file,
-            source=self._path.encode(errors="backslashreplace").decode(),
+            source=self.source.encode(errors="backslashreplace").decode(),
             segment=segment,
             fps=self.recording.fps,
             **fields,
@@ -255,7 +293,7 @@ class _Run:
         )
 
     @property
-    def _path(self) -> str:
+    def source(self) -> str:
         return str(self.recording.provenance.path or "")
 
 

@@ -2,8 +2,13 @@
 
 The sagittal mirror: x turns its sign, and what the left limbs did the right ones
 do. A person who steps out with the left foot then steps out with the right.
-Both forms agree: the features of the mirrored motion are the mirrored features.
-Mirroring twice changes nothing.
+Both forms agree where left and right are of the same lengths: the features of
+the mirrored motion are the mirrored features. Mirroring twice changes nothing.
+
+The skeleton stays as it is. With G the rotation of a joint in the world, M the
+mirror, k the joint's partner and X the reflection of the partner's axes onto its
+own, the rotation in the mirror is M G[k] X^-1, whichever way bones lie along
+their axes.
 
 Source: Krueger et al. 2017, section V.
 """
@@ -17,15 +22,34 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
+from kineme._util.rotations import matrices, quaternions
 from kineme.errors import MotionError, ParameterError
 from kineme.features.effectors import PARTS
 from kineme.recordings import Motion, Skeleton
+from kineme.recordings.kinematics import forward_kinematics, local_translations
 from kineme.recordings.motion import check_motion
+from kineme.recordings.posing import rig_of
 
 FLIP = np.array([-1.0, 1.0, 1.0])
-FLIP_QUATERNION = np.array([1.0, 1.0, -1.0, -1.0])  # conjugation by that flip
+HALF_TURN = np.array([0.0, 1.0, 0.0, 0.0])  # its opposite is that flip
+FLIPS = np.array([[-1, -1, -1], [-1, 1, 1], [1, -1, 1], [1, 1, -1]], np.float64)
+"""Reflections of axes onto those of the other side, as programs set up rigs; diagonals."""
+
+SYMMETRIC = 0.1
+"""Share of the size of a body by which its sides may differ at rest."""
+
+UPRIGHT = 0.98
+"""Cosine of the angle to an axis, 11 degrees, below which the body's plane lies along that axis."""
+
+SLIDES = 0.01
+"""Metres by which a joint leaves its mean place in its parent's frame and counts as sliding."""
+
+FIT, TWIST, TINY = 4.0, 1e-3, 1e-9
+"""Weights of the children's offsets against the usual rotation, and of a guess against these."""
+
 EXCHANGED = [1, 0, 2, 4, 3]  # ankles and wrists in the order of PARTS
 
 _SIDES = {"left": "right", "right": "left", "l": "r", "r": "l"}
@@ -36,8 +60,9 @@ _SIDE = re.compile(r"(?:(?<![a-zA-Z])|(?<=[a-z])(?=[A-Z]))((?i:left|right|l|r))"
 def mirror(motion: Motion) -> Motion:
     """Return the motion in a mirror that stands in the plane x = 0, left and right exchanged.
 
-    The skeleton keeps its names and is mirrored, too: each left limb gets the
-    lengths of the right one.
+    The skeleton and its rig stay as they are: rotations are what is mirrored. So a left limb that
+    is longer than the right one stays longer, and joints are where the mirror shows them only as
+    far as both sides have the same lengths.
 
     Raises
     ------
@@ -52,17 +77,92 @@ def mirror(motion: Motion) -> Motion:
     True
     """
     check_motion(motion, "mirror")
-    partners = _partners(motion.skeleton)
-    skeleton = replace(motion.skeleton, offsets=motion.skeleton.offsets[partners] * FLIP)
-    rotations = motion.rotations
+    skeleton, partners = motion.skeleton, _partners(motion.skeleton)
+    provenance = motion.provenance.noted("mirrored")
+    positions = motion.positions[:, partners] * FLIP
+    if motion.rotations is None:
+        return replace(motion, positions=positions, provenance=provenance)
+    # A reflection is the opposite of a rotation; of two in a product the signs cancel.
+    flips = _reflect_axes(skeleton, motion.rotations, partners)
+    around = np.array([HALF_TURN if p < 0 else flips[p] for p in skeleton.parents])
+    rotations = rot.multiply(around, motion.rotations[:, partners])
+    rotations = rot.multiply(rotations, rot.conjugate(flips))
+    shifts = local_translations(skeleton, motion.positions, motion.rotations)
+    spread = np.linalg.norm(shifts - shifts.mean(axis=0), axis=2).max(axis=0)
+    # Rigid bones keep their offset, and what they leave it by is mirrored. Of joints that slide,
+    # and of those above the hips, the whole place is.
+    shared = np.array(skeleton.offsets)
+    shared[np.maximum(spread, spread[partners]) > SLIDES] = 0.0
+    shared[skeleton.ancestry(skeleton.carrier)] = 0.0
+    moved = shared - rot.rotate(around, shifts[:, partners] - shared[partners])
+    roots = [joint for joint, parent in enumerate(skeleton.parents) if parent < 0]
+    moved[:, roots] = positions[:, roots]
     return replace(
         motion,
-        skeleton=skeleton,
-        positions=motion.positions[:, partners] * FLIP,
-        # The rotation conjugated by the flip: y and z of the axis change their sign.
-        rotations=None if rotations is None else rotations[:, partners] * FLIP_QUATERNION,
-        provenance=motion.provenance.noted("mirrored"),
+        positions=forward_kinematics(skeleton, rotations, translations=moved),
+        rotations=rotations,
+        provenance=provenance,
     )
+
+
+def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) -> Floats:
+    """Return how the axes of each joint's partner are reflected onto its own.
+
+    Returns
+    -------
+    ndarray of shape (joints, 4)
+        A rotation, whose opposite is the reflection X: with o the offset of a child of the
+        partner, X o is that of the child's partner. X of the partner is the inverse.
+    """
+    places, turns = rig_of(skeleton).rest()
+    frames, means = matrices(turns), [matrices(rotations[:, j]).mean(0) for j in range(len(turns))]
+    image = _image_at_rest(skeleton, places, partners)
+    found = np.empty((skeleton.n_joints, 3, 3))
+    for joint, (other, parent) in enumerate(zip(partners, skeleton.parents, strict=True)):
+        around = np.diag(FLIP) if parent < 0 else found[parent]
+        if other < joint:
+            found[joint] = found[other].T
+            continue
+        if joint in skeleton.end_sites:
+            found[joint] = around
+            continue
+        children = list(skeleton.children[joint])
+        here = skeleton.offsets[children]
+        fit, size = here.T @ skeleton.offsets[[partners[c] for c in children]], np.sum(here**2)
+        if image is not None:
+            near = frames[joint].T @ image @ frames[other]
+        else:
+            # What the joint usually does tells how it is twisted about its bone.
+            usual = FIT * fit / max(size, TINY) + means[joint].T @ around @ means[other]
+            near = np.diag(max(FLIPS, key=lambda flip: float(flip @ np.diag(usual))))
+        # The orthogonal matrix nearest to the fit of the children, then to that guess.
+        u, _, v = np.linalg.svd(fit + max(TWIST * size, TINY) * near)
+        found[joint] = u @ np.diag([1.0, 1.0, -np.linalg.det(u @ v)]) @ v
+    flips = quaternions(-found)
+    for joint, other in enumerate(partners):
+        if other > joint:  # so that the signs of a motion mirrored twice are its own
+            flips[other] = -rot.conjugate(flips[joint])
+    ends = sorted(skeleton.end_sites)
+    flips[ends] = flips[[skeleton.parents[end] for end in ends]]
+    return flips
+
+
+def _image_at_rest(skeleton: Skeleton, places: Floats, partners: list[int]) -> Floats | None:
+    """Return the reflection (3, 3) of a body at rest; None where the rest pose is that of no body.
+
+    So it is in a BVH whose bones lie along their local axes.
+    """
+    apart = places - places[partners]
+    # The direction that most of the lines from left to right have.
+    normal = np.linalg.eigh(apart.T @ apart)[1][:, -1]
+    if np.abs(normal).max() > UPRIGHT:
+        # Bodies are modelled along an axis, up to differences between their sides.
+        normal = np.eye(3)[np.abs(normal).argmax()]
+    image = np.eye(3) - 2 * np.outer(normal, normal)
+    from_hips = (places - places[skeleton.carrier])[list(skeleton.body)]
+    mirrored = (places[partners] - places[skeleton.carrier])[list(skeleton.body)] @ image
+    off = np.linalg.norm(mirrored - from_hips, axis=1).max()
+    return image if off <= SYMMETRIC * np.ptp(from_hips, axis=0).max() else None
 
 
 def mirror_features(features: ArrayLike) -> Floats:

@@ -15,6 +15,7 @@ from kineme.formats.read_write import (
     read_motion,
     read_quietly,
     sketch,
+    takes_in,
     write,
 )
 from kineme.formats.registry import Format, register, supported_formats
@@ -31,5 +32,6 @@ __all__ = [
     "register",
     "sketch",
     "supported_formats",
+    "takes_in",
     "write",
 ]

@@ -143,6 +143,26 @@ def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, .
     return people if len(people) > 1 else ()
 
 
+def takes_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
+    """Return the takes in a scene that move a skeleton, where there are several.
+
+    It is read for it. ReadError where it cannot be.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> takes_in(kineme.bundled_recording())
+    ()
+    """
+    try:
+        takes = read_quietly(path, replace(options or ReadOptions(), take=None)).provenance.takes
+    except SeveralPeopleError as error:
+        # The takes of each of them are the same.
+        first = replace(options or ReadOptions(), take=None, person=error.people[0])
+        takes = read_quietly(path, first).provenance.takes
+    return takes if len(takes) > 1 else ()
+
+
 def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
     """Return the channels beside the motion in a file, such as force plates and muscles.
 

@@ -67,6 +67,9 @@ class Format:
     is_video : bool
         Whether files are videos, of which ``read`` gets the first bytes alone and opens the path.
         Beside a recording of its name a video is no other recording, but shows that one.
+    copy_animations : callable, optional
+        From the same and the file that they came from to a path: a copy of that file with these
+        animations instead of its own.
 
     Examples
     --------
@@ -88,6 +91,7 @@ class Format:
     sketch: Callable[[FileContent, ReadOptions, int], Sketch | None] | None = None
     write_animations: Callable[[Mapping[str, Motion], Path], None] | None = None
     is_video: bool = False
+    copy_animations: Callable[[Mapping[str, Motion], Path, Path], None] | None = None
 
     def __post_init__(self) -> None:
         check_suffixes(self.suffixes, self.name)

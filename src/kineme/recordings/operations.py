@@ -183,9 +183,11 @@ def scale(motion: Motion, factor: float) -> Motion:
     """
     if not (is_number(factor) and factor > 0):
         raise ParameterError(f"factor is {factor!r:.60}: give a number above 0")
+    skeleton = motion.skeleton
+    rig = None if skeleton.rig is None else skeleton.rig.scale(factor)
     return replace(
         motion,
-        skeleton=replace(motion.skeleton, offsets=factor * motion.skeleton.offsets),
+        skeleton=replace(skeleton, offsets=factor * skeleton.offsets, rig=rig),
         positions=factor * motion.positions,
         provenance=motion.provenance.noted(f"scaled by {factor:g}"),
     )

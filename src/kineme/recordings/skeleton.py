@@ -21,6 +21,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_texts, format_count
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.arrays import assign, frozen
+from kineme.recordings.rig import Rig
 
 LIMB = 2
 """Bones below the first joint of a leg, at least: knee to ankle, ankle to toes."""
@@ -40,6 +41,8 @@ class Skeleton:
         From parent to joint at rest, metres.
     end_sites : iterable of int
         The leaves that have no rotation of their own.
+    rig : Rig, optional
+        The nodes of the file that it came from, which writers put back.
 
     Raises
     ------
@@ -58,6 +61,7 @@ class Skeleton:
     parents: tuple[int, ...]
     offsets: Floats
     end_sites: frozenset[int] = frozenset()
+    rig: Rig | None = None
 
     def __post_init__(self) -> None:
         try:
@@ -91,6 +95,8 @@ class Skeleton:
         inner = self.end_sites & ({*self.parents} | {-1} | {*self.end_sites} - {*range(n)})
         if inner:
             raise MotionError(f"end site {min(inner)} is not a leaf of the skeleton")
+        if self.rig is not None and len(self.rig.axes) != n:
+            raise MotionError(f"a rig of {len(self.rig.axes)} joints is not that of {n} joints")
 
     def __repr__(self) -> str:
         ends = f", {len(self.end_sites)} of them end sites" if self.end_sites else ""

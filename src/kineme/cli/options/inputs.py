@@ -17,7 +17,7 @@ import typer
 from kineme._util.files import add_person
 from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
-from kineme.cli.options.reading import options_by_person
+from kineme.cli.options.reading import options_by_name
 from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for
 from kineme.errors import KinemeError, ReadError, WriteError
 
@@ -142,7 +142,7 @@ class Batch:
         """
         with self.caught(path):
             failures = []
-            for person, options in options_by_person(path, read_options):
+            for person, options in options_by_name(path, read_options):
                 table = self.table(path, *tables, options.person or "")
                 places = [each and add_person(each, person) for each in targets]
                 try:

@@ -36,7 +36,11 @@ Confidence = Annotated[
 ]
 Take = Annotated[
     str | None,
-    option(READING_OPTIONS, "Which of several animations, by name or number.", metavar="NAME"),
+    option(
+        READING_OPTIONS,
+        "Which of several animations, by name or number; all for each of them.",
+        metavar="NAME",
+    ),
 ]
 Columns = Annotated[
     str | None,
@@ -70,8 +74,8 @@ BODY: dict[str, Any] = {
 """What `kineme.read` takes besides the path, for a motion."""
 READING: dict[str, Any] = {**BODY, "columns": Columns, "emg": Emg}
 """And for either kind of recording."""
-ALL_PEOPLE = "all"
-"""With --person: each of the people in a recording."""
+EVERYTHING = "all"
+"""With --person or --take: each of those in a recording."""
 
 
 def make_read_options(*, emg: bool | None = None, **given: Any) -> ReadOptions:
@@ -94,16 +98,23 @@ def split_names(*texts: str | None) -> tuple[str, ...]:
     return tuple(name for name in names if name)
 
 
-def options_by_person(path: Path, options: ReadOptions) -> list[tuple[str, ReadOptions]]:
-    """Return the people in a file if all are asked for, and how each of them is read.
+def options_by_name(path: Path, options: ReadOptions) -> list[tuple[str, ReadOptions]]:
+    """Return the people and takes in a file where all are asked for, and how each is read.
 
-    A single one, or the one who was named, goes without a name.
+    A single one, or the one that was named, goes without a name.
     """
-    if options.person != ALL_PEOPLE:
+    if options.take == EVERYTHING:
+        from kineme.formats import takes_in
+
+        takes = takes_in(path, replace(options, person=None, take=None)) or (None,)
+        return [
+            ("_".join(filter(None, (take, who))), each)
+            for take in takes
+            for who, each in options_by_name(path, replace(options, take=take))
+        ]
+    if options.person != EVERYTHING:
         return [("", options)]
     from kineme.formats import people_in
 
-    people = people_in(path, options)
-    if not people:
-        return [("", replace(options, person=None))]
-    return [(who, replace(options, person=who)) for who in people]
+    people = people_in(path, options) or (None,)
+    return [(who or "", replace(options, person=who)) for who in people]

@@ -25,11 +25,13 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
+from kineme._util.rotations import matrices, quaternions
 from kineme.formats.files import MOST_EXPANSION, FileContent, unique
 from kineme.formats.scenes.characters import SceneNode, carriers
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
-from kineme.formats.units import blocks
+from kineme.formats.units import blocks, metres
 from kineme.recordings import Motion, Provenance, Skeleton
+from kineme.recordings.rig import UNIFORM, Rig
 
 Inheritance = Literal["RrSs", "RSrs", "Rrs"]
 
@@ -76,18 +78,21 @@ def assemble(
     nodes: Sequence[SceneNode],
     joints: Sequence[int],
     transform: Callable[[int], Transform],
+    rest: Callable[[int], Transform],
     n_frames: int,
     fps: float,
     *,
     unit: str | float,
     turn: Floats,
     provenance: Provenance,
+    numbers: Sequence[int] = (),
 ) -> Motion:
     """Return the motion of a character, whose joints are nodes, parents first.
 
-    ``transform`` has the transform of a node by its number; ``unit`` is that of the scene's
-    lengths, ``turn`` the rotation of its axes to those with y up. The content is let go once all
-    transforms are known.
+    ``transform`` has the transform of a node by its number, ``rest`` that of its rest pose;
+    ``unit`` is that of the scene's lengths, ``turn`` the rotation of its axes to those with y up,
+    ``numbers`` what the file counts the nodes by. The content is let go once all transforms are
+    known.
     """
     # Numbers of nodes become numbers of joints; a parent that is no joint is -1.
     number_of = {node: j for j, node in enumerate(joints)}
@@ -96,6 +101,13 @@ def assemble(
     found = _apply_scale(above, joints, parents, transform, n_frames, turn)
     if found is None:
         found = _multiply_matrices(above, joints, parents, transform, n_frames, turn)
+        if any(_factor(transform(node).scale, UNIFORM) is None for node in (*above, *joints)):
+            remark = "its bones are scaled unevenly or over time: in clips joints slide instead"
+            provenance = provenance.noted(remark)
+    rig = _rig(nodes, [*above, *joints], len(joints), rest, metres(unit), turn, numbers)
+    if rig is None:
+        remark = "its bones are mirrored or scaled unevenly at rest: clips get another rest pose"
+        provenance = provenance.noted(remark)
     content.let_go()
     rotations, offsets, slides = found
     # Leaves that never turn and do not slide become end sites, which have no rotation.
@@ -110,8 +122,41 @@ def assemble(
     ]
     rotations[:, ends] = rot.IDENTITY
     names = tuple(unique(nodes[node].name for node in joints))
-    skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
+    skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends), rig)
     return place(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
+
+
+def _rig(
+    nodes: Sequence[SceneNode],
+    chosen: Sequence[int],
+    n_joints: int,
+    rest: Callable[[int], Transform],
+    unit: float,
+    turn: Floats,
+    numbers: Sequence[int],
+) -> Rig | None:
+    """Return the rig of these nodes, parents first; None where a scale is not one number."""
+    places = {node: place for place, node in enumerate(chosen)}
+    parents = tuple(places.get(nodes[node].parent, -1) for node in chosen)
+    found = [rest(node) for node in chosen]
+    if any(_factor(each.scale, UNIFORM) is None for each in found):
+        return None
+    scales = np.array([each.scale for each in found])
+    for here, (each, parent) in enumerate(zip(found, parents, strict=True)):
+        if each.inheritance == "Rrs" and parent >= 0:
+            # A rig's nodes inherit their parent's scale, so it is divided out.
+            scales[here] /= _factor(found[parent].scale, UNIFORM) or 1.0
+    return Rig(
+        tuple(nodes[node].name for node in chosen),
+        parents,
+        np.array([each.translation for each in found]),
+        np.array([each.rotation for each in found]),
+        scales,
+        np.tile(rot.IDENTITY, (n_joints, 1)),
+        unit,
+        turn,
+        tuple(numbers[node] for node in chosen) if numbers else (-1,) * len(chosen),
+    )
 
 
 def _apply_scale(
@@ -163,11 +208,14 @@ def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inh
     return world / parent * factor if inheritance == "Rrs" else world * factor
 
 
-def _factor(scale: Floats) -> float | None:
-    """Return the one number that a scale is in all axes and frames, or None."""
+def _factor(scale: Floats, share: float = STILL) -> float | None:
+    """Return the one number that a scale is in all axes and frames, or None.
+
+    ``share`` is that by which it may change and still count as one.
+    """
     least, most = float(scale.min()), float(scale.max())
     # Positive and the same in all axes and frames, up to rounding.
-    if not (least > 0 and most - least <= STILL * most):
+    if not (least > 0 and most - least <= share * most):
         return None
     return (least + most) / 2
 
@@ -286,35 +334,21 @@ def _unit(vectors: Floats, spare: Floats) -> Floats:
     return np.where(flat, instead, vectors / np.where(flat, 1, length))
 
 
-def matrices(rotations: Floats) -> Floats:
-    """Unit quaternions (..., 4) as matrices (..., 3, 3)."""
-    # The rotated unit vectors are the columns.
-    axes = [rot.rotate(rotations, axis) for axis in np.eye(3)]
-    return np.stack(axes, axis=-1)
+def compose(translations: Floats, rotations: Floats, scales: Floats) -> Floats:
+    """Return matrices (nodes, 4, 4) that multiply columns; scales are (nodes, 3) or (nodes,)."""
+    found = np.tile(np.eye(4), (len(translations), 1, 1))
+    scales = scales.reshape(len(translations), 1, -1)
+    found[:, :3, :3] = matrices(rotations) * scales
+    found[:, :3, 3] = translations
+    return found
 
 
-def quaternions(axes: Floats) -> Floats:
-    """Rotation matrices (frames, 3, 3) as unit quaternions: the largest component first.
-
-    Source: S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1, 1978.
-    """
-    # Four times the squares of the components follow from trace and diagonal.
-    trace = np.trace(axes, axis1=1, axis2=2)
-    diagonal = np.diagonal(axes, axis1=1, axis2=2)
-    squares = np.column_stack([1 + trace, *(1 + 2 * diagonal - trace[:, None]).T])
-    # The largest component divides best: small ones would lose digits.
-    largest = squares.argmax(axis=1)
-    x = axes[:, 2, 1] - axes[:, 1, 2], axes[:, 0, 2] - axes[:, 2, 0], axes[:, 1, 0] - axes[:, 0, 1]
-    xy, yz, zx = (axes[:, i, j] + axes[:, j, i] for i, j in ((0, 1), (1, 2), (2, 0)))
-    w2, x2, y2, z2 = squares.T
-    rows = np.stack(
-        [
-            np.column_stack([w2, *x]),
-            np.column_stack([x[0], x2, xy, zx]),
-            np.column_stack([x[1], xy, y2, yz]),
-            np.column_stack([x[2], zx, yz, z2]),
-        ]
-    )
-    # The row that belongs to the largest component of each rotation.
-    found = rows[largest, np.arange(len(axes))]
-    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True), np.float64)
+def decompose(matrix: Floats) -> Transform:
+    """Return the transform of a matrix (4, 4) that multiplies columns; shear is left out."""
+    axes = matrix[:3, :3]
+    scale = np.linalg.norm(axes, axis=0)
+    # A reflection: it belongs to the scale, so that the axes are a rotation.
+    if np.linalg.det(axes) < 0:
+        scale = -scale
+    turn = quaternions(orthogonal((axes / np.where(scale == 0, 1, scale))[None]))[0]
+    return Transform(matrix[:3, 3], turn, scale)

@@ -6,6 +6,8 @@ and does not play it faster. Unit and axes are those of the file (``UnitScaleFac
 Meshes, cameras, lights and constraints are passed over: a rig that is moved by these is baked to
 keys when it is exported.
 
+What is written is described in `kineme.formats.scenes.fbx_writer`.
+
 See `kineme.formats.scenes.characters` for what counts as a character,
 `kineme.formats.scenes.fbx_scene` for how its joints are placed.
 """
@@ -15,28 +17,20 @@ from __future__ import annotations
 import numpy as np
 
 from kineme._util.arrays import Floats
+from kineme._util.rotations import quaternions
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames, quaternions
+from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames
 from kineme.formats.scenes.characters import character_of, choose_take, lively_takes
-from kineme.formats.scenes.fbx_curves import SLACK, TICKS, Sampler
+from kineme.formats.scenes.fbx_curves import CUSTOM, RATES, SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx
 from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
 from kineme.formats.scenes.fbx_text import TEXT
+from kineme.formats.scenes.fbx_writer import write_fbx, write_takes
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT
 from kineme.formats.units import up_rotation
 from kineme.recordings import Motion, Note
-
-RATES = {
-    1: 120.0, 2: 100.0, 3: 60.0, 4: 50.0, 5: 48.0, 6: 30.0, 7: 30.0, 8: 30 / 1.001, 9: 30 / 1.001,
-    10: 25.0, 11: 24.0, 12: 1000.0, 13: 24 / 1.001, 15: 96.0, 16: 72.0, 17: 60 / 1.001,
-    18: 120 / 1.001,
-}  # fmt: skip
-"""Frames per second of a ``TimeMode``."""
-
-CUSTOM = 14
-"""``TimeMode`` whose rate is in ``CustomFrameRate``."""
 
 USUAL_RATE = 30.0
 """Of files that tell none, and have no keys that do."""
@@ -65,12 +59,14 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     fps, rated = _rate(scene, take, joints, options)
     at = _frames(scene, take, joints, fps)
     turn, turned = _turn(scene, options)
+    pose = Pose(scene, take, Sampler(at))
     notes = [f"FBX {version // 1000}.{version % 1000 // 100}", *notes, *character.notes]
     return assemble(
         content,
         nodes,
         character.joints,
-        Pose(scene, take, Sampler(at)).transform,
+        pose.transform,
+        pose.rest,
         len(at),
         fps,
         unit=options.unit or _unit(scene),
@@ -78,6 +74,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         provenance=content.provenance("FBX", [*notes, *rated, *turned])
         .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
+        numbers=[model.number for model in scene.models],
     )
 
 
@@ -171,4 +168,6 @@ FORMAT = Format(
     (".fbx",),
     lambda head: head.startswith(MAGIC) or TEXT.search(head) is not None,
     read_fbx,
+    write_fbx,
+    write_animations=write_takes,
 )

@@ -28,6 +28,16 @@ from kineme.formats.scenes.sampling import find_keys
 TICKS = 46_186_158_000
 """In a second."""
 
+RATES = {
+    1: 120.0, 2: 100.0, 3: 60.0, 4: 50.0, 5: 48.0, 6: 30.0, 7: 30.0, 8: 30 / 1.001, 9: 30 / 1.001,
+    10: 25.0, 11: 24.0, 12: 1000.0, 13: 24 / 1.001, 15: 96.0, 16: 72.0, 17: 60 / 1.001,
+    18: 120 / 1.001,
+}  # fmt: skip
+"""Frames per second of a ``TimeMode``."""
+
+CUSTOM = 14
+"""``TimeMode`` whose rate is in ``CustomFrameRate``."""
+
 SLACK = 2.0
 """Ticks by which a key may miss the frame that it was made for."""
 

@@ -33,7 +33,7 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
-from kineme.formats.scenes.assembly import Inheritance, Transform
+from kineme.formats.scenes.assembly import Inheritance, Transform, compose, decompose
 from kineme.formats.scenes.characters import SceneNode, is_end
 from kineme.formats.scenes.fbx_curves import Curve, CurveReader, Sampler
 from kineme.formats.scenes.fbx_nodes import FBXNode
@@ -64,6 +64,10 @@ class Take:
     layers: list[int]
     start: float
     stop: float
+
+
+_STILL = Take("", [], 0.0, 0.0)
+"""One that moves nothing."""
 
 
 @dataclass(frozen=True)
@@ -97,6 +101,7 @@ class FBXScene:
             for link in group.children:
                 self._connect(link)
         self.bones = self._bones()
+        self.binds = self._binds()
         self.models = self._models()
         self.takes = self._takes(root)
 
@@ -120,6 +125,28 @@ class FBXScene:
                 # Cluster deformers belong to skins; the models connected to them are bones.
                 bones |= {part for part in self._parts.get(number, ()) if self._is(part, "Model")}
         return bones
+
+    def _binds(self) -> dict[int, Floats]:
+        """Return the matrix of each model in the world, as skins are bound: the bind pose.
+
+        That of a skin's cluster counts; the pose of the file replaces one that is missing.
+        """
+        found: dict[int, Floats] = {}
+        for number, node in self.objects.items():
+            if node.name == "Pose":
+                for entry in node.all("PoseNode"):
+                    which = entry.child("Node")
+                    self._bind(found, which.number(0, -1) if which else -1, entry, "Matrix")
+            elif node.name == "Deformer" and node.text(2) == "Cluster":
+                for part in self._parts.get(number, ()):
+                    self._bind(found, part, node, "TransformLink")
+        return found
+
+    def _bind(self, found: dict[int, Floats], model: float, node: FBXNode, name: str) -> None:
+        matrix = node.array(self.content, name)
+        if matrix is not None and len(matrix) == 16 and np.isfinite(matrix).all():
+            # Its columns are stored one after another.
+            found[int(model)] = matrix.reshape(4, 4).T.astype(np.float64)
 
     def _models(self) -> list[Model]:
         """Return all models, parents before their children; those in a circle are left out."""
@@ -239,8 +266,31 @@ class Pose:
         self.tracks = scene.tracks(take)
         self.layers = {number: scene.properties(number) for number in take.layers}
 
-    def transform(self, number: int) -> Transform:
+    def rest(self, number: int) -> Transform:
+        """Return the transform of a model, by its number among the nodes, in the bind pose.
+
+        That without animation where the file has no bind pose of it.
+        """
+        if self.scene.models[number].number not in self.scene.binds:
+            return self.transform(number, animated=False)
+        parent = self.scene.models[number].parent
+        local = np.linalg.solve(self._rest_matrix(parent), self._rest_matrix(number))
+        return decompose(np.asarray(local, np.float64))
+
+    def _rest_matrix(self, number: int) -> Floats:
+        """Return the matrix of a node in the world, in the bind pose; the ground is -1."""
+        if number < 0:
+            return np.eye(4)
+        model = self.scene.models[number]
+        if (bind := self.scene.binds.get(model.number)) is not None:
+            return bind
+        local = [part[None] for part in self.transform(number, animated=False)[:3]]
+        return np.asarray(self._rest_matrix(model.parent) @ compose(*local)[0], np.float64)
+
+    def transform(self, number: int, *, animated: bool = True) -> Transform:
         """Of the model of this number among the nodes of the scene."""
+        if not animated and self.tracks:
+            return Pose(self.scene, _STILL, self.sampler).transform(number)
         model = self.scene.models[number]
         properties = model.properties
         order = _ORDERS[_choice(properties, "RotationOrder", len(_ORDERS))]

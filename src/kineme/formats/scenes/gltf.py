@@ -26,8 +26,7 @@ from kineme.formats.scenes.assembly import (
     Transform,
     assemble,
     claim_frames,
-    orthogonal,
-    quaternions,
+    decompose,
 )
 from kineme.formats.scenes.characters import (
     SceneNode,
@@ -37,6 +36,7 @@ from kineme.formats.scenes.characters import (
     is_end,
     lively_takes,
 )
+from kineme.formats.scenes.gltf_copy import copy_animations
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
 from kineme.formats.scenes.gltf_writer import EXTRAS, write_animations, write_gltf
 from kineme.formats.scenes.sampling import find_keys
@@ -114,6 +114,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         nodes,
         character.joints,
         transform,
+        lambda j: _rest(objects[j]),
         len(at),
         fps,
         unit=options.unit or 1.0,
@@ -121,6 +122,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         provenance=content.provenance("glTF", [*notes, *character.notes, *rated])
         .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
+        numbers=order,
     )
 
 
@@ -216,7 +218,7 @@ def _span(keys: dict[tuple[int, str], Keys], fps: float) -> tuple[float, int]:
 
 def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> Transform:
     """Return a node's transform at these seconds."""
-    rest = _rest(node)
+    rest = dict(zip(_WIDTHS, _rest(node)[:3], strict=True))
     found = {
         what: rest[what] if track is None else _sample_channel(track, at, turns=what == ROTATION)
         for what, track in keys.items()
@@ -224,23 +226,18 @@ def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> T
     return Transform(found[TRANSLATION], found[ROTATION], found[SCALE])
 
 
-def _rest(node: SceneObject) -> dict[str, Floats]:
-    """Translation, rotation (w, x, y, z) and scale of a node without an animation."""
+def _rest(node: SceneObject) -> Transform:
+    """Return the transform of a node without an animation."""
     if node.matrix is not None and len(node.matrix) == 16:
-        matrix = np.array(node.matrix).reshape(4, 4).T  # columns are stored one after another
-        scale = np.linalg.norm(matrix[:3, :3], axis=0)
-        # A reflection: it belongs to the scale, so that the axes are a rotation.
-        if np.linalg.det(matrix[:3, :3]) < 0:
-            scale = -scale
-        axes = orthogonal((matrix[:3, :3] / np.where(scale == 0, 1, scale))[None])
-        return {TRANSLATION: matrix[:3, 3], ROTATION: quaternions(axes)[0], SCALE: scale}
+        # Columns are stored one after another.
+        return decompose(np.array(node.matrix).reshape(4, 4).T)
     turn = np.roll(_numbers(node.rotation, [0.0, 0.0, 0.0, 1.0]), 1)
     norm = np.linalg.norm(turn)
-    return {
-        TRANSLATION: _numbers(node.translation, [0.0] * 3),
-        ROTATION: turn / norm if norm > 0 else rot.IDENTITY,
-        SCALE: _numbers(node.scale, [1.0] * 3),
-    }
+    return Transform(
+        _numbers(node.translation, [0.0] * 3),
+        turn / norm if norm > 0 else rot.IDENTITY,
+        _numbers(node.scale, [1.0] * 3),
+    )
 
 
 def _numbers(values: list[float] | None, usual: list[float]) -> Floats:
@@ -299,4 +296,5 @@ FORMAT = Format(
     read_gltf,
     write_gltf,
     write_animations=write_animations,
+    copy_animations=copy_animations,
 )

@@ -170,6 +170,8 @@ class GLTFFile:
         version = str(decode_json(text, content.path, Head).asset.version)
         if not version.startswith("2"):
             raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
+        self.text = text
+        """The JSON."""
         self.tree = decode_json(text, content.path, Tree)
         self.beside = 0
         """Bytes of files beside it."""
@@ -224,7 +226,7 @@ class GLTFFile:
         view = self.part(self.tree.buffer_views, view_number, "buffer view")
         if "EXT_meshopt_compression" in view.extensions:
             raise self.content.error("its keys are packed by meshopt: export them unpacked")
-        data = self._buffer(view.buffer)
+        data = self.buffer(view.buffer)
         size, (count, width) = np.dtype(code).itemsize, shape
         # Without a stride the elements follow each other.
         step = view.byte_stride or size * width
@@ -238,13 +240,14 @@ class GLTFFile:
         # A view with strides: interleaved attributes are read without a copy.
         return np.ndarray(shape, code, data, start, (step, size))
 
-    def _buffer(self, number: int) -> bytes:
+    def buffer(self, number: int) -> bytes:
+        """Return the bytes of a buffer."""
         if number not in self._buffers:
             place = self.part(self.tree.buffers, number, "buffer").uri
-            self._buffers[number] = self._chunk if place is None else self._stored(place)
+            self._buffers[number] = self._chunk if place is None else self.stored(place)
         return self._buffers[number]
 
-    def _stored(self, place: str) -> bytes:
+    def stored(self, place: str) -> bytes:
         """Return a buffer that is in the JSON, or in a file beside it."""
         if place.startswith("data:"):
             try:

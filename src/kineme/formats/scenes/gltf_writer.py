@@ -1,9 +1,10 @@
 """Writing glTF 2.0: a skeleton, a mesh on it, and one animation or several.
 
-Each joint is a node at its offset, without a rotation of its own; all hang on one node that is
-called as the file. A mesh of a slim bone for each joint makes programs see a skeleton: without one
-Blender imports empties, and Godot nothing. Rotations have a key at each frame, translations where
-a joint slides. All numbers are of 32 bits: a thousandth of a millimetre.
+The nodes are those of the rig that the motion came from, at rest as there; of a motion without a
+rig each joint is a node at its offset, and all hang on one that is called as the file. A mesh of a
+slim bone for each joint makes programs see a skeleton: without one Blender imports empties, and
+Godot nothing. Rotations have a key at each frame, translations where a joint slides. All numbers
+are of 32 bits: a thousandth of a millimetre.
 
 ``asset.extras.kineme.fps`` is the frame rate, which the format has no place for; ``end_site``
 among the extras of a node says that it is one.
@@ -18,7 +19,7 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,10 +32,12 @@ from kineme._version import __version__
 from kineme.errors import WriteError
 from kineme.formats.files import rotations_of, spell_names
 from kineme.formats.gaps import warn_of_gaps
+from kineme.formats.scenes.assembly import compose
 from kineme.formats.scenes.gltf_file import BYTES, CHUNK, HEADER, JSON, MAGIC
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import local_translations, place_at_rest
+from kineme.recordings.posing import pose_rig, rig_of
+from kineme.recordings.rig import Rig
 
 EXTRAS = "kineme"
 """Name of what kineme adds to the extras of a file."""
@@ -61,24 +64,36 @@ def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
 
     A ``.gltf`` has its buffer in it.
     """
+    file = _Writer(check_animations(motions, path), path)
+    for name, motion in motions.items():
+        file.animate(name, motion)
+    save_gltf(file.tree, bytes(file.data), path)
+
+
+def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a glTF") -> Motion:
+    """Return the first of motions that are to be written as animations of one skeleton.
+
+    WriteError where one has no rotations or another skeleton.
+    """
     first = next(iter(motions.values()))
-    turns = {name: rotations_of(motion, path, "a glTF") for name, motion in motions.items()}
     for motion in motions.values():
+        rotations_of(motion, path, what)
         if motion.skeleton is not first.skeleton and not _same(motion.skeleton, first.skeleton):
             raise WriteError(path, "its animations are of different skeletons: write several files")
     warn_of_gaps(motions.values(), path)
-    file = _Writer(first, path)
-    for name, motion in motions.items():
-        file.animate(name, motion, turns[name])
-    buffer: dict[str, Any] = {"byteLength": len(file.data)}
+    return first
+
+
+def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
+    """Leave the JSON and its only buffer in a GLB, or in a ``.gltf`` with the buffer in it."""
+    buffer: dict[str, Any] = {"byteLength": len(data)}
     binary = path.suffix.lower() != ".gltf"
     if not binary:
-        stored = base64.b64encode(file.data).decode()
+        stored = base64.b64encode(data).decode()
         buffer["uri"] = f"data:application/octet-stream;base64,{stored}"
-    tree = {**file.tree, "buffers": [buffer]}
-    text = json.dumps(tree, ensure_ascii=False, separators=(",", ":")).encode()
+    text = json.dumps({**tree, "buffers": [buffer]}, ensure_ascii=False, separators=(",", ":"))
     with atomic_write(path) as draft:
-        draft.write_bytes(_glb(text, bytes(file.data)) if binary else text)
+        draft.write_bytes(_glb(text.encode(), data) if binary else text.encode())
 
 
 def _same(one: Skeleton, other: Skeleton) -> bool:
@@ -86,106 +101,51 @@ def _same(one: Skeleton, other: Skeleton) -> bool:
     return same and np.allclose(one.offsets, other.offsets, atol=RIGID)
 
 
-class _Writer:
-    """Gathers the parts of a file."""
+class Animator:
+    """Adds animations to the JSON and the buffer of a file.
 
-    def __init__(self, motion: Motion, path: Path) -> None:
-        self.skeleton = motion.skeleton
+    ``numbers`` are those of the nodes of the joints.
+    """
+
+    def __init__(
+        self, skeleton: Skeleton, rig: Rig, numbers: Sequence[int], tree: dict[str, Any]
+    ) -> None:
+        self.skeleton, self.rig, self.numbers, self.tree = skeleton, rig, numbers, tree
         self.data = bytearray()
-        self.tree: dict[str, Any] = {
-            "asset": {
-                "version": "2.0",
-                "generator": f"kineme {__version__}",
-                "extras": {EXTRAS: {"fps": motion.fps}},
-            },
-            "scene": 0,
-            "bufferViews": [],
-            "accessors": [],
-            "animations": [],
-        }
-        n = self.skeleton.n_joints
-        self.tree["nodes"] = self._nodes(path)
-        self.tree["scenes"] = [{"nodes": [n, n + 1]}]
-        self._add_mesh()
+        self.free_views: list[int] = []
+        self.free_accessors: list[int] = []
 
-    def _nodes(self, path: Path) -> list[dict[str, Any]]:
-        """Return a node for each joint, then what carries them, then the mesh."""
-        skeleton = self.skeleton
-        names = spell_names(path, skeleton.names, str.strip)
-        nodes: list[dict[str, Any]] = []
-        for j, name in enumerate(names):
-            node: dict[str, Any] = {"name": name}
-            if skeleton.offsets[j].any():
-                node["translation"] = skeleton.offsets[j].tolist()
-            if skeleton.children[j]:
-                node["children"] = list(skeleton.children[j])
-            if j in skeleton.end_sites:
-                node["extras"] = {"end_site": True}
-            nodes.append(node)
-        roots = [j for j, parent in enumerate(skeleton.parents) if parent < 0]
-        return [
-            *nodes,
-            {"name": path.stem, "children": roots},
-            {"name": f"{path.stem}_mesh", "mesh": 0, "skin": 0},
-        ]
-
-    def _add_mesh(self) -> None:
-        """Bones to look at, bound to the joints where they are without rotations."""
-        skeleton = self.skeleton
-        places = place_at_rest(skeleton)
-        vertices, faces, joints = _bones(skeleton, places)
-        # As small an integer as holds the numbers of all joints.
-        kind = np.uint8 if skeleton.n_joints <= 256 else np.uint16
-        bound = np.zeros((len(vertices), 4), kind)
-        # Up to four joints may carry a vertex; one is enough here, with all of the weight.
-        bound[:, 0] = joints
-        weights = np.zeros((len(vertices), 4))
-        weights[:, 0] = 1.0
-        # Inverse matrices of the pose without rotations: only the places are taken off.
-        inverse = np.tile(np.eye(4), (skeleton.n_joints, 1, 1))
-        inverse[:, 3, :3] = -places  # its columns one after another
-        code = _BYTE if kind is np.uint8 else _SHORT
-        attributes = {
-            "POSITION": self._accessor(vertices, _VERTICES, bounds=True),
-            "JOINTS_0": self._accessor(bound, _VERTICES, code),
-            "WEIGHTS_0": self._accessor(weights, _VERTICES),
-        }
-        indices = self._accessor(faces.reshape(-1, 1), _INDICES, _INT)
-        matrices = self._accessor(inverse.reshape(-1, 16), _KEYS)
-        self.tree["meshes"] = [
-            {"name": "bones", "primitives": [{"attributes": attributes, "indices": indices}]}
-        ]
-        self.tree["skins"] = [
-            {
-                "joints": list(range(skeleton.n_joints)),
-                "skeleton": skeleton.n_joints,
-                "inverseBindMatrices": matrices,
-            }
-        ]
-
-    def animate(self, name: str, motion: Motion, turns: Floats) -> None:
-        """Add a motion of the same skeleton, and its rotations."""
-        skeleton, n = self.skeleton, motion.n_frames
-        shifts = local_translations(skeleton, motion.positions, turns)
-        # Joints whose translation changes, or differs from their offset.
-        slides = np.abs(shifts - skeleton.offsets).max(axis=(0, 2)) > RIGID
-        seconds = self._accessor(np.arange(n)[:, None] / motion.fps, _KEYS, bounds=True)
+    def animate(self, name: str, motion: Motion) -> None:
+        """Add a motion of the same skeleton."""
+        skeleton, n, rig = self.skeleton, motion.n_frames, self.rig
+        shifts, turns = pose_rig(motion, rig)
+        # Joints that leave their place at rest; the size of each one's parent tells how far.
+        away = np.abs(shifts - rig.translations[rig.above :]).max(axis=(0, 2))
+        still = np.ptp(shifts, axis=0).max(axis=1)
+        nodes = range(rig.above, len(rig.names))
+        sizes = np.array([rig.parent_world(node, *rig.world)[2] for node in nodes])
+        limit = RIGID / rig.unit / sizes
+        seconds = self.accessor(np.arange(n)[:, None] / motion.fps, _KEYS, bounds=True)
+        start = self.accessor(np.zeros((1, 1)), _KEYS, bounds=True) if n > 1 else seconds
         channels: list[dict[str, Any]] = []
         samplers: list[dict[str, Any]] = []
 
         def add(joint: int, what: str, values: Floats) -> None:
-            channels.append({"sampler": len(samplers), "target": {"node": joint, "path": what}})
-            samplers.append({"input": seconds, "output": self._accessor(values, _KEYS)})
+            target = {"node": self.numbers[joint], "path": what}
+            channels.append({"sampler": len(samplers), "target": target})
+            keys = {"input": start if len(values) == 1 else seconds}
+            samplers.append({**keys, "output": self.accessor(values, _KEYS)})
 
         for j in range(skeleton.n_joints):
-            if slides[j] or skeleton.parents[j] < 0:
-                add(j, "translation", shifts[:, j])
+            if away[j] > limit[j] or skeleton.parents[j] < 0:
+                # A place that is another than at rest, but always the same, needs one key.
+                add(j, "translation", shifts[: 1 if still[j] < limit[j] else n, j])
             if j not in skeleton.end_sites:
                 # The format has w last.
                 add(j, "rotation", np.roll(_steady(turns[:, j]), -1, axis=1))
         self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
 
-    def _accessor(
+    def accessor(
         self, values: NDArray[Any], target: int | None, kind: int = _FLOAT, *, bounds: bool = False
     ) -> int:
         """Keep an array (elements, numbers of each); its number."""
@@ -197,9 +157,8 @@ class _Writer:
         self.data += stored.tobytes()
         # Accessors must begin at multiples of four bytes.
         self.data += bytes(-len(self.data) % 4)
-        self.tree["bufferViews"].append(view)
         accessor: dict[str, Any] = {
-            "bufferView": len(self.tree["bufferViews"]) - 1,
+            "bufferView": _put(self.tree["bufferViews"], view, self.free_views),
             "componentType": kind,
             "count": len(stored),
             "type": _TYPES[stored.shape[1]],
@@ -207,8 +166,107 @@ class _Writer:
         # The format demands the extent of times and positions.
         if bounds:
             accessor |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
-        self.tree["accessors"].append(accessor)
-        return len(self.tree["accessors"]) - 1
+        return _put(self.tree["accessors"], accessor, self.free_accessors)
+
+
+class _Writer(Animator):
+    """Gathers the parts of a file."""
+
+    def __init__(self, motion: Motion, path: Path) -> None:
+        skeleton = motion.skeleton
+        # Lengths are metres in a glTF, and y is up.
+        rig = rig_of(skeleton).to_metres()
+        tree: dict[str, Any] = {
+            "asset": {
+                "version": "2.0",
+                "generator": f"kineme {__version__}",
+                "extras": {EXTRAS: {"fps": motion.fps}},
+            },
+            "scene": 0,
+            "bufferViews": [],
+            "accessors": [],
+            "animations": [],
+        }
+        # Those above the joints come behind them, so that a joint's number is that of its node.
+        super().__init__(skeleton, rig, range(skeleton.n_joints), tree)
+        self.tree["nodes"] = self._nodes(path)
+        n = len(self.tree["nodes"])
+        self.tree["nodes"].append({"name": f"{path.stem}_mesh", "mesh": 0, "skin": 0})
+        carried = {child for node in self.tree["nodes"] for child in node.get("children", ())}
+        self.tree["scenes"] = [{"nodes": [node for node in range(n + 1) if node not in carried]}]
+        self._add_mesh()
+
+    def _nodes(self, path: Path) -> list[dict[str, Any]]:
+        """Return a node for each joint, then what carries them."""
+        rig, skeleton = self.rig, self.skeleton
+        order = [*range(rig.above, len(rig.names)), *range(rig.above)]
+        numbers = {node: number for number, node in enumerate(order)}
+        names = spell_names(path, [*skeleton.names, *rig.names[: rig.above]], str.strip)
+        nodes: list[dict[str, Any]] = [{"name": name} for name in names]
+        for number, node in enumerate(order):
+            nodes[number] |= transform_of(rig, node)
+            if number in skeleton.end_sites:
+                nodes[number]["extras"] = {"end_site": True}
+        for node, parent in enumerate(rig.parents):
+            if parent >= 0:
+                nodes[numbers[parent]].setdefault("children", []).append(numbers[node])
+        if rig.above == 0:
+            roots = [j for j, parent in enumerate(skeleton.parents) if parent < 0]
+            nodes.append({"name": path.stem, "children": roots})
+        return nodes
+
+    def _add_mesh(self) -> None:
+        """Bones to look at, bound to the joints where they are at rest."""
+        skeleton, rig = self.skeleton, self.rig
+        places, turns, sizes = (part[rig.above :] for part in rig.world)
+        vertices, faces, joints = _bones(skeleton, places)
+        # As small an integer as holds the numbers of all joints.
+        kind = np.uint8 if skeleton.n_joints <= 256 else np.uint16
+        bound = np.zeros((len(vertices), 4), kind)
+        # Up to four joints may carry a vertex; one is enough here, with all of the weight.
+        bound[:, 0] = joints
+        weights = np.zeros((len(vertices), 4))
+        weights[:, 0] = 1.0
+        # Columns are stored one after another.
+        inverse = np.linalg.inv(compose(places, turns, sizes)).transpose(0, 2, 1)
+        inverse[:, :, 3] = [0.0, 0.0, 0.0, 1.0]  # exactly, as the format demands
+        code = _BYTE if kind is np.uint8 else _SHORT
+        attributes = {
+            "POSITION": self.accessor(vertices, _VERTICES, bounds=True),
+            "JOINTS_0": self.accessor(bound, _VERTICES, code),
+            "WEIGHTS_0": self.accessor(weights, _VERTICES),
+        }
+        indices = self.accessor(faces.reshape(-1, 1), _INDICES, _INT)
+        inverses = self.accessor(inverse.reshape(-1, 16), _KEYS)
+        self.tree["meshes"] = [
+            {"name": "bones", "primitives": [{"attributes": attributes, "indices": indices}]}
+        ]
+        self.tree["skins"] = [
+            {
+                "joints": list(range(skeleton.n_joints)),
+                "inverseBindMatrices": inverses,
+            }
+        ]
+
+
+def _put(parts: list[Any], part: Any, free: list[int]) -> int:
+    """Keep a part in a list of the JSON, at a number that is free; its number."""
+    if free:
+        number = free.pop(0)
+        parts[number] = part
+        return number
+    parts.append(part)
+    return len(parts) - 1
+
+
+def transform_of(rig: Rig, node: int) -> dict[str, Any]:
+    """Return what the JSON says of a node at rest; nothing of what is as usual."""
+    parts = {
+        "translation": (rig.translations[node], np.zeros(3)),
+        "rotation": (np.roll(rig.rotations[node], -1), np.array([0.0, 0.0, 0.0, 1.0])),
+        "scale": (rig.scales[node], np.ones(3)),
+    }
+    return {what: part.tolist() for what, (part, usual) in parts.items() if (part != usual).any()}
 
 
 def _steady(turns: Floats) -> Floats:

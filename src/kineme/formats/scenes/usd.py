@@ -28,6 +28,7 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
 from kineme._util.files import translate_read_errors
+from kineme._util.rotations import quaternions
 from kineme.errors import KinemeError, ReadError
 from kineme.formats.files import FileContent, load, unique
 from kineme.formats.options import ReadOptions
@@ -37,7 +38,6 @@ from kineme.formats.scenes.assembly import (
     assemble,
     claim_frames,
     orthogonal,
-    quaternions,
 )
 from kineme.formats.scenes.characters import SceneNode, character_of, choose_take, is_end
 from kineme.formats.scenes.usd_layers import LONGEST, SUFFIXES, open_stage
@@ -150,12 +150,13 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
     fps, codes, rated = _frames(content, stage, fitting[number], len(nodes), options, beside)
     pose = skeleton.pose(fitting[number], codes)
     up = options.up or ("z" if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z else "y")
-    carrier = _carrier(UsdGeom.Xformable(skeleton.prim), codes)
+    carrier, still = (_carrier(UsdGeom.Xformable(skeleton.prim), at) for at in (codes, codes[:1]))
     return assemble(
         content,
         nodes,
         character.joints,
         lambda node: carrier if node < first else pose[node - first],
+        lambda node: still if node < first else skeleton.rest_pose[node - first],
         len(codes),
         fps,
         unit=options.unit or max(UsdGeom.GetStageMetersPerUnit(stage), 0.0) or CENTIMETRE,
@@ -186,6 +187,8 @@ class _Skeleton:
         self.rest = (
             np.array(rest, np.float64) if complete else np.tile(np.eye(4), (len(usual), 1, 1))
         )
+        found = (_transform(matrix[None]) for matrix in self.rest)
+        self.rest_pose = [Transform(*(part[0] for part in each[:3])) for each in found]
 
     def is_end(self, j: int) -> bool:
         if self.ends is not None:
@@ -207,9 +210,8 @@ class _Skeleton:
         turns = _values(animation.GetRotationsAttr(), codes, len(moved), 4)
         scales = _values(animation.GetScalesAttr(), codes, len(moved), 3)
         found = []
-        for j, joint in enumerate(self.joints):
-            rest = _transform(self.rest[j][None])
-            shift, turn, scale = (part[0] for part in rest[:3])
+        for joint, rest in zip(self.joints, self.rest_pose, strict=True):
+            shift, turn, scale = rest[:3]
             if (at := places.get(joint)) is not None:
                 shift = shift if shifts is None else shifts[:, at]
                 # Parts that the animation does not have are as at rest.

@@ -1,9 +1,9 @@
 """Writing USD: a skeleton and its animation (UsdSkel), ``.usda``, ``.usdc`` or ``.usd``.
 
 Lengths are metres, y is up; a time code is a frame, and so many of them are in a second as the
-motion has frames. Joints are at their offsets at rest. Their names as they are stand in
-``jointNames``; in paths they have letters, digits and ``_`` only. End sites are named in the custom
-data of the skeleton. Needs ``usd-core``.
+motion has frames. Joints are at rest as in the rig that the motion came from. Their names as they
+are stand in ``jointNames``; in paths they have letters, digits and ``_`` only. End sites are named
+in the custom data of the skeleton. Needs ``usd-core``.
 
 Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
 """
@@ -21,15 +21,16 @@ from kineme._util.files import atomic_write
 from kineme.errors import WriteError
 from kineme.formats.files import rotations_of, spell_names, unique
 from kineme.formats.gaps import warn_of_gaps
+from kineme.formats.scenes.assembly import compose
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import local_translations, place_at_rest
+from kineme.recordings.posing import pose_rig, rig_of
 
 END_SITES = "kineme:endSites"
 
 
 def write_usd(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in a USD file."""
-    rotations = rotations_of(motion, path, "a USD")
+    rotations_of(motion, path, "a USD")
     with require_extra("usd-core", "usd"):
         from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
     warn_of_gaps([motion], path)
@@ -41,6 +42,8 @@ def write_usd(motion: Motion, path: Path) -> None:
     for word, parent in zip(words, skeleton.parents, strict=True):
         joints.append(word if parent < 0 else f"{joints[parent]}/{word}")
     stage = Usd.Stage.CreateInMemory()
+    # Programs differ in what a transform above the skeleton does to its bind pose.
+    rig = rig_of(skeleton).join_root().to_metres()
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
     stage.SetTimeCodesPerSecond(motion.fps)
@@ -53,15 +56,18 @@ def write_usd(motion: Motion, path: Path) -> None:
     bound = UsdSkel.Skeleton.Define(stage, top.AppendChild("Skeleton"))
     bound.CreateJointsAttr(joints)
     bound.CreateJointNamesAttr(names)
-    bound.CreateRestTransformsAttr([_shift(Gf, offset) for offset in skeleton.offsets])
-    bound.CreateBindTransformsAttr([_shift(Gf, place) for place in place_at_rest(skeleton)])
+    local = compose(rig.translations, rig.rotations, rig.scales)
+    world = compose(*rig.world)
+    bound.CreateRestTransformsAttr([_matrix(Gf, each) for each in local])
+    bound.CreateBindTransformsAttr([_matrix(Gf, each) for each in world])
     ends = [names[j] for j in sorted(skeleton.end_sites)]
     bound.GetPrim().SetCustomDataByKey(END_SITES, Vt.StringArray(ends))
     animation = UsdSkel.Animation.Define(stage, bound.GetPath().AppendChild("Animation"))
     animation.CreateJointsAttr(joints)
-    animation.CreateScalesAttr(Vt.Vec3hArray(len(joints), Gf.Vec3h(1, 1, 1)))
-    shifts = local_translations(skeleton, motion.positions, rotations).astype("f4")
-    turns = np.roll(rotations, -1, axis=-1).astype("f4")  # as USD stores them, w last
+    sizes = [Gf.Vec3h(*scale) for scale in rig.scales.tolist()]
+    animation.CreateScalesAttr(Vt.Vec3hArray(sizes))
+    shifts, turns = pose_rig(motion, rig)
+    shifts, turns = shifts.astype("f4"), np.roll(turns, -1, axis=-1).astype("f4")  # w last
     moved, turned = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
     for frame in range(motion.n_frames):
         moved.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)
@@ -75,6 +81,6 @@ def write_usd(motion: Motion, path: Path) -> None:
             raise WriteError(path, "cannot be written as USD") from error
 
 
-def _shift(gf: Any, offset: Floats) -> Any:
-    """Return the matrix of a translation."""
-    return gf.Matrix4d().SetTranslate(gf.Vec3d(*offset.tolist()))
+def _matrix(gf: Any, matrix: Floats) -> Any:
+    """Return a matrix that multiplies columns as USD has it, which multiplies rows."""
+    return gf.Matrix4d(*matrix.T.ravel().tolist())

@@ -79,7 +79,20 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
         unit="m",
         up=options.up or "y",
         provenance=provenance,
+        frames=_frames(figure),
     )
+
+
+def _frames(figure: Figure) -> Floats:
+    """Return the frame of each joint (joints, 4); an end site has that of its bone."""
+    skeleton = figure.skeleton
+    frames = np.tile(rot.IDENTITY, (skeleton.n_joints, 1))
+    for joint, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
+        # The root's preset orientation is part of its rotation.
+        if parent >= 0:
+            bone = None if joint in skeleton.end_sites else figure.bones[name]
+            frames[joint] = frames[parent] if bone is None else bone.frame
+    return frames
 
 
 def _head(content: FileContent) -> bytes:

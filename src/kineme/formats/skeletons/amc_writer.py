@@ -1,7 +1,7 @@
 """Writing ASF/AMC: the skeleton and the motion as a pair of files of one name.
 
 Lengths are in CMU's unit (1/0.45 inch), angles in degrees, every bone's frame
-is the world's. The root is called ``root``, whatever it was called before.
+is that of its rig at rest. The root is called ``root``, whatever it was called before.
 
 A bone can carry its children at its tip only. Where a joint's children sit at
 different places, or the root's anywhere but in it, each gets a rigid bone of
@@ -13,19 +13,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.errors import WriteError
 from kineme.formats.files import save, spell_names, table
 from kineme.formats.skeletons.asf import ROOT
-from kineme.formats.skeletons.bvh_writer import euler_angles
+from kineme.formats.skeletons.bvh_writer import RIGID, local_pose
 from kineme.formats.units import UNITS
 from kineme.recordings import Motion, Skeleton
+from kineme.recordings.posing import rig_of
 
 UNIT = UNITS["cmu"]
 
@@ -39,6 +41,7 @@ class Bone:
     tip: Floats
     joint: int | None
     slides: bool = False
+    frame: Floats = field(default_factory=rot.IDENTITY.copy)
 
     @property
     def dof(self) -> str:
@@ -47,15 +50,22 @@ class Bone:
 
 def write_amc(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in an AMC file and its skeleton in an ASF of the same name."""
-    angles, translations, slides = euler_angles(motion, path, "an AMC")
-    if sum(parent < 0 for parent in motion.skeleton.parents) != 1:
+    turns, translations, offsets, slides = local_pose(motion, path, "an AMC")
+    skeleton = motion.skeleton
+    if sum(parent < 0 for parent in skeleton.parents) != 1:
         raise WriteError(path, "an AMC holds one figure, and this motion has several roots")
-    moving = sorted(j for j in motion.skeleton.end_sites if slides[j])
+    moving = sorted(j for j in skeleton.end_sites if slides[j])
     if moving:
-        raise WriteError(path, f"end site {motion.skeleton.names[moving[0]]!r} moves on its bone")
-    bones = _bones(motion.skeleton, slides, path)
+        raise WriteError(path, f"end site {skeleton.names[moving[0]]!r} moves on its bone")
+    # The frame of each bone is that of its node at rest; the root has none.
+    rig = rig_of(skeleton)
+    frames = rot.multiply(rig.turn, rig.world[1][rig.above :])
+    frames[0] = rot.IDENTITY
+    back = rot.conjugate(frames)
+    angles = np.degrees(rot.to_euler_zyx(rot.multiply(rot.multiply(back, turns), frames)))
+    bones = _bones(skeleton, offsets, frames, slides, path)
     # Values of translations are what is added to the offsets, but the root has none.
-    shift = (translations - motion.skeleton.offsets) / UNIT
+    shift = rot.rotate(back, translations - offsets) / UNIT
     shift[:, 0] = translations[:, 0] / UNIT
     blocks = []
     for bone in bones:
@@ -66,11 +76,13 @@ def write_amc(motion: Motion, path: Path) -> None:
             blocks.append([f"{bone.name} {row}" for row in rows])
     save(path.with_suffix(".asf"), _asf(bones))
     head = f"# fps {motion.fps!r}\n:FULLY-SPECIFIED\n:DEGREES\n"
-    frames = (f"{i}\n{''.join(lines)}" for i, lines in enumerate(zip(*blocks, strict=True), 1))
-    save(path, [head, *frames])
+    lines = (f"{i}\n{''.join(each)}" for i, each in enumerate(zip(*blocks, strict=True), 1))
+    save(path, [head, *lines])
 
 
-def _bones(skeleton: Skeleton, slides: NDArray[np.bool_], path: Path) -> list[Bone]:
+def _bones(
+    skeleton: Skeleton, places: Floats, frames: Floats, slides: NDArray[np.bool_], path: Path
+) -> list[Bone]:
     """Return the root and all bones, parents first."""
     inner = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
     words = spell_names(path, [ROOT, *(skeleton.names[j] for j in inner[1:])], _word)
@@ -78,12 +90,12 @@ def _bones(skeleton: Skeleton, slides: NDArray[np.bool_], path: Path) -> list[Bo
     bones: list[Bone] = []
     hangs_on = {0: ROOT}
     for j in inner:
-        offsets = skeleton.offsets[list(skeleton.children[j])].reshape(-1, 3)
+        offsets = places[list(skeleton.children[j])].reshape(-1, 3)
         # A bone has one tip: it can carry children only if all are at the same place.
-        shared = j > 0 and len(offsets) > 0 and bool((offsets == offsets[0]).all())
+        shared = j > 0 and len(offsets) > 0 and bool(np.ptp(offsets, axis=0).max() < RIGID)
         tip = offsets[0] if shared else np.zeros(3)
         parent = "" if j == 0 else hangs_on[j]
-        bones.append(Bone(names[j], parent, tip, j, j == 0 or bool(slides[j])))
+        bones.append(Bone(names[j], parent, tip, j, j == 0 or bool(slides[j]), frames[j]))
         for child, offset in zip(skeleton.children[j], offsets, strict=True):
             hangs_on[child] = names[j]
             if not shared and offset.any():
@@ -101,7 +113,9 @@ def _asf(bones: list[Bone]) -> Iterator[str]:
         direction = bone.tip / length if length > 0 else np.zeros(3)
         yield f"  begin\n    id {number}\n    name {bone.name}\n"
         yield "    direction " + " ".join(f"{x:.12f}" for x in direction) + "\n"
-        yield f"    length {length / UNIT:.12f}\n    axis 0 0 0 XYZ\n"
+        turns = np.degrees(rot.to_euler_zyx(bone.frame))[::-1] + 0.0  # no minus before a zero
+        axis = " ".join(f"{angle:.12g}" for angle in turns)
+        yield f"    length {length / UNIT:.12f}\n    axis {axis} XYZ\n"
         if bone.joint is not None:
             yield f"    dof {bone.dof}\n"
         yield "  end\n"

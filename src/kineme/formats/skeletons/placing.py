@@ -24,6 +24,7 @@ from kineme.formats.units import (
 )
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
+from kineme.recordings.rig import make_rig
 
 BYTES_PER_JOINT = 2 * 8 * (4 + 3)
 """What a joint takes in a frame: rotation, position, and as much again."""
@@ -38,12 +39,14 @@ def place(
     unit: str | float | None,
     up: str | None,
     provenance: Provenance,
+    frames: Floats | None = None,
 ) -> Motion:
     """Return the motion in metres with y up, from one in a file's own units and axes.
 
     Rotations (frames, joints, 4) become the motion's and are changed in place. ``slides`` are
     places (frames, 3) of joints in the frames of their parents, instead of their offsets. A unit
-    or an up axis of None is inferred.
+    or an up axis of None is inferred. ``frames`` are those of the nodes, as `make_rig` takes them,
+    of a skeleton that has no rig yet.
     """
     means = skeleton.offsets.copy()
     for joint, places in slides.items():
@@ -57,8 +60,8 @@ def place(
             provenance = provenance.noted(
                 f"with unit {unit} the skeleton is about {height:.4g} m tall: look whether it fits"
             )
-    scale = metres(unit)
-    skeleton = replace(skeleton, offsets=scale * skeleton.offsets)
+    scale, offsets = metres(unit), skeleton.offsets
+    skeleton = replace(skeleton, offsets=scale * offsets)
     positions = _positions(skeleton, rotations, slides, scale)
     if up is None:
         up = infer_up(skeleton, positions)
@@ -73,6 +76,11 @@ def place(
             # The turn changes the axes of the world and of the joints alike: conjugation.
             rotations[span] = rot.multiply(rot.multiply(turn, rotations[span]), rot.conjugate(turn))
             positions[span] = rot.rotate(turn, positions[span])
+    if skeleton.rig is None:
+        rig = make_rig(
+            skeleton.names, skeleton.parents, offsets, frames, unit=scale, turn=up_rotation(up)
+        )
+        skeleton = replace(skeleton, rig=rig)
     return Motion(skeleton, positions, fps, rotations, provenance)
 
 

@@ -1,0 +1,151 @@
+"""A copy of a glTF file with other animations: meshes, skins, materials and all else untouched.
+
+Numbers of nodes, meshes and accessors are those of the source, whatever its extensions refer to:
+new animations take the numbers that the old ones leave. Bytes that only these used are left out.
+Nodes that are no joints of the character are at rest in the new animations.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from mimetypes import guess_type
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kineme._util.checks import warn
+from kineme._util.files import translate_read_errors
+from kineme._util.json import decode_json
+from kineme.errors import ReadError, WriteError
+from kineme.formats.files import load
+from kineme.formats.scenes.assembly import compose
+from kineme.formats.scenes.gltf_file import GLTFFile
+from kineme.formats.scenes.gltf_writer import (
+    Animator,
+    check_animations,
+    save_gltf,
+    transform_of,
+)
+from kineme.recordings import Motion
+from kineme.recordings.rig import Rig
+
+_PACKED = "EXT_meshopt_compression"
+
+
+def copy_animations(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
+    """Leave a copy of ``source``, which the motions were read from, with these as animations."""
+    skeleton = check_animations(motions, path).skeleton
+    rig = skeleton.rig
+    if rig is None or not rig.numbers:
+        raise WriteError(
+            path, f"the bones of {source.name} are mirrored or scaled unevenly at rest"
+        )
+    with translate_read_errors(source):
+        file = GLTFFile(load(source))
+        tree: dict[str, Any] = decode_json(file.text, source, dict)
+    numbers = list(rig.numbers)
+    if max(numbers) >= len(tree["nodes"]):
+        raise WriteError(path, f"{source.name} has changed since it was read")
+    if _PACKED in tree.get("extensionsUsed", ()):
+        raise WriteError(
+            path, f"the buffers of {source.name} are packed by meshopt: export it unpacked"
+        )
+    copy = Animator(skeleton, rig, numbers[rig.above :], tree)
+    _drop_animations(copy, file)
+    if numbers[rig.above] < 0:
+        copy.numbers = [_add_root(copy, file, rig), *numbers[rig.above + 1 :]]
+    _take_images(copy, file)
+    for name, motion in motions.items():
+        copy.animate(name, motion)
+    _close_gaps(copy)
+    save_gltf(tree, bytes(copy.data), path)
+
+
+def _drop_animations(copy: Animator, file: GLTFFile) -> None:
+    """Take the animations out, and put the bytes of all else into one buffer."""
+    tree = copy.tree
+    tree.setdefault("bufferViews", [])
+    tree.setdefault("accessors", [])
+    samplers = [each for animation in tree.get("animations", ()) for each in animation["samplers"]]
+    keys = {each[end] for each in samplers for end in ("input", "output")}
+    keys -= {skin.get("inverseBindMatrices") for skin in tree.get("skins", ())}
+    for mesh in tree.get("meshes", ()):
+        for part in mesh["primitives"]:
+            used = [part["attributes"], *part.get("targets", ())]
+            keys -= {number for table in used for number in table.values()} | {part.get("indices")}
+    needed: set[int] = set()
+    dropped: set[int] = set()
+    for number, accessor in enumerate(tree["accessors"]):
+        views = [accessor, *accessor.get("sparse", {}).values()]
+        found = {
+            each["bufferView"] for each in views if isinstance(each, dict) and "bufferView" in each
+        }
+        (dropped if number in keys else needed).update(found)
+    copy.free_accessors, copy.free_views = sorted(keys), sorted(dropped - needed)
+    for number, view in enumerate(tree["bufferViews"]):
+        if number in copy.free_views:
+            continue
+        start = view.get("byteOffset", 0)
+        stored = file.buffer(view["buffer"])[start : start + view["byteLength"]]
+        if len(stored) < view["byteLength"]:
+            raise ReadError(file.content.path, f"buffer view {number} is longer than its buffer")
+        view |= {"buffer": 0, "byteOffset": len(copy.data)}
+        copy.data += stored + bytes(-len(stored) % 4)
+    tree["animations"] = []
+
+
+def _close_gaps(copy: Animator) -> None:
+    """Drop the numbers that no animation took, or leave something small at those in between."""
+    view = {"buffer": 0, "byteLength": 4}
+    accessor = {"componentType": 5126, "count": 1, "type": "SCALAR"}
+    for name, free, part in (
+        ("accessors", copy.free_accessors, accessor),
+        ("bufferViews", copy.free_views, view),
+    ):
+        parts = copy.tree[name]
+        while free and free[-1] == len(parts) - 1:
+            parts.pop()
+            free.pop()
+        for number in free:
+            parts[number] = dict(part)
+
+
+def _add_root(copy: Animator, file: GLTFFile, rig: Rig) -> int:
+    """Add the rig's root bone as a node and to the skins of its children; its number."""
+    tree, at = copy.tree, rig.above
+    new = len(tree["nodes"])
+    children = [rig.numbers[node] for node, parent in enumerate(rig.parents) if parent == at]
+    if at:
+        siblings = tree["nodes"][rig.numbers[at - 1]]["children"]
+        siblings[:] = [*(each for each in siblings if each not in children), new]
+    for scene in tree.get("scenes", ()) if not at else ():
+        if {*scene.get("nodes", ())} & {*children}:
+            scene["nodes"] = [*(each for each in scene["nodes"] if each not in children), new]
+    tree["nodes"].append({"name": rig.names[at], **transform_of(rig, at), "children": children})
+    bind = np.linalg.inv(compose(*(part[at : at + 1] for part in rig.world)))[0]
+    bind[3] = [0.0, 0.0, 0.0, 1.0]
+    for skin in tree.get("skins", ()):
+        if not {*skin["joints"]} & {*children}:
+            continue
+        skin["joints"].append(new)
+        if "inverseBindMatrices" in skin:
+            matrices = file.array(skin["inverseBindMatrices"])
+            matrices = np.concatenate([matrices, bind.T.reshape(1, 16)])
+            skin["inverseBindMatrices"] = copy.accessor(matrices, None)
+    return new
+
+
+def _take_images(copy: Animator, file: GLTFFile) -> None:
+    """Put images that are files beside the source into the copy, which may lie elsewhere."""
+    for image in copy.tree.get("images", ()):
+        place = image.get("uri", "data:")
+        if place.startswith("data:"):
+            continue
+        try:
+            stored = base64.b64encode(file.stored(place)).decode()
+        except ReadError:
+            warn(f"{file.content.path.name}: the texture {place!r:.60} is missing")
+            continue
+        image["uri"] = f"data:{guess_type(place)[0] or 'image/png'};base64,{stored}"

@@ -1,0 +1,112 @@
+"""Poses of the nodes of a rig, from the motion of its skeleton; see `kineme.recordings.rig`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.motion import Motion
+from kineme.recordings.rig import Rig, make_rig
+from kineme.recordings.skeleton import Skeleton
+
+
+def rig_of(skeleton: Skeleton) -> Rig:
+    """Return the rig of a skeleton; one of its joints, without rotations, where it has none."""
+    return skeleton.rig or make_rig(skeleton.names, skeleton.parents, skeleton.offsets)
+
+
+def pose_rig(motion: Motion, rig: Rig) -> tuple[Floats, Floats]:
+    """Return the translations and rotations of the joints' nodes in a motion.
+
+    Parameters
+    ----------
+    motion : Motion
+        One with rotations.
+    rig : Rig
+        That of its skeleton. Nodes above the joints are at rest.
+
+    Returns
+    -------
+    translations, rotations : ndarray of shape (frames, joints, 3), (frames, joints, 4)
+        In the parent's frame, in the units of the rig's file. Joints without a rotation of their
+        own (end sites) are turned as at rest.
+    """
+    skeleton, above, back = motion.skeleton, rig.above, rot.conjugate(rig.turn)
+    turns = rot.multiply(back, world_rotations(skeleton, motion.rotations))
+    turns = rot.multiply(turns, rot.conjugate(rig.axes))
+    places = rot.rotate(back, motion.positions) / rig.unit
+    rest_places, rest_turns, sizes = rig.world
+    translations, rotations = np.empty(places.shape), np.empty(turns.shape)
+    for joint in range(skeleton.n_joints):
+        place, turn, size = rig.parent_world(above + joint, rest_places, rest_turns, sizes)
+        # A parent that is a joint moves; one above the joints is at rest.
+        if (parent := rig.parents[above + joint] - above) >= 0:
+            place, turn = places[:, parent], turns[:, parent]
+        inverse = rot.conjugate(turn)
+        translations[:, joint] = rot.rotate(inverse, places[:, joint] - place) / size
+        rotations[:, joint] = rot.multiply(inverse, turns[:, joint])
+    for end in skeleton.end_sites:
+        rotations[:, end] = rig.rotations[above + end]
+    return translations, rotations
+
+
+def align_to_rest(motion: Motion) -> Motion:
+    """Return the motion with the axes of joints along those of the world in the rig's rest pose.
+
+    Formats without rotations at rest need it. Positions stay; offsets become those at rest.
+    """
+    skeleton = motion.skeleton
+    if skeleton.rig is None or motion.rotations is None:
+        return motion
+    places, turns = skeleton.rig.rest()
+    offsets, inverse = np.array(places), rot.conjugate(turns)
+    rotations = rot.multiply(world_rotations(skeleton, motion.rotations), inverse)
+    local = np.array(rotations)
+    for joint, parent in enumerate(skeleton.parents):
+        if parent >= 0:
+            offsets[joint] -= places[parent]
+            local[:, joint] = rot.multiply(rot.conjugate(rotations[:, parent]), rotations[:, joint])
+    local[:, list(skeleton.end_sites)] = rot.IDENTITY
+    # What rounding leaves of a bone of no length would be a bone.
+    offsets[np.abs(offsets) < 1e-12] = 0.0
+    return replace(motion, skeleton=replace(skeleton, offsets=offsets), rotations=local)
+
+
+def add_root(motion: Motion) -> Motion:
+    """Return the motion with a joint above its roots that stays at the origin, called ``root``."""
+    skeleton, n = motion.skeleton, motion.n_frames
+    name = "root"
+    while name in skeleton.names:
+        name += "_"
+    rig = rig_of(skeleton)
+    at = rig.above
+    # Joints that hung on what carries the body, or on nothing, hang on the new one.
+    parents = [p + 1 if p >= at else at if node >= at else p for node, p in enumerate(rig.parents)]
+    turn = rig.turn if at == 0 else rot.multiply(rig.turn, rig.world[1][at - 1])
+    rig = replace(
+        rig,
+        names=(*rig.names[:at], name, *rig.names[at:]),
+        parents=(*parents[:at], at - 1, *parents[at:]),
+        translations=np.insert(rig.translations, at, 0.0, axis=0),
+        rotations=np.insert(rig.rotations, at, rot.IDENTITY, axis=0),
+        scales=np.insert(rig.scales, at, 1.0, axis=0),
+        # At rest its axes are those of the world.
+        axes=np.concatenate([rot.conjugate(turn)[None], rig.axes]),
+        numbers=(*rig.numbers[:at], -1, *rig.numbers[at:]) if rig.numbers else (),
+    )
+    rooted = Skeleton(
+        (name, *skeleton.names),
+        (-1, *(parent + 1 for parent in skeleton.parents)),
+        np.insert(skeleton.offsets, 0, 0.0, axis=0),
+        frozenset(end + 1 for end in skeleton.end_sites),
+        rig,
+    )
+    rotations = motion.rotations
+    if rotations is not None:
+        rotations = np.concatenate([np.broadcast_to(rot.IDENTITY, (n, 1, 4)), rotations], axis=1)
+    positions = np.concatenate([np.zeros((n, 1, 3)), motion.positions], axis=1)
+    return replace(motion, skeleton=rooted, positions=positions, rotations=rotations)

@@ -1,0 +1,140 @@
+"""The rig of a file comes back from the file that is written of it: nodes, rest pose, places."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.errors import MotionError
+from kineme.formats.read_write import read_motion, takes_in
+from kineme.formats.scenes.fbx_writer import write_takes
+from kineme.recordings import Motion
+from kineme.recordings.operations import scale
+from kineme.recordings.posing import align_to_rest, pose_rig, rig_of
+from kineme.recordings.rig import Rig
+
+RIGGED = [
+    "rigs/Xbot.glb", "rigs/RobotExpressive.glb", "rigs/samba.fbx",
+    "rigs/bandai_namco/dataset-1_dash_normal_001.bvh", "cmu_formats/02_01.amc",
+    "formats/PyMO_AV_8Walk.bvh",
+]  # fmt: skip
+NEAR = 1e-5
+"""Metres: a hundredth of a millimetre."""
+
+
+def read(data_dir: Path, name: str) -> Motion:
+    motion = read_motion(data_dir / name)
+    return motion[: min(motion.n_frames, 40)]
+
+
+def shared(one: Motion, other: Motion) -> tuple[list[int], list[int]]:
+    names = other.skeleton.names
+    pairs = [(j, names.index(n)) for j, n in enumerate(one.skeleton.names) if n in names]
+    return [j for j, _ in pairs], [j for _, j in pairs]
+
+
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+@pytest.mark.parametrize("suffix", [".glb", ".bvh", ".usda"])
+@pytest.mark.parametrize("name", RIGGED)
+def test_places_and_rest_pose_come_back(data_dir, tmp_path, name, suffix) -> None:
+    motion = read(data_dir, name)
+    if suffix == ".usda":
+        pytest.importorskip("pxr")
+    kineme.write(motion, tmp_path / f"clip{suffix}")
+    again = read_motion(tmp_path / f"clip{suffix}")
+    here, there = shared(motion, again)
+    assert len(here) >= motion.skeleton.n_joints - 5  # ends of limbs have other names in a BVH
+    np.testing.assert_allclose(again.positions[:, there], motion.positions[:, here], atol=NEAR)
+    rest, found = (rig_of(each.skeleton).rest()[0] for each in (motion, again))
+    np.testing.assert_allclose(found[there], rest[here], atol=NEAR / 10)
+
+
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+@pytest.mark.parametrize("name", [name for name in RIGGED if name.endswith((".glb", ".bvh"))])
+def test_the_same_format_keeps_every_node_as_it_is(data_dir, tmp_path, name) -> None:
+    motion = read(data_dir, name)
+    path = tmp_path / f"clip{Path(name).suffix}"
+    kineme.write(motion, path)
+    rig, found = rig_of(motion.skeleton), rig_of(read_motion(path).skeleton)
+    assert (found.parents, found.unit) == (rig.parents, rig.unit)
+    assert found.names[: rig.above] == rig.names[: rig.above]
+    np.testing.assert_allclose(found.translations, rig.translations, atol=1e-8)
+    np.testing.assert_allclose(found.rotations, rig.rotations, atol=1e-12)
+    np.testing.assert_allclose(found.scales, rig.scales, atol=1e-12)
+
+
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+def test_a_bone_of_an_asf_keeps_its_axes(data_dir: Path, tmp_path: Path) -> None:
+    motion = read(data_dir, "cmu_formats/02_01.amc")
+    kineme.write(motion, tmp_path / "clip.amc")
+    again = read_motion(tmp_path / "clip.amc")
+    np.testing.assert_allclose(again.positions, motion.positions, atol=NEAR)
+    rig, found = rig_of(motion.skeleton), rig_of(again.skeleton)
+    # A quaternion and its negative are one rotation.
+    alike = np.abs(np.einsum("jc,jc->j", found.rotations, rig.rotations))
+    np.testing.assert_allclose(alike, 1.0, atol=1e-12)
+    assert (np.abs(rig.rotations[:, 0]) < 0.99).any()
+
+
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+def test_the_dancer_of_an_fbx_stands_on_its_feet_at_rest(data_dir: Path) -> None:
+    motion = read(data_dir, "rigs/samba.fbx")
+    for skeleton in (motion.skeleton, align_to_rest(motion).skeleton):
+        rest = dict(zip(skeleton.names, rig_of(skeleton).rest()[0], strict=True))
+        height = rest["mixamorig:Hips"][1] - rest["mixamorig:LeftFoot"][1]
+        assert height == pytest.approx(0.9555, abs=1e-3)
+
+
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+@pytest.mark.parametrize("name", RIGGED)
+def test_nodes_of_a_rig_are_where_the_joints_are(data_dir: Path, name: str) -> None:
+    motion = scale(read(data_dir, name), 2.0)
+    rig = rig_of(motion.skeleton)
+    shifts, turns = pose_rig(motion, rig)
+    posed = Rig(
+        rig.names,
+        rig.parents,
+        np.concatenate([rig.translations[: rig.above], shifts[7]]),
+        np.concatenate([rig.rotations[: rig.above], turns[7]]),
+        rig.scales,
+        rig.axes,
+        rig.unit,
+        rig.turn,
+    )
+    np.testing.assert_allclose(posed.rest()[0], motion.positions[7], atol=1e-9)
+
+
+def test_a_negative_scale_is_no_rig() -> None:
+    one = np.array([[1.0, 0.0, 0.0, 0.0]])
+    with pytest.raises(MotionError, match="not one positive number"):
+        Rig(("hips",), (-1,), np.zeros((1, 3)), one, -np.ones((1, 3)), one)
+
+
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+@pytest.mark.parametrize("name", RIGGED)
+def test_an_fbx_has_the_rest_pose_and_the_places(data_dir: Path, tmp_path: Path, name: str) -> None:
+    motion = read(data_dir, name)
+    kineme.write(motion, tmp_path / "clip.fbx")
+    again = read_motion(tmp_path / "clip.fbx")
+    assert again.fps == motion.fps
+    here, there = shared(motion, again)
+    assert len(here) == motion.skeleton.n_joints
+    np.testing.assert_allclose(again.positions[:, there], motion.positions[:, here], atol=NEAR)
+    rest, found = (rig_of(each.skeleton).rest()[0] for each in (motion, again))
+    np.testing.assert_allclose(found[there], rest[here], atol=1e-9)
+
+
+def test_an_fbx_has_a_take_for_each_motion(tmp_path: Path) -> None:
+    motion = kineme.read(kineme.bundled_recording())
+    path = tmp_path / "takes.fbx"
+    write_takes({"walk": motion[:60], "jump": motion[300:420]}, path)
+    with pytest.warns(kineme.errors.KinemeWarning, match="2 takes are in it and 'walk' is read"):
+        assert read_motion(path).n_frames == 60
+    jump = read_motion(path, take="jump")
+    assert takes_in(path) == ("walk", "jump")
+    there = [jump.joint(each) for each in motion.skeleton.names]
+    np.testing.assert_allclose(jump.positions[:, there], motion.positions[300:420], atol=NEAR)
+    assert jump.fps == motion.fps
