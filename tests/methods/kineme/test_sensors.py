@@ -17,7 +17,7 @@ from kineme.features.channels import channel_statistics
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.kineme import tree
 from kineme.methods.kineme.preset import SENSORS
-from kineme.methods.kineme.tree import part_ends
+from kineme.methods.kineme.tree import MOVED, part_ends
 from kineme.methods.kineme.views import mutual_information, reduce_shared, views_of
 
 FPS = 50.0
@@ -183,11 +183,18 @@ def test_long_recordings_are_cut_as_finely_as_their_parts_and_known_again() -> N
     assert turns[1:] == turns[:1] * 3
 
 
-@given(st.integers(1, 10_000), st.integers(1, 500))
-def test_parts_are_whole_and_none_is_too_long(n: int, longest: int) -> None:
-    lengths = np.diff(part_ends(n, longest))
+@given(st.integers(1, 10_000), st.integers(1, 500), st.integers(1, 40), st.integers(0, 9))
+def test_parts_are_whole_and_none_is_too_long(n: int, longest: int, side: int, seed: int) -> None:
+    rows = np.random.default_rng(seed).normal(size=(n, 2))
+    lengths = np.diff(part_ends(rows, longest, side))
     assert lengths.sum() == n
-    assert 1 <= lengths.min() <= lengths.max() <= longest
+    assert 1 <= lengths.min() <= lengths.max() <= max(2, longest * (1 + 2 * MOVED))
+
+
+def test_parts_meet_where_the_recording_changes() -> None:
+    rows = np.repeat([[0.0, 1.0], [1.0, 0.0], [0.0, 1.0]], [95, 110, 95], axis=0)
+    assert part_ends(rows, 100, 10) == [0, 95, 205, 300]
+
 
 
 def test_what_channels_share_is_held_down() -> None:

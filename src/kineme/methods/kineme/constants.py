@@ -82,7 +82,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     # Segments: the tree and its shortest description.
     part: float = constant(
-        "a longer recording is segmented in parts of this at most", unit="s", limits=SOME_TIME,
+        "a longer recording is segmented in parts of about this at most", unit="s", limits=SOME_TIME,
         fine=True, default=600.0,
     )  # fmt: skip
     compared_within: float = constant(

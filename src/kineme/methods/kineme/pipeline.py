@@ -51,6 +51,8 @@ from kineme.methods.stages import Progress, stopwatch
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
+SIDE = 2.0
+"""Seconds before and after the end of a part, which differ most where parts meet."""
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
 
@@ -107,7 +109,7 @@ def _analyze(
     n = len(rows)
     poses = np.ascontiguousarray(rows - rows.mean(axis=0), np.float32)  # a shift costs no digits
     least = 2 * ceil(preset.working_fps / preset.rate)  # frames, so that each part has a sample
-    ends = part_ends(n, max(least, preset.frames(preset.part)))
+    ends = part_ends(poses, max(least, preset.frames(preset.part)), preset.frames(SIDE))
     spans = [slice(*span) for span in pairwise(ends)]
     with stage("views"):
         views = [views_of(rows[span], preset, joints=joints) for span in spans]

@@ -41,7 +41,8 @@ OF_SENSORS: Mapping[str, Any] = {
     "working_fps": 50.0,
     "view_margin": 0.0,
     "half_views": True,  # a sensor may be loose, or on another limb than the movement
-    "min_explained": 0.8,
+    "min_explained": 0.6,  # idle channels weigh as much as those that move
+    "chance_count": 8.0,
     "chance_duration": 32.0,  # sitting down twice is no exercise
     "centering": 0.4,
     "min_similarity": 1.0,

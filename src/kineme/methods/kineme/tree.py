@@ -12,10 +12,11 @@
 5. The level and the number of clusters are those of the shortest description: the
    distances of samples within clusters, and a price for each segment and cluster.
 
-A long recording is cut into equal parts, each of which has the level that it would have alone:
-the shortest description of hours is coarser than that of their minutes, and takes the square of
-the time. Then clusters of different parts are joined, the cheapest first, while a union costs
-less than a cluster does in a part. Clusters of one part stay apart.
+A long recording is cut into about equal parts, where it changes most, each of which has the level
+that it would have alone: the shortest description of hours is coarser than that of their minutes,
+and takes the square of the time. Then clusters of different parts are joined, the nearest first,
+while they are nearer to each other than either is to another cluster of its own part. Clusters of
+one part stay apart.
 
 Sources: change points after Arlot, Celisse and Harchaoui 2019; bottom-up
 segmentation after Keogh, Chu, Hart and Pazzani 2001; distances of clusters less those
@@ -52,6 +53,10 @@ LEAST, MOST = 4, 24
 """Samples that stand for one segment."""
 OF_CLUSTER = 64
 """Samples that stand for one cluster of a part, at most."""
+MOVED = 1 / 6
+"""Share of a part by which its end moves to where the recording changes."""
+TINY = 1e-12
+"""Least distance that something is divided by."""
 EACH_LEVEL, LEVELS = 150, 60
 """Levels up to so many segments are tried one by one; of the others so many."""
 
@@ -408,16 +413,48 @@ def spread(start: int, stop: int, most: int) -> Samples:
     return start + (2 * np.arange(n) + 1) * (stop - start) // (2 * n)
 
 
-def part_ends(n: int, longest: int) -> list[int]:
-    """Ends of equal parts of n samples, from 0 to n, none longer than `longest`.
+def part_ends(rows: Floats, longest: int, side: int) -> list[int]:
+    """Return the ends of about equal parts, each where the rows change most nearby.
+
+    The first is 0 and the last the number of rows. Equal parts are at most `longest`; their ends
+    move by up to `MOVED` of that.
+
+    Parameters
+    ----------
+    rows : (frames, dims) array
+    longest : int
+        Frames.
+    side : int
+        Frames before and after an end whose means and mean changes are compared.
 
     Examples
     --------
-    >>> part_ends(10, 4)
-    [0, 3, 7, 10]
+    >>> part_ends(np.repeat([0.0, 1.0, 0.0], [85, 40, 75])[:, None], 100, 10)
+    [0, 85, 200]
     """
+    n = len(rows)
     count = max(1, -(-n // longest))
-    return [round(n * part / count) for part in range(count + 1)]
+    ends = [0]
+    reach = int(MOVED * n / count)
+    for part in range(1, count):
+        middle = round(n * part / count)
+        near = np.arange(max(middle - reach, ends[-1] + 1), middle + reach + 1)
+        near = near[(near >= side) & (near <= n - side)]
+        ends.append(int(near[_changes(rows, near, side).argmax()]) if len(near) else middle)
+    return [*ends, n]
+
+
+def _changes(rows: Floats, at: Samples, side: int) -> Floats:
+    """Return how much the mean of rows, and their mean change, differ before and after frames."""
+    first, last = int(at[0]) - side, int(at[-1]) + side
+    span = np.asarray(rows[first:last], np.float64)
+    values = np.hstack([span, np.abs(np.diff(span, axis=0, prepend=span[:1]))])
+    values /= np.maximum(values.std(axis=0), TINY)
+    sums = np.vstack([np.zeros(values.shape[1]), np.cumsum(values, axis=0)])
+    middle = at - first
+    return np.asarray(
+        np.linalg.norm(sums[middle + side] - 2 * sums[middle] + sums[middle - side], axis=1)
+    )
 
 
 def link_parts(
@@ -463,6 +500,10 @@ def link_parts(
 def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Samples:
     """Return clusters of all parts, where those of different parts may be one: a number for each.
 
+    Two are one if they are nearer to each other than either is to any other cluster of its own
+    part: there, what is so far apart was told apart. Of parts with one cluster only, two are one
+    if that costs less than a cluster.
+
     Parameters
     ----------
     means : (clusters, clusters) array
@@ -472,7 +513,7 @@ def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Sampl
     part_of : (clusters,) array
         The part that each is of.
     price : float
-        Of a cluster: two are one where that costs less.
+        Of a cluster in a part: samples at the distance of one unit.
 
     Examples
     --------
@@ -484,15 +525,22 @@ def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Sampl
     means, lengths = means.copy(), sizes.astype(np.float64)
     parts = np.eye(int(part_of.max()) + 1, dtype=bool)[part_of]
     owner = np.arange(len(means))
+    alive = np.ones(len(means), dtype=bool)
     while True:
         within = np.diag(means)
         # The energy distance: between two clusters, less the mean of what is within them.
         gaps = means - np.add.outer(within, within) / 2
-        costs = gaps * np.outer(lengths, lengths) / np.maximum(np.add.outer(lengths, lengths), 1)
-        # Clusters that share a part stay apart: there they were told from each other.
-        costs[parts @ parts.T] = np.inf
-        a, b = sorted(divmod(int(np.argmin(costs)), len(costs)))
-        if not costs[a, b] < price:
+        together = parts @ parts.T
+        # Nearest cluster that was told from each: of the same part, and not itself.
+        told = np.where(together & alive & ~np.eye(len(means), dtype=bool), gaps, np.inf)
+        nearest = told.min(axis=1)
+        limits = np.minimum.outer(nearest, nearest)
+        # A union costs gap / (1 / one length + 1 / other length).
+        alone = price * np.add.outer(1 / lengths, 1 / lengths)
+        ratios = gaps / np.maximum(np.where(np.isfinite(limits), limits, alone), TINY)
+        ratios[together | ~alive | ~alive[:, None]] = np.inf
+        a, b = sorted(divmod(int(np.argmin(ratios)), len(ratios)))
+        if not ratios[a, b] < 1:
             return owner
         # Mean distances of the union are means weighted by the lengths.
         share = lengths[b] / (lengths[a] + lengths[b])
@@ -500,5 +548,5 @@ def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Sampl
         means[:, a] += share * (means[:, b] - means[:, a])
         lengths[a] += lengths[b]
         parts[a] |= parts[b]
-        parts[b] = True  # it is part of a, and compared with nothing any more
+        alive[b] = False
         owner[owner == b] = a
