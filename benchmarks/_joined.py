@@ -16,7 +16,7 @@ from kineme.evaluation.recordings import recordings_below
 from kineme.labels.collections import labels_of
 from kineme.labels.spans import text_of
 from kineme.recordings import Signals
-from sets import READING
+from sets import read_sensors
 
 Ints = NDArray[np.int64]
 
@@ -62,7 +62,7 @@ class Piece(NamedTuple):
 def pieces(folder: Path) -> Iterator[Piece]:
     sources = labels_of(recordings_below(folder / "recordings"), folder / "labels.csv")
     for path, source in few(list(sources.items()), list(sources.items())[:2]):
-        one = READING.read(path)
+        one = read_sensors(path)
         if isinstance(one, Signals):
             truth = source.of(n_frames=one.n_frames, fps=one.fps)
             yield Piece(path.stem, one, classes_of(truth))

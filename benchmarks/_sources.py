@@ -30,7 +30,7 @@ from kineme.labels.collections import LabelSource, labels_of
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
-from sets import READING
+from sets import read_sensors
 
 NEAR_S = 0.5
 """Borders this near to a true one are right."""
@@ -40,6 +40,8 @@ PERSON = re.compile(r"_s(\d+)")
 """In names of takes."""
 STANDING_S = 0.5
 """Between two exercises of a session."""
+ENDS = ("start_s", "stop_s")
+"""Columns of a set."""
 ANNOTATED = ("one_to_one", "border_f1", "covering", "count_exact")
 """Scores where annotators cut."""
 CONTINUOUS = ("one_to_one", "border_f1", "covering")
@@ -189,7 +191,7 @@ def judged_session(found: Segmentation, parts: list[Exercise]) -> Judged:
     np.add.at(table, (own, truth[seen]), 1)
     true = [part.stop / found.fps + STANDING_S / 2 for part in parts[:-1]]
     starts = {row.start_s for row in found.activities if row.kind == "activity"} - {0.0}
-    right = [counted(found, part) == part.count for part in parts]
+    right = [counted(found, part.start, part.stop) == part.count for part in parts]
     return {
         "one_to_one": float(table[linear_sum_assignment(-table)].sum() / seen.sum()),
         "border_f1": 2 * near(true, sorted(starts)) / (len(true) + len(starts)),
@@ -197,12 +199,12 @@ def judged_session(found: Segmentation, parts: list[Exercise]) -> Judged:
     }
 
 
-def counted(found: Segmentation, part: Exercise) -> int:
-    """The most repetitions of one cluster in a part of the recording."""
+def counted(found: Segmentation, start: float, stop: float) -> int:
+    """The most repetitions of one cluster between two frames of the recording."""
     rows = found_units(found)
     middles = (rows.start_frame + rows.stop_frame) / 2
     margin = TAGGED_S * found.fps
-    inside = rows[(part.start - margin <= middles) & (middles <= part.stop + margin)]
+    inside = rows[(start - margin <= middles) & (middles <= stop + margin)]
     return max(Counter(inside.cluster.tolist()).values(), default=0)
 
 
@@ -270,7 +272,7 @@ def sensors(name: str, every: int) -> Iterator[Sample]:
         recordings_below(DATA / "sets" / name / "recordings"), DATA / "sets" / name / "labels.csv"
     )
     for path, source in list(labels.items())[::every]:
-        yield Sample(path.stem, READING.read(path), partial(judge, source=source))
+        yield Sample(path.stem, read_sensors(path), partial(judge, source=source))
 
 
 def by_person(name: str, every: int) -> Iterator[Sample]:
@@ -309,8 +311,27 @@ def barbell(every: int) -> Iterator[Sample]:
         return {"exact": float(own == planned), "within_one": float(abs(own - planned) <= 1)}
 
     for row in rows[::every]:
-        recording = READING.read(folder / "recordings" / f"{row['recording']}.parquet")
+        recording = read_sensors(folder / "recordings" / f"{row['recording']}.parquet")
         yield Sample(row["recording"], recording, partial(judge, planned=int(row["nominal_count"])))
+
+
+def counted_sets(name: str, every: int) -> Iterator[Sample]:
+    """What sensors measured during sets of repetitions, counted by people, and between them."""
+    folder = DATA / "sets" / name
+
+    def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
+        wrong = [
+            abs(counted(found, *(found.fps * float(row[end]) for end in ENDS)) - int(row["count"]))
+            for row in rows
+        ]
+        return {
+            "exact": Ratio(sum(each == 0 for each in wrong), len(wrong)),
+            "within_one": Ratio(sum(each <= 1 for each in wrong), len(wrong)),
+        }
+
+    files = {path.stem: path for path in recordings_below(folder / "recordings")}
+    for key, rows in list(by_recording(folder / "counts.csv").items())[::every]:
+        yield Sample(key, kineme.read(files[key]), partial(judge, rows=rows))
 
 
 def most_repeated(found: Segmentation) -> int:
@@ -351,5 +372,9 @@ SOURCES: Mapping[str, Callable[[int], Iterator[Sample]]] = {
     "utkinect": partial(sensors, "utkinect"),
     "hugadb_by_person": partial(by_person, "hugadb"),
     "barbell": barbell,
+    "swimming": partial(sensors, "swimming"),
+    "ptex": partial(counted_sets, "ptex"),
+    "gym_watch": partial(counted_sets, "gym_watch"),
+    "moca": partial(counted_sets, "moca"),
 }
 """By name: what yields every n-th of its recordings."""

@@ -45,7 +45,7 @@ from kineme.methods.base import Columns
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.segmenter import segment_and_found
 from kineme.recordings import Motion, Signals
-from sets import READING
+from sets import read_sensors
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -174,7 +174,7 @@ def sensors(name: str, most: int, every: int) -> Known:
     counts = by_recording(folder / "counts.csv")
     paths = sorted((folder / "recordings").glob("*.parquet"))
     for at in np.unique(np.linspace(0, len(paths) - 1, few(most // every, 2)).astype(int)):
-        signals, stem = READING.read(paths[at]), paths[at].stem
+        signals, stem = read_sensors(paths[at]), paths[at].stem
         stop = signals.n_frames / signals.fps
         if name == "barbell":
             yield signals, Truth([(0.0, stop, "")], [int(counts[stem][0]["nominal_count"])])

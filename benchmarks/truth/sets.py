@@ -26,11 +26,12 @@ from _options import DATA, command_line, few, needed
 from _rival_presets import register_rivals
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.folder import joined_comparisons
-from kineme.evaluation.recordings import Answer, Job, recordings_below, worked_out
+from kineme.evaluation.recordings import Answer, Job, read_selected, recordings_below, worked_out
 from kineme.evaluation.score import pool_scores, scores
 from kineme.evaluation.tables import markdown
 from kineme.formats import ReadOptions
 from kineme.labels.collections import labels_of
+from kineme.recordings import Motion, Signals
 
 SETS = ("hugadb", "hapt", "ipolgait", "utkinect")
 SHARES = ("mof", "edit", "f1@10", "f1@25", "f1@50")
@@ -39,6 +40,11 @@ WAYS = {"folder": True, "untold": False}
 """Ways to join the clusters of a set, and whether they are told the number of classes."""
 READING, WITHOUT = ReadOptions(), ("emg*", "time*")
 """How recordings are read, and columns that are left out."""
+
+
+def read_sensors(path: Path) -> Motion | Signals:
+    """Return a recording of a set without muscles and times."""
+    return read_selected(path, READING, WITHOUT)
 
 
 def scored(job: Job) -> Answer:

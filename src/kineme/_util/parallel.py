@@ -57,7 +57,7 @@ def check_cancelled() -> None:
 
 
 @contextmanager
-def announcing(say: Callable[[str], None]) -> Iterator[None]:
+def announce_to(say: Callable[[str], None]) -> Iterator[None]:
     """While the block lasts, what its work announces goes to ``say``."""
     before = _say.set(say)
     try:

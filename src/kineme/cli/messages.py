@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 import typer
 
-from kineme._util.parallel import announcing
+from kineme._util.parallel import announce_to
 from kineme.errors import KinemeError, KinemeWarning
 
 PATIENCE = 1.0  # seconds before progress is shown
@@ -55,7 +55,7 @@ def progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     timer.daemon = True
     timer.start()
     try:
-        with announcing(show := lambda stage: status.update(f"{what}: {stage}")):
+        with announce_to(show := lambda stage: status.update(f"{what}: {stage}")):
             yield show
     finally:
         timer.cancel()
