@@ -43,10 +43,11 @@ class Studio:
         return self.client.post(f"/api/recordings/{self.id}/edits", json=sent)
 
     def done(self, revision: int, kind: str, **rest: Any) -> dict[str, Any]:
+        """What an edit made, and the table that it left."""
         answer = self.edit(revision, kind, **rest)
         assert answer.status_code == 200, answer.text
         message: dict[str, Any] = answer.json()
-        return message
+        return {**message, "segmentation": self.recording()["segmentation"]}
 
     def starts(self, level: str = "activity") -> list[int]:
         rows = self.recording()["segmentation"]["segments"]

@@ -80,7 +80,7 @@ def draw_sketch(listed: ListedRecording, options: ReadingOptions) -> Sketch | No
     None for a file that is soon read, or whose format has no shorter way.
     """
     from kineme.web.display import display_motion
-    from kineme.web.page_data import segments_message
+    from kineme.web.tables import segments_message
 
     path = listed.path
     try:
