@@ -3,9 +3,9 @@
     python -m benchmarks studio_edits [--segments 5000 20000] [--record]
 
 The bundled recording, repeated to an hour, has a table of so many primitives, as if of a work-out.
-Edits of each kind are asked for over HTTP. Then keys are pressed in Chromium, which draws with the processor: until an edit is seen, until it
-is on the disk, what the page computes for it, and what it is sent meanwhile. What else the machine
-does falls on all of them but the processor time.
+Edits of each kind are asked for over HTTP. Then keys are pressed in Chromium, which draws with the
+processor: until an edit is seen, until it is on the disk, what the page computes for it, and what
+it is sent meanwhile. What else the machine does falls on all of them but the processor time.
 """
 
 from __future__ import annotations

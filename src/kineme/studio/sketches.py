@@ -99,7 +99,7 @@ def draw_sketch(listed: ListedRecording, options: ReadingOptions) -> Sketch | No
         n_frames=found.n_frames,
         fps=found.fps,
         motion=head,
-        matrix=MatrixHead(fps=1.0, tile=1, sizes=[], band=None),
+        matrix=MatrixHead(fps=1.0, tile=1, sizes=[]),
         segmentation=segments_message(table),
         levels=[],
         video=video_message(path),

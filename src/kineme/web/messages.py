@@ -72,14 +72,12 @@ class MatrixHead(Struct, frozen=True, kw_only=True):
     each next level halves that; the last is one tile. Tiles are square, ``tile``
     cells a side, the last of a row or column cut off at the end of the recording.
     A report has the tiles with row >= column only, the others being their mirror
-    images; where ``band`` is a number, tiles of the finer levels farther than so
-    many of their cells from the diagonal may be missing, too.
+    images; of the finer levels it may lack those off the diagonal, too.
     """
 
     fps: float
     tile: int
     sizes: list[int]
-    band: int | None
 
 
 class Curve(Struct, frozen=True, kw_only=True):

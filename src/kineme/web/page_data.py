@@ -72,10 +72,9 @@ def recording_message(
     segmentation: Segmentation,
     *,
     name: str,
-    band: int | None = None,
     levels: bool = False,
 ) -> Recording:
-    """Return the message that goes with the binary parts of a report, and with tiles of this band.
+    """Return the message that goes with the binary parts of a report.
 
     With ``levels`` the tables at all details go along, unless they are too long. ParameterError
     where the segments are of a recording of another length or frame rate.
@@ -92,7 +91,7 @@ def recording_message(
         n_frames=data.n_frames,
         fps=data.fps,
         motion=data.motion,
-        matrix=make_head(data.matrix, band),
+        matrix=make_head(data.matrix),
         segmentation=segments_message(segmentation),
         levels=_levels(segmentation) if levels else [],
         video=None,

@@ -72,14 +72,12 @@ export interface MotionHead {
  * each next level halves that; the last is one tile. Tiles are square, `tile`
  * cells a side, the last of a row or column cut off at the end of the recording.
  * A report has the tiles with row >= column only, the others being their mirror
- * images; where `band` is a number, tiles of the finer levels farther than so
- * many of their cells from the diagonal may be missing, too.
+ * images; of the finer levels it may lack those off the diagonal, too.
  */
 export interface MatrixHead {
   fps: number;
   tile: number;
   sizes: number[];
-  band: number | null;
 }
 
 /** A curve over time: a joint's height, a channel; `group` says what it is of that name. */

@@ -49,7 +49,7 @@ export function recording(segmentation = table(), revision = 0): Recording {
     n_frames: 100,
     fps: FPS,
     motion: null,
-    matrix: { fps: 10, tile: 256, sizes: [100], band: null },
+    matrix: { fps: 10, tile: 256, sizes: [100] },
     segmentation,
     levels: [],
     video: null,
