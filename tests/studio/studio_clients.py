@@ -54,6 +54,19 @@ class Studio:
         return [row["start_frame"] for row in rows if row["level"] == level]
 
 
+def change_rows(rows: list[dict[str, Any]], change: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the rows that a change makes of others, as the page does."""
+    left = {(row["level"], row["start_frame"]): row for row in rows}
+    for place in change["removed"]:
+        del left[tuple(place)]
+    left |= {(row["level"], row["start_frame"]): row for row in change["rows"]}
+    activities = [start for level, start in left if level == "activity"]
+    return [
+        {**left[place], "activity": sum(start <= place[1] for start in activities) - 1}
+        for place in sorted(left)
+    ]
+
+
 class Process(Studio):
     """A client of ``kineme studio`` on a free port."""
 

@@ -9,10 +9,10 @@ import threading
 import time
 import weakref
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
 
 import numpy as np
 import pytest
+from studio_clients import change_rows
 
 import kineme
 from kineme.errors import ParameterError, ReadError
@@ -248,19 +248,6 @@ def test_an_edit_is_answered_by_the_rows_that_differ_or_by_another_table(studio)
     anew = {"kind": "segment", "preset": "voegele2014", "parameters": {}}
     other = studio.client.post(address, json={"revision": made["revision"], "edit": anew}).json()
     assert (other["change"], other["segmentation"]) == (None, studio.recording()["segmentation"])
-
-
-def change_rows(rows: list[dict[str, Any]], change: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the rows that a change makes of others, as the page does."""
-    left = {(row["level"], row["start_frame"]): row for row in rows}
-    for place in change["removed"]:
-        del left[tuple(place)]
-    left |= {(row["level"], row["start_frame"]): row for row in change["rows"]}
-    activities = [start for level, start in left if level == "activity"]
-    return [
-        {**left[place], "activity": sum(start <= place[1] for start in activities) - 1}
-        for place in sorted(left)
-    ]
 
 
 def test_each_edit_changes_the_rows_that_an_answer_has_of_it(studio):
