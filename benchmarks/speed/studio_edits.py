@@ -3,10 +3,9 @@
     python -m benchmarks studio_edits [--segments 5000 20000] [--record]
 
 The bundled recording, repeated to an hour, has a table of so many primitives, as if of a work-out.
-Edits of each kind are asked for over HTTP, by the whole table and, as the page does, in brief.
-Then keys are pressed in Chromium, which draws with the processor: until an edit is seen, until it
-is on the disk, what the page computes for it, and what it is sent meanwhile. What else the machine
-does falls on all of them but the processor time.
+Edits of each kind are asked for over HTTP. Then keys are pressed in Chromium, which draws with the
+processor: until an edit is seen, until it is on the disk, what the page computes for it, and what
+it is sent meanwhile. What else the machine does falls on all of them but the processor time.
 """
 
 from __future__ import annotations
@@ -90,21 +89,18 @@ def asked(studio: Studio, n: int, n_frames: int) -> None:
     while (message := json.loads(studio.ask(one))).get("finding"):
         pass
     revision = message["revision"]
-    for brief in (False, True):
-        for kind, edits in edits_of(n, n_frames).items():
-            rows, sizes = [], []
-            for edit in edits:
-                sent = {"revision": revision, "edit": edit, "brief": brief}
-                took, answer = timed(studio, f"{one}/edits", sent)
-                revision = json.loads(answer)["revision"]
-                rows.append(took)
-                sizes.append(len(answer))
-            took, size = middle(rows[1:] or rows), median(sizes)
-            kept = f"; {verdict(size, MOST_BYTES)}" if brief else ""
-            print(f"  {kind}, {'brief' if brief else 'whole'}: {took}, {size:.0f} bytes{kept}")
-            if brief:
-                record(f"studio_edits.{n}.{kind}.processor", round(took.processor, 3), unit="s")
-                record(f"studio_edits.{n}.{kind}.bytes", size)
+    for kind, edits in edits_of(n, n_frames).items():
+        rows, sizes = [], []
+        for edit in edits:
+            sent = {"revision": revision, "edit": edit}
+            took, answer = timed(studio, f"{one}/edits", sent)
+            revision = json.loads(answer)["revision"]
+            rows.append(took)
+            sizes.append(len(answer))
+        took, size = middle(rows[1:] or rows), median(sizes)
+        print(f"  {kind}: {took}, {size:.0f} bytes; {verdict(size, MOST_BYTES)}")
+        record(f"studio_edits.{n}.{kind}.processor", round(took.processor, 3), unit="s")
+        record(f"studio_edits.{n}.{kind}.bytes", size)
 
 
 def edits_of(n: int, n_frames: int) -> dict[str, Iterator[dict[str, Any]]]:

@@ -75,7 +75,7 @@ def test_everything_is_in_the_page(tmp_path: Path) -> None:
         place: base64.b64decode(text)
         for place, text in json.loads(page.texts["kineme-tiles"]).items()
     }
-    assert tiles == make_report_tiles(compare_frames_of_motion(RECORDING))[0]
+    assert tiles == make_report_tiles(compare_frames_of_motion(RECORDING))
     assert message["segmentation"]["provenance"]["preset"] == "kineme"
     assert [[*row] for row in message["segmentation"]["segments"]] == [[*COLUMNS]] * len(SEGMENTS)
     assert (tmp_path / "out.html").stat().st_size < 1_500_000

@@ -43,14 +43,28 @@ class Studio:
         return self.client.post(f"/api/recordings/{self.id}/edits", json=sent)
 
     def done(self, revision: int, kind: str, **rest: Any) -> dict[str, Any]:
+        """What an edit made, and the table that it left."""
         answer = self.edit(revision, kind, **rest)
         assert answer.status_code == 200, answer.text
         message: dict[str, Any] = answer.json()
-        return message
+        return {**message, "segmentation": self.recording()["segmentation"]}
 
     def starts(self, level: str = "activity") -> list[int]:
         rows = self.recording()["segmentation"]["segments"]
         return [row["start_frame"] for row in rows if row["level"] == level]
+
+
+def change_rows(rows: list[dict[str, Any]], change: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the rows that a change makes of others, as the page does."""
+    left = {(row["level"], row["start_frame"]): row for row in rows}
+    for place in change["removed"]:
+        del left[tuple(place)]
+    left |= {(row["level"], row["start_frame"]): row for row in change["rows"]}
+    activities = [start for level, start in left if level == "activity"]
+    return [
+        {**left[place], "activity": sum(start <= place[1] for start in activities) - 1}
+        for place in sorted(left)
+    ]
 
 
 class Process(Studio):

@@ -9,10 +9,10 @@ import threading
 import time
 import weakref
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
 
 import numpy as np
 import pytest
+from studio_clients import change_rows
 
 import kineme
 from kineme.errors import ParameterError, ReadError
@@ -27,7 +27,7 @@ from kineme.studio.reading import RecordingCache
 from kineme.studio.running import SHARES, Run
 from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
-from kineme.web.table_changes import table_change
+from kineme.web.tables import table_change
 
 COST = kineme.PRESETS["kineme"].segment_cost
 
@@ -105,8 +105,7 @@ def test_an_edit_of_found_segments_waits_for_a_server_that_finds_them_again(tmp_
     threading.Timer(0.2, wanted.set).start()
     split = EditRequest(revision=seen.revision, edit=Split(level="activity", frame=100))
     made = again.edit(name, split)
-    assert len(made.segmentation.segments) > len(seen.segmentation.segments)
-    assert made.segmentation.segments[0].stop_frame == 100
+    assert made.change.rows[0].stop_frame == 100
 
 
 def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypatch):
@@ -230,57 +229,55 @@ def test_what_is_drawn_of_recordings_left_long_ago_is_not_kept(tmp_path, monkeyp
     assert to_json(recordings.message(names[0])) == to_json(first)
 
 
-def test_a_brief_answer_has_the_rows_that_differ_or_the_table_that_replaced_ours(studio):
+def test_an_edit_is_answered_by_the_rows_that_differ_or_by_another_table(studio):
     before = studio.recording()
     address = f"/api/recordings/{studio.id}/edits"
     edit = {"kind": "name_segment", "level": "activity", "frame": 0, "label": "hop"}
-    sent = {"revision": before["revision"], "edit": edit, "name": "a name", "brief": True}
+    sent = {"revision": before["revision"], "edit": edit, "name": "a name"}
     made = studio.client.post(address, json=sent).json()
-    now = studio.recording()
-    rows = now["segmentation"]["segments"]
-    change = {"of": before["revision"], "removed": [0], "at": [0], "added": rows[:1]}
-    assert made["change"] == change
-    assert made["segmentation"] == {**now["segmentation"], "segments": []}
-    assert made["ids"] == now["ids"]
+    now = studio.recording()["segmentation"]
+    assert made["segmentation"] is None
+    assert made["change"] == {
+        "of": before["revision"],
+        "removed": [],
+        "rows": now["segments"][:1],
+        "cluster_names": now["cluster_names"],
+    }
     again = studio.client.post(address, json=sent).json()  # nobody knows what the asker has by now
-    assert again["segmentation"]["segments"] == rows
+    assert (again["change"], again["segmentation"]) == (None, now)
     anew = {"kind": "segment", "preset": "voegele2014", "parameters": {}}
-    other = {"revision": made["revision"], "edit": anew, "brief": True}
-    change = studio.client.post(address, json=other).json()["change"]
-    assert rows_after(change, rows) == studio.recording()["segmentation"]["segments"]
-
-
-def rows_after(change: dict[str, Any], rows: list[Any]) -> list[Any]:
-    """The rows that a change makes of others, as the page does."""
-    left = [row for number, row in enumerate(rows) if number not in change["removed"]]
-    for at, row in zip(change["at"], change["added"], strict=True):
-        left.insert(at, row)
-    return left
+    other = studio.client.post(address, json={"revision": made["revision"], "edit": anew}).json()
+    assert (other["change"], other["segmentation"]) == (None, studio.recording()["segmentation"])
 
 
 def test_each_edit_changes_the_rows_that_an_answer_has_of_it(studio):
     state = studio.recording()
     address = f"/api/recordings/{studio.id}/edits"
-    level = {"level": "activity"}
+    level, primitive = {"level": "activity"}, {"level": "primitive"}
     for edit in (
         {"kind": "split", **level, "frame": 50},
         {"kind": "split", **level, "frame": 90},
         {"kind": "move_border", **level, "frame": 50, "to": 60},
         {"kind": "check", **level, "frames": [60], "checked": True},
+        {"kind": "comment", **primitive, "frame": 60, "text": "slips"},
+        {"kind": "exclude", "frames": [60], "excluded": True},
+        {"kind": "exclude", "frames": [60], "excluded": False},
         {"kind": "set_kind", **level, "frame": 60, "to": "transition"},
         {"kind": "undo"},
         {"kind": "delete_border", **level, "frame": 90},
         {"kind": "undo"},
         {"kind": "redo"},
     ):
-        sent = {"revision": state["revision"], "edit": edit, "brief": True}
-        answer = studio.client.post(address, json=sent).json()
-        rows = rows_after(answer["change"], state["segmentation"]["segments"])
+        sent = {"revision": state["revision"], "edit": edit}
+        change = studio.client.post(address, json=sent).json()["change"]
+        rows = change_rows(state["segmentation"]["segments"], change)
+        assert change["rows"], edit
         state = studio.recording()
-        assert answer["segmentation"] | {"segments": rows} == state["segmentation"]
+        assert rows == state["segmentation"]["segments"], edit
+        assert change["cluster_names"] == state["segmentation"]["cluster_names"]
 
 
-def test_a_brief_answer_has_few_rows_whatever_the_length(tmp_path):
+def test_an_answer_has_few_rows_whatever_the_length(tmp_path):
     n = 4000
     frames = np.arange(n + 1) * 10
     columns = {
@@ -291,14 +288,15 @@ def test_a_brief_answer_has_few_rows_whatever_the_length(tmp_path):
         "cluster": np.arange(n) % 8,
     }
     table = kineme.Segmentation.from_columns(columns, n_frames=10 * n, fps=60.0)
-    for now, count in [
-        (editing.move_border(table, "activity", 500, 503), 2),
-        (editing.name_segment(table, "activity", 500, "hop"), 1),
-        (editing.name_cluster(table, 3, "hop"), n // 8),
-        (editing.check(table, "activity", [510], checked=True), 0),
+    for now, removed, count in [
+        (editing.move_border(table, "activity", 500, 503), 1, 2),
+        (editing.split(table, "activity", 505), 0, 2),
+        (editing.name_segment(table, "activity", 500, "hop"), 0, 1),
+        (editing.name_cluster(table, 3, "hop"), 0, n // 8),
+        (editing.check(table, "activity", [510], checked=True), 0, 1),
     ]:
         change = table_change(table, now, revision=1)
-        assert (len(change.removed), len(change.added)) == (count, count)
+        assert (len(change.removed), len(change.rows)) == (removed, count)
 
 
 def held_at(monkeypatch: pytest.MonkeyPatch, name: str) -> tuple[threading.Event, threading.Event]:

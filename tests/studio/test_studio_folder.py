@@ -140,7 +140,7 @@ def test_what_is_called_otherwise_in_one_recording_is_in_all(studio: Studio) -> 
     revision = studio.get(address).json()["revision"]
     undo = {"revision": revision, "edit": {"kind": "undo"}}
     undone = studio.client.post(f"{address}/edits", json=undo).json()
-    assert undone["segmentation"]["cluster_names"][str(cluster)] == "walk"
+    assert undone["change"]["cluster_names"][str(cluster)] == "walk"
     assert studio.client.post("/api/names", json={**sent, "before": ""}).status_code == 400
 
 
@@ -209,9 +209,11 @@ def test_a_comment_outlives_borders_and_new_segmentations(studio: Studio) -> Non
     said = {"level": row["level"], "frame": row["start_frame"], "text": "slips"}
     revision = studio.done(message["revision"], "comment", **said)["revision"]
     made = studio.done(revision, "segment", preset="kineme", parameters={}, detail=8)
-    (comment,) = made["segmentation"]["comments"]
-    assert comment["text"] == "slips"
-    assert row["start_frame"] <= comment["frame"] < row["stop_frame"]
+    rows = made["segmentation"]["segments"]
+    (commented,) = [each for each in rows if "comment" in each]
+    assert commented["comment"] == "slips"
+    middle = (row["start_frame"] + row["stop_frame"]) // 2
+    assert commented["start_frame"] <= middle < commented["stop_frame"]
 
 
 def test_a_recording_can_be_read_otherwise(studio: Studio) -> None:

@@ -74,10 +74,8 @@ def write_report(
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"reports are written as {', '.join(SUFFIXES)}")
     data = page_data(recording, fps=segmentation.fps, effectors=effectors)
-    tiles, band = make_report_tiles(data.matrix)
-    message = recording_message(
-        data, segmentation, name=name or _name(segmentation), band=band, levels=True
-    )
+    tiles = make_report_tiles(data.matrix)
+    message = recording_message(data, segmentation, name=name or _name(segmentation), levels=True)
     source = as_recording(recording, data.fps)
     others = [segmentation.at_detail(level.detail) for level in message.levels]
     with atomic_write(path) as draft:

@@ -119,7 +119,7 @@ def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement
 
 def lanes_of(recordings: OpenRecordings, name: str, chosen: Sequence[str]) -> list[LabelLane]:
     """Return what some of them say of a recording, one lane each."""
-    from kineme.web.page_data import segments_message
+    from kineme.web.tables import segments_message
 
     listed = recordings.get(name).listed
     path = listed.called

@@ -22,7 +22,7 @@ from kineme.studio.http.security import Guard, is_trusted
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.routes import Api
-from kineme.web.messages import Conflict, Failure
+from kineme.web.messages import Failure
 
 if TYPE_CHECKING:
     from kineme.studio.library import ShownLibrary
@@ -38,6 +38,7 @@ STATUS: dict[type[Exception], int] = {
     WriteError: 500,
     LinkError: 400,
     SupersededError: 409,
+    ConflictError: 409,
 }
 
 mimetypes.add_type("text/javascript", ".js")  # the registry of Windows may say something else
@@ -82,7 +83,6 @@ def create_app(
         ],
         exception_handlers={
             **handlers,
-            ConflictError: _conflict,
             ClientDisconnect: _answer_disconnected,
             HTTPException: _http_error,
             Exception: _answer_failed,
@@ -105,13 +105,6 @@ def _answer_refused(_: Request, error: Exception) -> Response:
     people = error.people if isinstance(error, SeveralPeopleError) else ()
     reading = isinstance(error, ReadError)
     return MessageResponse(Failure(error=str(error), people=[*people], reading=reading), status)
-
-
-def _conflict(_: Request, error: Exception) -> Response:
-    if not isinstance(error, ConflictError):
-        return _answer_failed(_, error)
-    fields = {name: getattr(error.present, name) for name in error.present.__struct_fields__}
-    return MessageResponse(Conflict(**fields, error=str(error)), 409)
 
 
 def _answer_disconnected(_: Request, __: Exception) -> Response:

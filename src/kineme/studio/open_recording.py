@@ -2,8 +2,7 @@
 
 A table has a revision, which grows with every change and outlives the server.
 An edit names the revision it was made on; on any other it is refused, so that
-two pages cannot overwrite each other unseen. Its segments have identities, which outlive it, too:
-by them a page finds again what an edit was made on. An edit has a name of its own, too:
+two pages cannot overwrite each other unseen. An edit has a name of its own:
 one that is sent again, for want of an answer, is made once. It counts once its
 result and the history are on the disk: one that was acknowledged outlives the
 server, one that was not has changed nothing.
@@ -14,7 +13,6 @@ The segments of a recording that has no table yet are found while it is shown.
 from __future__ import annotations
 
 import threading
-import uuid
 from collections.abc import Callable
 from concurrent.futures import Future, wait
 from pathlib import Path
@@ -51,11 +49,7 @@ CHANGED = "the table was changed elsewhere meanwhile: look at it as it is now, a
 
 
 class ConflictError(Exception):
-    """Raised where an edit was made on another table than the present one, which comes along."""
-
-    def __init__(self, reason: str, present: Edited):
-        self.present = present
-        super().__init__(reason)
+    """Raised where an edit was made on another table than the present one."""
 
 
 class OpenRecording:
@@ -143,7 +137,6 @@ class OpenRecording:
                 revision=self.revision,
                 can_undo=self._journal.can_undo,
                 can_redo=self._journal.can_redo,
-                ids=self._journal.ids.of(self._table),
                 saved=self._saved,
                 video=video_message(self.path),
                 read_options=options_to_json(options_of(self.path)),
@@ -162,18 +155,9 @@ class OpenRecording:
             )
             return message, anew
 
-    def edit(
-        self,
-        revision: int,
-        edit: Edit,
-        files: Surroundings,
-        *,
-        name: str = "",
-        brief: bool = False,
-    ) -> Edited:
-        """Return the table after an edit of that revision, which is on the disk.
+    def edit(self, revision: int, edit: Edit, files: Surroundings, *, name: str = "") -> Edited:
+        """Return what an edit made of the table of that revision; it is on the disk.
 
-        Where it is ``brief``, only the rows that differ from those at that revision.
         An edit whose name has been made is not made again. ConflictError where the table is of
         another revision, or the file not the one last read or written here; KinemeError where the
         edit cannot be made or saved.
@@ -185,11 +169,11 @@ class OpenRecording:
             if self._journal.knows(name):
                 return self._edited([])
             if revision != self.revision:
-                raise ConflictError(CHANGED, self._edited([]))
-            change, notes = self._after(edit, files, name or uuid.uuid4().hex)
+                raise ConflictError(CHANGED)
+            change, notes = self._after(edit, files)
             if self._file.changed():
                 raise self._changed_elsewhere()
-            before = self._table if brief else None
+            before = self._table
             self._write(change, name)
             return self._edited(notes, before)
 
@@ -216,8 +200,7 @@ class OpenRecording:
                 return False
             if self._file.changed():
                 raise self._changed_elsewhere()
-            ids = self._journal.ids.after(self._table, table, uuid.uuid4().hex, replaced=True)
-            self._write(self._journal.changed(table, None, replaced=True, ids=ids))
+            self._write(self._journal.changed(table, None, replaced=True))
             return True
 
     def preview(self, request: PreviewRequest) -> Preview:
@@ -225,7 +208,7 @@ class OpenRecording:
 
         CancelledError where it is not wanted any more, or another one is.
         """
-        from kineme.web.page_data import segments_message
+        from kineme.web.tables import segments_message
 
         detail = DEFAULT_DETAIL if request.detail is UNSET else request.detail
         former, self._previewed = self._previewed, Run(request.preset)
@@ -261,21 +244,19 @@ class OpenRecording:
 
     def version(self, number: int) -> Comparison:
         """Return a table that was replaced, to lay beside the present one."""
-        from kineme.web.page_data import segments_message
+        from kineme.web.tables import segments_message
 
         with self._lock:
             table = self._version(number)
             at = self._journal.versions()[number].at
         return Comparison(name=at, segmentation=segments_message(table), scores={})
 
-    def _after(self, edit: Edit, files: Surroundings, name: str) -> tuple[Change, list[str]]:
+    def _after(self, edit: Edit, files: Surroundings) -> tuple[Change, list[str]]:
         if isinstance(edit, Undo | Redo):
             undo = isinstance(edit, Undo)
             return self._journal.undone() if undo else self._journal.redone(), []
         outcome = apply_edit(self._table, edit, self.loaded, files, self._version)
-        replaced = outcome.replaced
-        ids = self._journal.ids.after(self._table, outcome.table, name, replaced=replaced)
-        change = self._journal.changed(outcome.table, edit, replaced=replaced, ids=ids)
+        change = self._journal.changed(outcome.table, edit, replaced=outcome.replaced)
         return change, outcome.notes
 
     def _write(self, change: Change, name: str = "") -> None:
@@ -287,8 +268,7 @@ class OpenRecording:
         self._table, self.revision = change.table, self.revision + 1
 
     def _changed_elsewhere(self) -> ConflictError:
-        reason = f"another program changed {self._file.path.name}: open it again"
-        return ConflictError(reason, self._edited([]))
+        return ConflictError(f"another program changed {self._file.path.name}: open it again")
 
     def _version(self, number: int) -> Segmentation:
         if number not in self._journal.versions():
@@ -309,18 +289,15 @@ class OpenRecording:
         return saved_table(self.listed, loaded.fits, self._others, of_another=loaded.is_of_another)
 
     def _edited(self, notes: list[str], before: Segmentation | None = None) -> Edited:
-        """Return the present table; of one ``before``, one revision ago, only rows that differ."""
-        from kineme.web.page_data import segments_message
-        from kineme.web.table_changes import table_change
+        """Return the present table, or how it differs from the one ``before``, a revision ago."""
+        from kineme.web.tables import segments_message, table_change
 
-        change = None
-        if before is not None:
-            change = table_change(before, self._table, revision=self.revision - 1)
+        of = self.revision - 1
+        change = None if before is None else table_change(before, self._table, revision=of)
         return Edited(
             revision=self.revision,
-            segmentation=segments_message(self._table, rows=change is None),
-            ids=self._journal.ids.of(self._table),
             change=change,
+            segmentation=None if change else segments_message(self._table),
             can_undo=self._journal.can_undo,
             can_redo=self._journal.can_redo,
             saved=self._saved,

@@ -210,7 +210,7 @@ class OpenRecordings:
         return is_other
 
     def edit(self, name: str, sent: EditRequest) -> Edited:
-        """Return the recording's table after an edit, as `OpenRecording.edit` makes it."""
+        """Return what an edit made of the recording's table, as `OpenRecording.edit`."""
         if sent.revision == SKETCH_REVISION:
             raise ParameterError(STILL_FINDING)
         result = self.get(name).edit(
@@ -218,7 +218,6 @@ class OpenRecordings:
             sent.edit,
             self,
             name="" if sent.name is UNSET else sent.name,
-            brief=False if sent.brief is UNSET else sent.brief,
         )
         self._changed(name, result.revision)
         return result

@@ -272,7 +272,7 @@ class Api:
         from kineme.evaluation import scores
         from kineme.evaluation.inputs import agreement, differences
         from kineme.labels.collections import labels_for
-        from kineme.web.page_data import segments_message
+        from kineme.web.tables import segments_message
 
         opened = self._opened(request)
         table = opened.table

@@ -81,7 +81,7 @@ def draw_sketch(listed: ListedRecording, cache: RecordingCache) -> Sketch | None
     None for a file that is soon read, or whose format has no shorter way.
     """
     from kineme.web.display import display_motion
-    from kineme.web.page_data import segments_message
+    from kineme.web.tables import segments_message
 
     path = listed.path
     try:
@@ -101,7 +101,7 @@ def draw_sketch(listed: ListedRecording, cache: RecordingCache) -> Sketch | None
         n_frames=found.n_frames,
         fps=found.fps,
         motion=head,
-        matrix=MatrixHead(fps=1.0, tile=1, sizes=[], band=None),
+        matrix=MatrixHead(fps=1.0, tile=1, sizes=[]),
         segmentation=segments_message(table),
         levels=[],
         video=video_message(path),

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import struct
 import zlib
-from itertools import product
 from math import ceil
 
 import numpy as np
@@ -21,10 +20,10 @@ MOST_BYTES = 9_000_000  # of the tiles in a report, see display.MOST_BYTES
 MOST_TILES = 24  # tiles a side up to which a report holds all of a level
 
 
-def make_head(matrix: SimilarityMatrix, band: int | None = None) -> MatrixHead:
-    """Return what a page needs to know of the tiles; in a report they may fill a ``band`` only."""
+def make_head(matrix: SimilarityMatrix) -> MatrixHead:
+    """Return what a page needs to know of the tiles."""
     sizes = [len(level) for level in matrix.levels]
-    return MatrixHead(fps=matrix.fps, tile=TILE, sizes=sizes, band=band)
+    return MatrixHead(fps=matrix.fps, tile=TILE, sizes=sizes)
 
 
 def make_tile(matrix: SimilarityMatrix, level: int, row: int, column: int) -> bytes | None:
@@ -37,29 +36,26 @@ def make_tile(matrix: SimilarityMatrix, level: int, row: int, column: int) -> by
     return _encode_png(matrix.cells(level, rows, columns))
 
 
-def make_report_tiles(
-    matrix: SimilarityMatrix, most_bytes: int = MOST_BYTES
-) -> tuple[dict[str, bytes], int | None]:
-    """Return the tiles of a report by "level/row/column", and the band of cells that they fill.
+def make_report_tiles(matrix: SimilarityMatrix, most_bytes: int = MOST_BYTES) -> dict[str, bytes]:
+    """Return the tiles that a report holds, by "level/row/column", in at most so many bytes.
 
-    Those on and below the diagonal: all of the coarse levels; of the fine ones those at the
-    diagonal, then those next to it, as long as there is room. The band is None if none was left
-    out.
+    The matrix is symmetric, so tiles on and below the diagonal are enough. All tiles of the coarse
+    levels come first, the coarsest level before the others; of the fine levels only the tiles on
+    the diagonal and, if there is room, those beside it. A page shows a coarser tile for a missing
+    one.
     """
     sides = [ceil(len(features) / TILE) for features in matrix.levels]
-    coarse = [level for level, side in enumerate(sides) if side <= MOST_TILES]
-    # Coarse levels in full, the coarsest first; the matrix is symmetric, so one half is enough.
+    coarse_first = list(reversed(range(len(sides))))
+    coarse = [level for level in coarse_first if sides[level] <= MOST_TILES]
+    fine = [level for level in coarse_first if sides[level] > MOST_TILES]
     places = [
         (level, row, column)
-        for level in reversed(coarse)
+        for level in coarse
         for row in range(sides[level])
         for column in range(row + 1)
     ]
-    first = len(places)
-    fine = [level for level in reversed(range(len(sides))) if level not in coarse]
-    # Of fine levels all diagonals come before any tile beside a diagonal.
-    for away, level in product((0, 1), fine):
-        places += [(level, row, row - away) for row in range(away, sides[level])]
+    for away in (0, 1):  # tiles from the diagonal
+        places += [(level, row, row - away) for level in fine for row in range(away, sides[level])]
     tiles: dict[str, bytes] = {}
     left = most_bytes
     for place in places:
@@ -68,10 +64,7 @@ def make_report_tiles(
         if left < 0:
             break
         tiles["/".join(map(str, place))] = tile
-    if len(tiles) == len(places):
-        # Every place fits: the tiles beside the diagonal reach one tile away.
-        return tiles, TILE if fine else None
-    return tiles, 0 if len(tiles) >= first else None
+    return tiles
 
 
 def _encode_png(shares: Float32s) -> bytes:

@@ -2,34 +2,37 @@
 
 The report carries one `Recording` inside its file; the studio's server
 sends the same over HTTP. What pages send is in `kineme.web.requests`; the
-TypeScript types (``web/pages/src/messages.ts``) are made from both modules. A
-row of the segment table is `kineme.segments.table.Segment` itself.
+TypeScript types (``web/pages/src/messages.ts``) are made from both modules.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
-from msgspec import Struct
+from msgspec import UNSET, Struct, UnsetType
 
-from kineme.segments.annotation import Annotation
-from kineme.segments.table import Kind, Level, Segment
+from kineme.segments import table
+from kineme.segments.table import Kind, Level
 from kineme.web.requests import Edit
 
 
-class CommentAt(Struct, frozen=True, kw_only=True):
-    """What somebody said about the segment that holds a frame."""
+@dataclass(frozen=True, slots=True)
+class Segment(table.Segment):
+    """A row of the segment table, and what people did to it where they did something.
 
-    level: Level
-    frame: int
-    text: str
+    It is ``excluded`` where it counts in no mean.
+    """
+
+    checked: bool | UnsetType = UNSET
+    excluded: bool | UnsetType = UNSET
+    comment: str | UnsetType = UNSET
 
 
 class Segments(Struct, frozen=True, kw_only=True):
-    """A segment table as its JSON file has it (``kineme.segments/2``), and what people did to it.
+    """A segment table as its JSON file has it (``kineme.segments/2``), marks in its rows.
 
-    What follows from rows and annotation: ``cluster_names`` has the names of clusters by their
-    numbers; ``checked`` and ``by_hand`` are numbers of rows.
+    ``cluster_names`` has the names of clusters by their numbers.
     """
 
     schema: str
@@ -37,12 +40,8 @@ class Segments(Struct, frozen=True, kw_only=True):
     fps: float
     provenance: dict[str, Any]
     timings: dict[str, float]
-    annotation: Annotation
     segments: list[Segment]
     cluster_names: dict[str, str]
-    checked: list[int]
-    by_hand: list[int]
-    comments: list[CommentAt]
 
 
 class MotionHead(Struct, frozen=True, kw_only=True):
@@ -73,14 +72,12 @@ class MatrixHead(Struct, frozen=True, kw_only=True):
     each next level halves that; the last is one tile. Tiles are square, ``tile``
     cells a side, the last of a row or column cut off at the end of the recording.
     A report has the tiles with row >= column only, the others being their mirror
-    images; where ``band`` is a number, tiles of the finer levels farther than so
-    many of their cells from the diagonal may be missing, too.
+    images; of the finer levels it may lack those off the diagonal, too.
     """
 
     fps: float
     tile: int
     sizes: list[int]
-    band: int | None
 
 
 class Curve(Struct, frozen=True, kw_only=True):
@@ -207,7 +204,6 @@ class Recording(Struct, frozen=True, kw_only=True):
     studio's server is asked for them.
     While ``finding`` its segments are still to be found, and the table is a single transition;
     while ``being_read`` its file is still being read, and few of its poses are here.
-    ``ids`` say who each row of the table is, whatever edits made of it; a report has none.
     """
 
     id: str
@@ -228,7 +224,6 @@ class Recording(Struct, frozen=True, kw_only=True):
     revision: int
     can_undo: bool
     can_redo: bool
-    ids: list[str] = []
     saved: str
     finding: bool = False
     being_read: bool = False
@@ -238,37 +233,29 @@ class Recording(Struct, frozen=True, kw_only=True):
 class TableChange(Struct, frozen=True, kw_only=True):
     """Rows in which a table differs from that of the revision ``of``.
 
-    ``removed`` are the numbers of rows of that table which are not in this one, ``at`` the numbers
-    of the rows of this one that are ``added``.
+    A row is known by its level and first frame: ``removed`` ones are there no more, ``rows`` are
+    new, or have changed. The numbers of the activities that rows lie in (``activity``) follow.
     """
 
     of: int
-    removed: list[int]
-    at: list[int]
-    added: list[Segment]
+    removed: list[tuple[Level, int]]
+    rows: list[Segment]
+    cluster_names: dict[str, str]
 
 
 class Edited(Struct, frozen=True, kw_only=True):
-    """Table after an edit, already on the disk as ``saved``; ``ids`` as of a `Recording`.
+    """What an edit made, already on the disk as ``saved``.
 
-    Where there is a ``change``, its rows are those of the table before with this change, and
-    ``segmentation`` has none.
+    It is a ``change`` of the table that was edited, or another table, ``segmentation``.
     """
 
     revision: int
-    segmentation: Segments
-    ids: list[str]
-    change: TableChange | None = None
+    change: TableChange | None
+    segmentation: Segments | None
     can_undo: bool
     can_redo: bool
     saved: str
     notes: list[str]
-
-
-class Conflict(Edited, frozen=True, kw_only=True):
-    """Why an edit was refused that was made on another table than the present one, and that."""
-
-    error: str
 
 
 class ScoreMeaning(Struct, frozen=True, kw_only=True):

@@ -14,13 +14,12 @@ from kineme.features.similarity import (
     compare_frames,
     compare_frames_of_signal,
 )
-from kineme.labels.json_table import SCHEMA
 from kineme.recordings import Motion, Signals
-from kineme.segments.editing import cluster_names, comments
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import make_head
-from kineme.web.messages import CommentAt, MotionHead, Recording, Segments, TableAtDetail
+from kineme.web.messages import MotionHead, Recording, TableAtDetail
+from kineme.web.tables import find_marks, make_rows, segments_message
 
 MOST_ROWS = 12_000
 """Of all details in a report, about a fifth of a kilobyte each."""
@@ -73,10 +72,9 @@ def recording_message(
     segmentation: Segmentation,
     *,
     name: str,
-    band: int | None = None,
     levels: bool = False,
 ) -> Recording:
-    """Return the message that goes with the binary parts of a report, and with tiles of this band.
+    """Return the message that goes with the binary parts of a report.
 
     With ``levels`` the tables at all details go along, unless they are too long. ParameterError
     where the segments are of a recording of another length or frame rate.
@@ -93,7 +91,7 @@ def recording_message(
         n_frames=data.n_frames,
         fps=data.fps,
         motion=data.motion,
-        matrix=make_head(data.matrix, band),
+        matrix=make_head(data.matrix),
         segmentation=segments_message(segmentation),
         levels=_levels(segmentation) if levels else [],
         video=None,
@@ -106,30 +104,6 @@ def recording_message(
     )
 
 
-def segments_message(segmentation: Segmentation, *, rows: bool = True) -> Segments:
-    """Return a segment table as pages have it, or all of it but its ``rows``."""
-    table = segmentation.table
-    columns = (column.tolist() for column in (table.level, table.start_frame, table.stop_frame))
-    spans = list(zip(*columns, strict=True))
-    checked, by_hand = {*segmentation.annotation.checked}, {*segmentation.annotation.by_hand}
-    return Segments(
-        schema=SCHEMA,
-        n_frames=segmentation.n_frames,
-        fps=segmentation.fps,
-        provenance=dict(segmentation.provenance),
-        timings=dict(segmentation.timings),
-        annotation=segmentation.annotation,
-        segments=list(segmentation) if rows else [],
-        cluster_names={str(cluster): name for cluster, name in cluster_names(segmentation).items()},
-        checked=[i for i, span in enumerate(spans) if span in checked],
-        by_hand=[i for i, span in enumerate(spans) if span in by_hand],
-        comments=[
-            CommentAt(level=level, frame=frame, text=text)
-            for level, frame, text in comments(segmentation)
-        ],
-    )
-
-
 def _levels(segmentation: Segmentation) -> list[TableAtDetail]:
     """Return the tables at all details.
 
@@ -138,8 +112,12 @@ def _levels(segmentation: Segmentation) -> list[TableAtDetail]:
     hierarchy = segmentation.hierarchy
     if hierarchy is None or sum(map(len, hierarchy.tables)) > MOST_ROWS:
         return []
+    note = segmentation.annotation
     tables = zip(hierarchy.details, hierarchy.tables, strict=True)
-    return [TableAtDetail(detail=detail, segments=list(table)) for detail, table in tables]
+    return [
+        TableAtDetail(detail=detail, segments=make_rows(table, find_marks(table, note)))
+        for detail, table in tables
+    ]
 
 
 def _warnings(data: PageData) -> list[str]:

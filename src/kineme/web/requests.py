@@ -208,14 +208,12 @@ Edit = ByHand | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo
 class EditRequest(Request, frozen=True, kw_only=True):
     """An edit of the table as it was at ``revision``.
 
-    ``name`` is the edit's own: one that is sent again, for want of an answer, is made once. With
-    ``brief`` the answer has only the rows that differ from those at ``revision``.
+    ``name`` is the edit's own: one that is sent again, for want of an answer, is made once.
     """
 
     revision: Integer
     edit: Edit
     name: Text | UnsetType = UNSET
-    brief: bool | UnsetType = UNSET
 
 
 class PreviewRequest(Request, frozen=True, kw_only=True):

@@ -196,7 +196,6 @@ def test_parts_meet_where_the_recording_changes() -> None:
     assert part_ends(rows, 100, 10) == [0, 95, 205, 300]
 
 
-
 def test_what_channels_share_is_held_down() -> None:
     rng = np.random.default_rng(0)
     channels = rng.standard_normal((4000, 1)) + 0.5 * rng.standard_normal((4000, 6))

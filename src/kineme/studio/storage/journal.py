@@ -30,7 +30,6 @@ from kineme.errors import ParameterError, ReadError
 from kineme.labels import json_table
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.storage.identities import Identities
 from kineme.studio.storage.sidecars import FOLDER, delete_file, read_sidecar, write_file
 from kineme.studio.storage.tables import content_of
 from kineme.web.requests import Edit
@@ -38,7 +37,6 @@ from kineme.web.requests import Edit
 MOST_KEPT = 200
 MOST_NAMES = 200
 """Edits whose names are known, so that one that is sent again is not made again."""
-OF_A_FIRST_TABLE = Identities()
 SCHEMA = "kineme.history/1"
 HISTORY = "history.json"
 
@@ -47,14 +45,13 @@ HISTORY = "history.json"
 class Step:
     """A table of the history: when it came about (ISO 8601), its digest, and by which edit.
 
-    None is for what was found, or written by another program. ``ids`` say who its segments are.
+    None is for what was found, or written by another program.
     """
 
     at: str
     sha256: str
     n_frames: int
     edit: Edit | None
-    ids: Identities = field(default_factory=Identities)
 
 
 @dataclass(frozen=True)
@@ -105,8 +102,7 @@ class Journal:
                             self._record, history=step, names=names, revision=revision
                         )
                     return
-            ids = self._ids_of_another(table, digest)
-            self._record = self.changed(table, None, replaced=True, ids=ids).record
+            self._record = self.changed(table, None, replaced=True).record
         else:
             # A history of a recording of another length is of no use.
             self._record = replace(self._record, history=History(0))
@@ -128,11 +124,6 @@ class Journal:
         """Return whether one was taken back."""
         return bool(self._record.history.future)
 
-    @property
-    def ids(self) -> Identities:
-        """Who the segments of the present table are."""
-        return self._record.steps[self._record.history.present].ids
-
     def knows(self, name: str) -> bool:
         """Return whether the edit of that name has been made."""
         return bool(name) and name in self._record.names
@@ -150,14 +141,7 @@ class Journal:
             return self._unsaved[number].table
         return self._kept(number)[1]
 
-    def changed(
-        self,
-        table: Segmentation,
-        edit: Edit | None,
-        *,
-        replaced: bool = False,
-        ids: Identities = OF_A_FIRST_TABLE,
-    ) -> Change:
+    def changed(self, table: Segmentation, edit: Edit | None, *, replaced: bool = False) -> Change:
         """Return the history with a new table, made by an edit or by nobody.
 
         The present one is kept where it is ``replaced``; so is, in any case, the last of those that
@@ -170,7 +154,7 @@ class Journal:
         before = [*history.future[-1:], *([history.present] if replaced else [])]
         at = datetime.now(UTC).isoformat(timespec="seconds")
         content = content_of(table)
-        step = Step(at, sha256(content).hexdigest(), table.n_frames, edit, ids)
+        step = Step(at, sha256(content).hexdigest(), table.n_frames, edit)
         record = replace(
             self._record,
             history=history.followed_by(number),
@@ -232,14 +216,6 @@ class Journal:
         with translate_read_errors(path):
             content = path.read_bytes()
             return content, json_table.loads(content, path)
-
-    def _ids_of_another(self, table: Segmentation, digest: str) -> Identities:
-        """Who the segments of a table are that another program put in the present one's place."""
-        try:
-            present = self.table(self._record.history.present)
-        except ReadError:
-            return Identities(digest[:8])
-        return self.ids.after(present, table, digest, replaced=True)
 
     def _is(self, number: int, table: Segmentation, digest: str) -> bool:
         """Whether a table of the history is this one, by whichever version it was written."""

@@ -20,12 +20,11 @@ from pathlib import Path
 from types import ModuleType, UnionType
 from typing import Any, Literal, get_origin
 
-from msgspec import Struct, inspect, to_builtins
+from msgspec import NODEFAULT, Struct, inspect
 from starlette.routing import Route
 
 from kineme._util.files import atomic_write
-from kineme.segments.annotation import NO_ANNOTATION, Annotation
-from kineme.segments.table import COLUMNS, Kind, Level, Segment
+from kineme.segments.table import COLUMNS, Kind, Level
 from kineme.studio.library_routes import LibraryApi
 from kineme.studio.routes import Api
 from kineme.web import annotator_messages, library_messages, messages, requests
@@ -104,8 +103,9 @@ def _interface(kind: Any, aliases: dict[str, inspect.Type]) -> str:
         lines.append(f'  {info.tag_field}: "{info.tag}";')
     for field in info.fields:
         said = _type(field.type, aliases)
-        may_lack = _is_struct(kind) and not field.required  # dataclasses are told whole
-        null = " | null" if kind is Segment and _is_nan(BARE[field.name]) else ""
+        # Dataclasses are sent whole, except for unset fields, which have no default here.
+        may_lack = not field.required and (_is_struct(kind) or field.default is NODEFAULT)
+        null = " | null" if kind is messages.Segment and _is_nan(BARE.get(field.name)) else ""
         lines.append(f"  {field.encode_name}{'?' if may_lack else ''}: {said}{null};")
     return "\n".join([*lines, "}\n"])
 
@@ -115,17 +115,14 @@ def _is_nan(value: Any) -> bool:
 
 
 def _bare() -> str:
-    """Return a row and an annotation of which nothing is known, for tests to fill."""
+    """Return a row of which nothing is known, to be filled."""
     cells = "".join(
         f"  {name}: {json.dumps(None if _is_nan(value) else value)},\n"
         for name, value in BARE.items()
     )
-    segment = f"export const bareSegment: Segment = {{\n{cells}}};\n"
-    annotation = json.dumps(to_builtins(NO_ANNOTATION, str_keys=True))
     return (
-        f"/** A row of which nothing is known. */\n{segment}\n"
-        "/** What nobody did anything to has. */\n"
-        f"export const bareAnnotation: Annotation = {annotation};\n"
+        "/** A row of which nothing is known. */\n"
+        f"export const bareSegment: Segment = {{\n{cells}}};\n"
     )
 
 
@@ -173,7 +170,7 @@ def _comment(text: str) -> str:
 
 def messages_typescript() -> str:
     """Return what ``messages.ts`` holds."""
-    of_table = {"Level": Level, "Kind": Kind, "Segment": Segment, "Annotation": Annotation}
+    of_table = {"Level": Level, "Kind": Kind, "Segment": messages.Segment}
     types = types_of(messages, requests, annotator_messages, library_messages)
     return f"{typescript(of_table | types)}\n{_bare()}"
 

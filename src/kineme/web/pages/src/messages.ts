@@ -4,7 +4,11 @@ export type Level = "activity" | "primitive";
 
 export type Kind = "activity" | "primitive" | "transition";
 
-/** One row of the table: a span `[start_frame, stop_frame)` and what it is. */
+/**
+ * A row of the segment table, and what people did to it where they did something.
+ *
+ * It is `excluded` where it counts in no mean.
+ */
 export interface Segment {
   level: Level;
   kind: Kind;
@@ -18,50 +22,17 @@ export interface Segment {
   confidence: number | null;
   action: number;
   border_confidence: number | null;
-}
-
-/**
- * What people did to a segment table.
- *
- * Attributes
- * ----------
- * checked : tuple of (level, start_frame, stop_frame)
- * Segments that somebody looked at and found right, which no new segmentation changes.
- * by_hand : tuple of (level, start_frame, stop_frame)
- * Segments that somebody made, which no new segmentation changes.
- * comments : tuple of (level, frame, text)
- * What people said about segments.
- * cluster_names : dict of str
- * By cluster; empty for one that has none, whatever its segments are called. A cluster that
- * is not there is called what more than half of its segments are.
- * corrections : int
- * How often the table was corrected.
- * excluded : tuple of int
- * Frames: the primitives that hold them count in no mean of `kineme.cycles`.
- */
-export interface Annotation {
-  checked: [Level, number, number][];
-  by_hand: [Level, number, number][];
-  comments: [Level, number, string][];
-  cluster_names: Record<number, string>;
-  corrections: number;
-  excluded: number[];
+  checked?: boolean;
+  excluded?: boolean;
+  comment?: string;
 }
 
 export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Exclude | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
 
-/** What somebody said about the segment that holds a frame. */
-export interface CommentAt {
-  level: Level;
-  frame: number;
-  text: string;
-}
-
 /**
- * A segment table as its JSON file has it (`kineme.segments/2`), and what people did to it.
+ * A segment table as its JSON file has it (`kineme.segments/2`), marks in its rows.
  *
- * What follows from rows and annotation: `cluster_names` has the names of clusters by their
- * numbers; `checked` and `by_hand` are numbers of rows.
+ * `cluster_names` has the names of clusters by their numbers.
  */
 export interface Segments {
   schema: string;
@@ -69,12 +40,8 @@ export interface Segments {
   fps: number;
   provenance: Record<string, unknown>;
   timings: Record<string, number>;
-  annotation: Annotation;
   segments: Segment[];
   cluster_names: Record<string, string>;
-  checked: number[];
-  by_hand: number[];
-  comments: CommentAt[];
 }
 
 /**
@@ -105,14 +72,12 @@ export interface MotionHead {
  * each next level halves that; the last is one tile. Tiles are square, `tile`
  * cells a side, the last of a row or column cut off at the end of the recording.
  * A report has the tiles with row >= column only, the others being their mirror
- * images; where `band` is a number, tiles of the finer levels farther than so
- * many of their cells from the diagonal may be missing, too.
+ * images; of the finer levels it may lack those off the diagonal, too.
  */
 export interface MatrixHead {
   fps: number;
   tile: number;
   sizes: number[];
-  band: number | null;
 }
 
 /** A curve over time: a joint's height, a channel; `group` says what it is of that name. */
@@ -234,7 +199,6 @@ export interface Video {
  * studio's server is asked for them.
  * While `finding` its segments are still to be found, and the table is a single transition;
  * while `being_read` its file is still being read, and few of its poses are here.
- * `ids` say who each row of the table is, whatever edits made of it; a report has none.
  */
 export interface Recording {
   id: string;
@@ -255,7 +219,6 @@ export interface Recording {
   revision: number;
   can_undo: boolean;
   can_redo: boolean;
-  ids?: string[];
   saved: string;
   finding?: boolean;
   being_read?: boolean;
@@ -265,44 +228,29 @@ export interface Recording {
 /**
  * Rows in which a table differs from that of the revision `of`.
  *
- * `removed` are the numbers of rows of that table which are not in this one, `at` the numbers
- * of the rows of this one that are `added`.
+ * A row is known by its level and first frame: `removed` ones are there no more, `rows` are
+ * new, or have changed. The numbers of the activities that rows lie in (`activity`) follow.
  */
 export interface TableChange {
   of: number;
-  removed: number[];
-  at: number[];
-  added: Segment[];
+  removed: [Level, number][];
+  rows: Segment[];
+  cluster_names: Record<string, string>;
 }
 
 /**
- * Table after an edit, already on the disk as `saved`; `ids` as of a `Recording`.
+ * What an edit made, already on the disk as `saved`.
  *
- * Where there is a `change`, its rows are those of the table before with this change, and
- * `segmentation` has none.
+ * It is a `change` of the table that was edited, or another table, `segmentation`.
  */
 export interface Edited {
   revision: number;
-  segmentation: Segments;
-  ids: string[];
-  change?: TableChange | null;
+  change: TableChange | null;
+  segmentation: Segments | null;
   can_undo: boolean;
   can_redo: boolean;
   saved: string;
   notes: string[];
-}
-
-/** Why an edit was refused that was made on another table than the present one, and that. */
-export interface Conflict {
-  revision: number;
-  segmentation: Segments;
-  ids: string[];
-  change?: TableChange | null;
-  can_undo: boolean;
-  can_redo: boolean;
-  saved: string;
-  notes: string[];
-  error: string;
 }
 
 /** What people call a score, and what it measures. */
@@ -688,14 +636,12 @@ export interface Together {
 /**
  * An edit of the table as it was at `revision`.
  *
- * `name` is the edit's own: one that is sent again, for want of an answer, is made once. With
- * `brief` the answer has only the rows that differ from those at `revision`.
+ * `name` is the edit's own: one that is sent again, for want of an answer, is made once.
  */
 export interface EditRequest {
   revision: number;
   edit: Edit;
   name?: string;
-  brief?: boolean;
 }
 
 /** A segmentation to look at, as `SegmentAgain` would make it. */
@@ -976,6 +922,3 @@ export const bareSegment: Segment = {
   action: -1,
   border_confidence: null,
 };
-
-/** What nobody did anything to has. */
-export const bareAnnotation: Annotation = {"checked": [], "by_hand": [], "comments": [], "cluster_names": {}, "corrections": 0, "excluded": []};

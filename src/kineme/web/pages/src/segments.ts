@@ -1,6 +1,6 @@
 /** Questions about a segment table. */
 import { counted } from "./counted";
-import type { Annotation, Level, Segment, Segments } from "./messages";
+import type { Level, Segment, Segments } from "./messages";
 
 /** What the list of clusters says of one. */
 export interface Cluster {
@@ -17,6 +17,11 @@ export function countOf({ segments }: Segments, level: Level): number {
   return segments.filter((each) => each.level === level && each.kind !== "transition").length;
 }
 
+/** How many segments of a table people checked. */
+export function checkedIn({ segments }: Segments): number {
+  return segments.filter(({ checked }) => checked).length;
+}
+
 /** "1 activity, 18 primitives". */
 export function countsOf(table: Segments): string {
   const activities = counted(countOf(table, "activity"), "activity", "activities");
@@ -28,6 +33,14 @@ export function laneOf(table: Segments, level: Level): Segment[] {
   return table.segments
     .filter((segment) => segment.level === level)
     .sort((a, b) => a.start_frame - b.start_frame);
+}
+
+/** The row of the segment that starts where another one does, on the same level. */
+export function findRow(
+  { segments }: Segments,
+  { level, start_frame }: Pick<Segment, "level" | "start_frame">,
+): Segment | undefined {
+  return segments.find((row) => row.level === level && row.start_frame === start_frame);
 }
 
 /** The segment of a lane that holds a frame; the nearest one for frames outside. */
@@ -85,14 +98,6 @@ export function clustersOf(
       const label = names[id] ?? "";
       return { id, label, members: all, total_s, mean_s: total_s / all.length };
     });
-}
-
-/** Whether people left a primitive out of means. */
-export function isExcluded(
-  { excluded }: Pick<Annotation, "excluded">,
-  { start_frame, stop_frame }: Segment,
-): boolean {
-  return excluded.some((frame) => start_frame <= frame && frame < stop_frame);
 }
 
 export function durationOf(segment: Segment): number {

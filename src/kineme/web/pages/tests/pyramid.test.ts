@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { storedPlace, levelFor, parentOf, rowsFor, tilesFor } from "../src/matrix/pyramid";
 
-const head = { fps: 10, tile: 256, sizes: [1000, 500, 250], band: null };
+const head = { fps: 10, tile: 256, sizes: [1000, 500, 250] };
 
 test("cells are about as large as pixels", () => {
   expect(levelFor(head, 0.1)).toBe(0);

@@ -1,11 +1,5 @@
 /** Small recordings for tests. */
-import {
-  bareAnnotation,
-  bareSegment,
-  type MotionHead,
-  type Segment,
-  type Segments,
-} from "../src/messages";
+import { bareSegment, type MotionHead, type Segment, type Segments } from "../src/messages";
 import type { Motion } from "../src/motion";
 
 export function segment(start: number, stop: number, more: Partial<Segment> = {}): Segment {
@@ -26,17 +20,8 @@ export function segment(start: number, stop: number, more: Partial<Segment> = {}
 /** A table of these segments. */
 export function tableOf(segments: Segment[], more: Partial<Segments> = {}): Segments {
   const n_frames = Math.max(...segments.map((each) => each.stop_frame), 0);
-  const bare = { schema: "", fps: 10, provenance: {}, timings: {}, annotation: bareAnnotation };
-  return {
-    ...bare,
-    n_frames,
-    segments,
-    cluster_names: {},
-    checked: [],
-    by_hand: [],
-    comments: [],
-    ...more,
-  };
+  const bare = { schema: "", fps: 10, provenance: {}, timings: {}, cluster_names: {} };
+  return { ...bare, n_frames, segments, ...more };
 }
 
 export function head(n_samples: number, more: Partial<MotionHead> = {}): MotionHead {

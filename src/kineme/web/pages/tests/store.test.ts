@@ -15,7 +15,7 @@ function page(): Store {
   const segmentation = tableOf([activity, { ...last, level: "activity" as const }, ...primitives]);
   const recording = signal({
     ...{ id: "a", name: "take", n_frames: 50, fps: 10, motion: null, segmentation },
-    ...{ matrix: { fps: 10, tile: 256, sizes: [50], band: null }, revision: 0 },
+    ...{ matrix: { fps: 10, tile: 256, sizes: [50] }, revision: 0 },
     ...{
       can_undo: false,
       can_redo: false,

@@ -1,6 +1,5 @@
 /** Which of the repetitions drawn are which segments of the table. */
 import type { CycleCurve } from "../messages";
-import { isExcluded } from "../segments";
 import type { Store } from "../store";
 
 /** Selects the segment of a repetition, if it is there still, and goes to where it is measured from. */
@@ -15,9 +14,7 @@ export function selectCycle(store: Store, cycle: CycleCurve | undefined): void {
 
 /** The numbers of the repetitions that people left out, by the table as it is shown. */
 export function leftOutOf(store: Store, cycles: readonly CycleCurve[]): ReadonlySet<number> {
-  const annotation = store.recording.value?.segmentation.annotation;
-  if (!annotation?.excluded.length) return new Set();
-  const rows = store.primitives.value.filter((row) => isExcluded(annotation, row));
+  const rows = store.primitives.value.filter(({ excluded }) => excluded);
   const starts = new Set(rows.map(({ start_frame }) => start_frame));
   return new Set(cycles.flatMap(({ start_frame }, i) => (starts.has(start_frame) ? [i] : [])));
 }

@@ -1,6 +1,6 @@
 /** How often each activity is repeated, and how long each repetition is. Pure functions. */
 import type { Segment, Segments } from "../messages";
-import { durationOf, isExcluded, laneOf } from "../segments";
+import { durationOf, laneOf } from "../segments";
 
 /** An activity with its repetitions. */
 export interface Repeated {
@@ -27,7 +27,7 @@ export function repetitionsOf(table: Segments): Repeated[] {
     const rows = inside.get(number) ?? [];
     if (activity.kind === "transition" || !rows.length) return [];
     const durations = rows.map(durationOf);
-    const leftOut = rows.map((row) => isExcluded(table.annotation, row));
+    const leftOut = rows.map((row) => row.excluded ?? false);
     const counted = durations.filter((_, i) => !leftOut[i]);
     return [{ activity, durations, leftOut, ...meanOf(counted) }];
   });

@@ -41,12 +41,11 @@ function offerLevels(store: Store, { recording }: ShownRecording): void {
     const { segments } = chosen;
     batch(() => {
       store.levels.value = { all, detail: chosen.detail, choose };
-      const annotation = { checked: [], by_hand: [], cluster_names: {} };
       const isShown = chosen.detail === shown;
       recording.value = {
         ...recording.value,
         revision: isShown ? 0 : 1 + positionOf(detail, all), // of the curves of repetitions
-        segmentation: isShown ? segmentation : { ...segmentation, ...annotation, segments },
+        segmentation: isShown ? segmentation : { ...segmentation, cluster_names: {}, segments },
       };
     });
   };

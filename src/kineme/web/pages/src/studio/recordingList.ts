@@ -1,6 +1,7 @@
 /** The recordings of the folder, as the list shows them. */
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
 import type { Listing, State } from "../messages";
+import { checkedIn } from "../segments";
 import type { EditedRecording } from "./editing/editedRecording";
 
 /** How far a recording is. */
@@ -40,10 +41,10 @@ export class RecordingList {
     const open = this.recordings.value.find((edited) => edited.id === listing.id);
     const { saved, segmentation } = open?.confirmed.value ?? {};
     if (!segmentation || !saved) return listing.corrected ? status(listing) : "new";
-    const { segments, checked } = segmentation;
+    const { segments } = segmentation;
     return status({
       segments: segments.length,
-      checked: checked.length,
+      checked: checkedIn(segmentation),
       named: segments.filter(({ label }) => label).length,
       to_name: segments.filter(({ kind }) => kind !== "transition").length,
     });

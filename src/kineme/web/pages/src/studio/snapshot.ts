@@ -10,7 +10,7 @@ export function exposeStudio(session: Session): void {
         ...snapshotOf(store),
         recordings: store.opened.value.map((opened) => opened.recording.value.name),
         segments: store.table.value?.segments ?? [],
-        checked: store.table.value?.checked ?? [],
+        checked: (store.table.value?.segments ?? []).flatMap((row, i) => (row.checked ? [i] : [])),
         selected: store.selected.value ?? null,
         unsent: session.unsent.value,
       }),

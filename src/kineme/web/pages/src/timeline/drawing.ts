@@ -1,7 +1,7 @@
 /** How lanes look. */
 import { inkOn } from "../colors";
 import type { Segment } from "../messages";
-import { isExcluded, nameOf } from "../segments";
+import { nameOf } from "../segments";
 import type { Drag } from "../state";
 import type { Store } from "../store";
 import { cssColor } from "../theme";
@@ -54,10 +54,6 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
   const [from, to] = visible(segments, range.start_s, range.stop_s);
   const hovered = store.hovered.value;
   const edge = cssColor("edge");
-  const rows = store.table.value;
-  const checked = new Set(
-    lane.level ? rows?.checked.map((row) => rows.segments[row]!) : [], // none while it is dragged
-  );
   let drawn = -Infinity; // right end of what has been drawn
   for (let i = from; i < to; i++) {
     const segment = segments[i]!;
@@ -83,9 +79,8 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
       pen.stroke();
     }
     if (color && right - left > 16) writeName(pen, lane, segment, left, right, room, inkOn(color));
-    if (checked.has(segment) && right - left > 8) drawTick(pen, lane, right);
-    if (rows && lane.level === "primitive" && isExcluded(rows.annotation, segment))
-      drawStrike(pen, lane, left, right);
+    if (lane.level && segment.checked && right - left > 8) drawTick(pen, lane, right);
+    if (lane.level && segment.excluded) drawStrike(pen, lane, left, right);
   }
   drawDifferences(pen, lane, scene);
   drawTarget(pen, lane, scene);
@@ -184,8 +179,9 @@ function moved(lane: Lane, drag: Drag | null, fps: number): readonly Segment[] {
   if (drag?.lane !== lane.id) return lane.segments;
   const { frame, to } = drag;
   return lane.segments.map((segment) => {
-    if (segment.start_frame === frame) return { ...segment, start_frame: to, start_s: to / fps };
-    if (segment.stop_frame === frame) return { ...segment, stop_frame: to, stop_s: to / fps };
+    const present = { ...segment, checked: false }; // these frames are not those that were checked
+    if (segment.start_frame === frame) return { ...present, start_frame: to, start_s: to / fps };
+    if (segment.stop_frame === frame) return { ...present, stop_frame: to, stop_s: to / fps };
     return segment;
   });
 }

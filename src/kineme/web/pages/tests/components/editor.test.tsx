@@ -57,7 +57,9 @@ test("a key after one that moves a border is for the segment of that border", as
   review.toggle();
   await settled();
   expect(shown()).toEqual([0, 21, 30, 60]);
-  expect(page.store.table.value!.checked).toEqual([2]);
+  expect(page.store.table.value!.segments.map((row) => row.checked ?? false)).toEqual([
+    ...[false, false, true, false, false],
+  ]);
   expect(page.store.frame.value).toBe(21);
 });
 

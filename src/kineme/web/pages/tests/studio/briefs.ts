@@ -37,7 +37,7 @@ export function listing(id: string, table: BriefTable | null): Listing {
 }
 
 /** A table as a server would tell it. */
-export function briefOf({ n_frames, fps, segments, checked, comments }: Segments): BriefTable {
+export function briefOf({ n_frames, fps, segments }: Segments): BriefTable {
   return {
     n_frames,
     fps,
@@ -50,7 +50,7 @@ export function briefOf({ n_frames, fps, segments, checked, comments }: Segments
     label: segments.map(({ label }) => label),
     confidence: segments.map(({ confidence }) => confidence),
     border_confidence: segments.map(({ border_confidence }) => border_confidence),
-    checked,
-    comments: comments.length,
+    checked: segments.flatMap(({ checked }, row) => (checked ? [row] : [])),
+    comments: segments.filter(({ comment }) => comment).length,
   };
 }

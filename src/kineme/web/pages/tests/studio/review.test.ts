@@ -70,7 +70,7 @@ it("says of a confidence that it is no probability", () => {
 });
 
 it("leaves out what is checked, and counts it", () => {
-  const some = tableOf(rows, { checked: [1, 2] });
+  const some = tableOf(rows.map((row, i) => ({ ...row, checked: i === 1 || i === 2 })));
   expect(doubtsOf(some).map(({ segment }) => segment.start_frame)).toEqual([0, 40]);
   expect(progressOf(some, "primitive")).toEqual([2, 4]);
   expect(progressOf(some, "activity")).toEqual([0, 0]);
@@ -90,7 +90,7 @@ it("orders and filters the table", () => {
   expect(starts(table, { ...EVERYTHING, kind: "transition" }, "start", false)).toEqual([40]);
   expect(starts(table, { ...EVERYTHING, shortest: 1.5 }, "start", false)).toEqual([10]);
   expect(starts(table, { ...EVERYTHING, confidenceBelow: 0.5 }, "start", false)).toEqual([10, 30]);
-  const checked = tableOf(rows, { checked: [3] });
+  const checked = tableOf(rows.map((row, i) => ({ ...row, checked: i === 3 })));
   expect(starts(checked, { ...EVERYTHING, checked: "yes" }, "start", false)).toEqual([40]);
 });
 

@@ -3,7 +3,7 @@ import type { Edit, Edited, EditRequest, Level, Recording } from "../../src/mess
 import { Refused, Unreachable } from "../../src/studio/server/answers";
 import { recording, row } from "./tables";
 
-type Table = Pick<Recording, "segmentation" | "ids">;
+type Table = Pick<Recording, "segmentation">;
 
 /** A server that edits one table, knows edits by name, can be switched off, or die once it saved. */
 export class Server {
@@ -29,14 +29,14 @@ export class Server {
     if (!this.up) throw new Unreachable();
     if (this.known.has(name)) return this.answer();
     if (revision !== this.now.revision) throw new Refused(409, "The table has changed.", {});
-    const after = edit.kind === "undo" ? this.past.pop() : edited(this.now, edit, name);
+    const after = edit.kind === "undo" ? this.past.pop() : edited(this.now, edit);
     if (!after || this.refuses(edit)) throw new Refused(400, "It cannot be made.", {});
     if (edit.kind !== "undo") this.past.push(this.now);
     this.got.push(edit);
     if (name) this.known.add(name);
-    const { segmentation, ids = [] } = after;
+    const { segmentation } = after;
     const saved = "take.segments.json";
-    this.now = { ...this.now, segmentation, ids, revision: revision + 1, saved };
+    this.now = { ...this.now, segmentation, revision: revision + 1, saved };
     if (this.dieAfterSaving) {
       this.up = false;
       throw new Unreachable();
@@ -45,42 +45,31 @@ export class Server {
   }
 
   private answer(): Edited {
-    return { ...this.now, ids: this.now.ids!, notes: [] };
+    return { ...this.now, change: null, notes: [] };
   }
 }
 
 /** The table after an edit, of the few kinds that tests make. */
-function edited(table: Table, edit: Edit, name: string): Table | undefined {
+function edited(table: Table, edit: Edit): Table | undefined {
   const { segmentation } = table;
-  const ids = [...(table.ids ?? [])];
   const rows = segmentation.segments.map((each) => ({ ...each }));
   const startingAt = (level: Level, frame: number): number =>
     rows.findIndex((each) => each.level === level && each.start_frame === frame);
   if (edit.kind === "together")
-    return edit.edits.reduce<Table | undefined>((now, one) => now && edited(now, one, name), table);
+    return edit.edits.reduce<Table | undefined>((now, one) => now && edited(now, one), table);
   if (edit.kind === "check") {
-    const marked = [
-      ...segmentation.checked,
-      ...edit.frames.map((frame) => startingAt(edit.level, frame)),
-    ];
-    const checked = [...new Set(marked)].sort((a, b) => a - b);
-    return { segmentation: { ...segmentation, checked }, ids };
-  }
-  if (edit.kind === "split") {
+    for (const frame of edit.frames) rows[startingAt(edit.level, frame)]!.checked = edit.checked;
+  } else if (edit.kind === "split") {
     const { level, frame } = edit;
     const at = rows.findIndex((each) => each.level === level && each.stop_frame > frame);
     rows.splice(at + 1, 0, row(level, frame, rows[at]!.stop_frame, rows[at]!.cluster));
-    ids.splice(at + 1, 0, `${level[0]}${name || "new"}:${frame}`);
     rows[at]!.stop_frame = frame;
   } else if ("frame" in edit) {
     const at = startingAt(edit.level, edit.frame);
     if (at < 0) return undefined;
     if (edit.kind === "name_segment") rows[at]!.label = edit.label;
     if (edit.kind === "move_border") rows[at]!.start_frame = rows[at - 1]!.stop_frame = edit.to;
-    if (edit.kind === "delete_border") {
-      ids.splice(at, 1);
-      rows[at - 1]!.stop_frame = rows.splice(at, 1)[0]!.stop_frame;
-    }
+    if (edit.kind === "delete_border") rows[at - 1]!.stop_frame = rows.splice(at, 1)[0]!.stop_frame;
   } else return undefined;
-  return { segmentation: { ...segmentation, segments: rows }, ids };
+  return { segmentation: { ...segmentation, segments: rows } };
 }

@@ -1,6 +1,5 @@
 /** Small segment tables and recordings for the tests of the studio. */
 import {
-  bareAnnotation,
   bareSegment,
   type Level,
   type Recording,
@@ -33,11 +32,7 @@ export function table(): Segments {
     fps: FPS,
     provenance: {},
     timings: {},
-    annotation: bareAnnotation,
     cluster_names: {},
-    checked: [],
-    by_hand: [],
-    comments: [],
     segments: [
       row("activity", 0, 100),
       row("primitive", 0, 30, 0),
@@ -54,7 +49,7 @@ export function recording(segmentation = table(), revision = 0): Recording {
     n_frames: 100,
     fps: FPS,
     motion: null,
-    matrix: { fps: 10, tile: 256, sizes: [100], band: null },
+    matrix: { fps: 10, tile: 256, sizes: [100] },
     segmentation,
     levels: [],
     video: null,
@@ -62,7 +57,6 @@ export function recording(segmentation = table(), revision = 0): Recording {
     revision,
     can_undo: false,
     can_redo: false,
-    ids: segmentation.segments.map((each) => `${each.level[0]}:${each.start_frame}`),
     saved: "",
     warnings: [],
   };

@@ -2,8 +2,8 @@
  * One open recording: the table that the server has, and the edits on their way there.
  *
  * Edits are sent one after the other, and the page shows the table of the last answer. Each
- * has a name, by which the server knows one that is sent again, and is made on the segments
- * that it was made on, wherever the edits before it have moved them. An edit leaves the queue
+ * has a name, by which the server knows one that is sent again, and follows the segments that
+ * it names wherever the edits before it move them. An edit leaves the queue
  * when the server has answered it. While nobody answers, the queue is kept, also when the tab
  * dies, and takes nothing more; so it is when the table turns out to be another than the one
  * that was edited, until somebody has decided what becomes of the edits.
@@ -12,13 +12,11 @@
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import type { Edit, Edited, Recording, Segments } from "../../messages";
 import { type Api, Refused, Unreachable } from "../server/api";
-import { changedBy } from "./changes";
-import { madeOn, readdressed } from "./identities";
+import { applyChange } from "./changes";
+import { follow } from "./follow";
 import { store, takeOver, type Unsent } from "./unsent";
 import { foundIn, inWords, isLoss, replacesTable } from "./words";
 
-/** Of no table: the server only says whether it knows the edit. */
-const NO_REVISION = -1;
 const MISSING = "what it was made on is not there any more";
 const AWAY = "Not done: the studio’s server does not answer.";
 const UNDECIDED = "Not done: first choose what becomes of the edits above.";
@@ -92,11 +90,10 @@ export class EditedRecording {
   edit(edit: Edit, made?: () => void): Promise<void> {
     if (!this.takesEdits()) return Promise.resolve();
     const queue = this.queue.peek();
-    const now = this.confirmed.peek();
     const name = crypto.randomUUID();
     if (made) this.whenMade.set(name, made);
-    const base = queue.length ? null : now.revision;
-    this.queue.value = [...queue, { name, edit, base, on: madeOn(edit, now) }];
+    const base = queue.length ? null : this.confirmed.peek().revision;
+    this.queue.value = [...queue, { name, edit, base }];
     return this.send();
   }
 
@@ -200,27 +197,24 @@ export class EditedRecording {
       });
       return true;
     }
-    const { name, base, on = [] } = first;
+    if (first.isGone) return this.refuse(first, MISSING);
+    const { name, edit, base } = first;
     const before = this.confirmed.peek();
-    // Who is in a table that is still to be found, the server knows that waits for it.
-    const edit = before.finding ? first.edit : readdressed(first.edit, on, before);
     try {
-      const revision = edit ? (base ?? before.revision) : NO_REVISION;
-      const sent = { revision, edit: edit ?? first.edit, name, brief: true };
-      const edited = await this.around.api.edit(this.id, sent);
+      const revision = base ?? before.revision;
+      const edited = await this.around.api.edit(this.id, { revision, edit, name });
       const now = await this.after(edited);
       batch(() => {
-        this.confirmed.value = now;
         this.queue.value = this.queue.peek().slice(1);
+        this.show(now);
         this.whenMade.get(name)?.();
       });
       this.whenMade.delete(name);
-      this.report(first.edit, now.segmentation, edited.notes);
+      this.report(edit, now.segmentation, edited.notes);
       return true;
     } catch (error) {
       if (!(error instanceof Refused) || error.status === 403) this.around.lost();
       else if (error.status === 400) return this.refuse(first, error.message);
-      else if (error.status === 409 && !edit) return this.refuse(first, MISSING);
       else if (error.status === 409) return this.reconsider(before, error.message);
       else this.blocked.value = error.message;
       return false;
@@ -230,13 +224,25 @@ export class EditedRecording {
   /** The recording once an edit is made; asked for where the answer is of another table than ours. */
   private async after({ change, segmentation, ...edited }: Edited): Promise<Recording> {
     const before = this.confirmed.peek();
-    if (change && change.of !== before.revision) return this.around.api.recording(this.id);
-    const segments = change
-      ? changedBy(change, before.segmentation.segments)
-      : segmentation.segments;
-    const { revision, ids, can_undo, can_redo, saved } = edited;
-    const now = { revision, ids, can_undo, can_redo, saved, finding: false };
-    return { ...before, ...now, segmentation: { ...segmentation, segments } };
+    const isOurs = change?.of === before.revision;
+    const table = isOurs ? applyChange(before.segmentation, change) : segmentation;
+    if (!table) return this.around.api.recording(this.id);
+    const { revision, can_undo, can_redo, saved } = edited;
+    const now = { revision, can_undo, can_redo, saved, finding: false };
+    return { ...before, ...now, segmentation: table };
+  }
+
+  /** Shows the recording as it is now; edits that wait follow the segments that they name. */
+  private show(now: Recording): void {
+    const { segmentation: before } = this.confirmed.peek();
+    batch(() => {
+      this.confirmed.value = now;
+      this.queue.value = this.queue.peek().map((turn) => {
+        if (!isEdit(turn) || turn.isGone) return turn;
+        const edit = follow(turn.edit, before, now.segmentation);
+        return edit ? { ...turn, edit } : { ...turn, isGone: true };
+      });
+    });
   }
 
   /** An edit that cannot be made is none; undo of it, which may wait behind it, is none, either. */
@@ -281,7 +287,7 @@ export class EditedRecording {
       const before = this.confirmed.peek();
       const now = await this.around.api.recording(this.id);
       const since = this.confirmed.peek(); // an edit may have been confirmed on the way
-      if (since === before || now.revision >= since.revision) this.confirmed.value = now;
+      if (since === before || now.revision >= since.revision) this.show(now);
       return true;
     } catch (error) {
       if (error instanceof Unreachable) this.around.lost();

@@ -11,7 +11,7 @@ import type { Store } from "../../store";
 import * as commands from "./commands";
 import type { EditedRecording } from "./editedRecording";
 import type { Session } from "../session";
-import { isExcluded, laneOf, nearestBorder, segmentAt } from "../../segments";
+import { findRow, laneOf, nearestBorder, segmentAt } from "../../segments";
 import { counted } from "../../counted";
 
 /** Where the playhead is for some keys: those that move a border take it along for those after them. */
@@ -198,7 +198,7 @@ export class Editor {
     const row = this.store.selected.value;
     if (row?.kind === "primitive")
       this.inTurn((_, { segmentation }) =>
-        this.exclude([row.start_frame], !isExcluded(segmentation.annotation, row)),
+        this.exclude([row.start_frame], !findRow(segmentation, row)?.excluded),
       );
     else this.session.bulletin.refuse("Select the repetition to leave out of means first.");
   }

@@ -13,8 +13,8 @@ export interface Unsent {
   edit: Edit;
   /** The revision it was made on; null: that of the one before. */
   base: number | null;
-  /** Who the segments are that it names, in the order of their frames. */
-  on?: (string | null)[];
+  /** Whether a segment that it names is there no more. */
+  isGone?: boolean;
 }
 
 const PREFIX = "kineme.unsent";

@@ -1,13 +1,7 @@
 /** Tables of recordings that are not open, as the folder tells them. Pure functions. */
-import {
-  bareAnnotation,
-  bareSegment,
-  type BriefTable,
-  type Segment,
-  type Segments,
-} from "../../messages";
+import { bareSegment, type BriefTable, type Segment, type Segments } from "../../messages";
 import { clusterColor, labelColors, NO_COLOR } from "../../colors";
-import { laneOf } from "../../segments";
+import { checkedIn, laneOf } from "../../segments";
 import { doubtsOf, type Doubt } from "../review/doubts";
 
 /** Half a doubt: what is of less confidence is counted. */
@@ -15,7 +9,8 @@ export const HALF = 0.5;
 
 /** A table as every page has it, from its columns. */
 export function tableOf(brief: BriefTable): Segments {
-  const { fps, n_frames, checked } = brief;
+  const { fps, n_frames } = brief;
+  const checked = new Set(brief.checked);
   const segments = brief.level.map((level, row): Segment => ({
     ...bareSegment,
     level,
@@ -29,20 +24,9 @@ export function tableOf(brief: BriefTable): Segments {
     label: brief.label[row]!,
     confidence: brief.confidence[row]!,
     border_confidence: brief.border_confidence[row]!,
+    checked: checked.has(row),
   }));
-  return {
-    schema: "",
-    n_frames,
-    fps,
-    provenance: {},
-    timings: {},
-    annotation: bareAnnotation,
-    segments,
-    cluster_names: {},
-    checked,
-    by_hand: [],
-    comments: [],
-  };
+  return { schema: "", n_frames, fps, provenance: {}, timings: {}, segments, cluster_names: {} };
 }
 
 /** How far a table is: its rows, those checked, and those left of less confidence than half. */
@@ -59,7 +43,7 @@ export function queueOf(table: Segments): readonly Doubt[] {
 
 export function tallyOf(table: Segments): Tally {
   const doubtful = queueOf(table).filter(({ value }) => value !== null && value < HALF).length;
-  return { all: table.segments.length, checked: table.checked.length, doubtful };
+  return { all: table.segments.length, checked: checkedIn(table), doubtful };
 }
 
 /** The least confidence of what is not checked; null where there is none. */

@@ -4,6 +4,7 @@
  */
 import { batch, computed, effect, signal, untracked } from "@preact/signals";
 import type { Listing, Segments } from "../../messages";
+import { checkedIn } from "../../segments";
 import { explain, type Refused, Unreachable } from "../server/api";
 import type { Session } from "../session";
 import { tableOf, tallyOf, type Tally } from "./briefTables";
@@ -26,7 +27,8 @@ export class Folder {
     (this.session.state.value?.recordings ?? []).map((listing) => {
       const ofServer = this.ofServer.value.get(listing.id);
       const ofPage = this.ofPage.value.get(listing.id);
-      const comments = ofPage?.comments.length ?? ofServer?.comments ?? 0;
+      const comments =
+        ofPage?.segments.filter((row) => row.comment).length ?? ofServer?.comments ?? 0;
       return { listing, table: ofPage ?? ofServer?.table ?? null, comments };
     }),
   );
@@ -101,7 +103,7 @@ export class Folder {
     return this.members.value.some(({ listing, table }) => {
       if (!table || !listing.corrected) return listing.corrected;
       const named = table.segments.filter(({ label }) => label).length;
-      const counts = [table.segments.length, table.checked.length, named];
+      const counts = [table.segments.length, checkedIn(table), named];
       return counts.join() !== [listing.segments, listing.checked, listing.named].join();
     });
   }

@@ -4,6 +4,7 @@ import { StatusOptions } from "../folder/StatusOptions";
 import { AddFiles } from "./AddFiles";
 import { MiddleShortened } from "./MiddleShortened";
 import { useStudio } from "../context";
+import { checkedIn } from "../../segments";
 import type { Listing } from "../../messages";
 import type { Order, Status } from "../recordingList";
 
@@ -80,7 +81,7 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
   const open = store.opened.value.find((each) => each.recording.value.id === id)?.recording.value;
   const shown = open !== undefined;
   const status = session.list.statusOf(listing);
-  const checked = open?.segmentation.checked.length ?? listing.checked;
+  const checked = open ? checkedIn(open.segmentation) : listing.checked;
   const segments = open?.segmentation.segments.length ?? listing.segments;
   const facts = [
     megabytes(listing.bytes),

@@ -9,18 +9,17 @@ export interface Doubt extends Confidence {
 
 /** The segments that are not checked: those with a confidence first, then the others in time. */
 export function doubtsOf(table: Segments): Doubt[] {
-  const checked = new Set(table.checked);
   const confidences = confidenceOf(table);
   return table.segments
-    .filter((_, row) => !checked.has(row))
+    .filter(({ checked }) => !checked)
     .map((segment) => new OfOne(segment, confidences.get(segment)))
     .sort((a, b) => (a.value ?? 2) - (b.value ?? 2) || before(a.segment, b.segment));
 }
 
 /** How many segments of a level there are, and how many of them are checked. */
 export function progressOf(table: Segments, level: Level): [checked: number, all: number] {
-  const checked = table.checked.filter((row) => table.segments[row]?.level === level);
-  return [checked.length, table.segments.filter((row) => row.level === level).length];
+  const rows = table.segments.filter((row) => row.level === level);
+  return [rows.filter(({ checked }) => checked).length, rows.length];
 }
 
 /** A doubt whose words are those of the confidence, made when they are read. */

@@ -5,6 +5,7 @@ import type { Editor } from "../editing/editor";
 import { Folder } from "../folder/folder";
 import { FolderQueue } from "../folder/folderQueue";
 import { NameOffer } from "../folder/offer";
+import { findRow } from "../../segments";
 import type { Session } from "../session";
 import { doubtsOf, type Doubt } from "./doubts";
 
@@ -78,7 +79,7 @@ export class Review {
 
   isChecked(segment: Segment): boolean {
     const table = this.session.store.table.value;
-    return table?.checked.some((row) => same(table.segments[row]!, segment)) ?? false;
+    return Boolean(table && findRow(table, segment)?.checked);
   }
 }
 

@@ -3,6 +3,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStudio } from "../context";
 import type { ByHand } from "../../messages";
+import { findRow } from "../../segments";
 import { explain } from "../server/api";
 import { save } from "../server/save";
 import { type Row, spansToMerge } from "./rows";
@@ -15,11 +16,12 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
     if (!edited.value) return;
     busy.value = true;
     try {
-      const { ids = [] } = edited.value.confirmed.value;
-      await edited.value.settled();
-      const now = edited.value.confirmed.value.ids ?? []; // edits on their way may move rows
-      const numbers = rows.map(({ number }) => now.indexOf(ids[number]!)).filter((row) => row >= 0);
-      save(await api.clips(edited.value.id, { rows: numbers, loops }));
+      await edited.value.settled(); // edits on their way may move rows
+      const { segmentation } = edited.value.confirmed.value;
+      const present = rows.map(({ segment }) => findRow(segmentation, segment));
+      const numbers = present.map((row) => segmentation.segments.indexOf(row!));
+      const there = numbers.filter((number) => number >= 0);
+      save(await api.clips(edited.value.id, { rows: there, loops }));
       bulletin.solved("clips");
     } catch (error) {
       bulletin.problem(explain(error), "clips");
@@ -34,7 +36,7 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
     );
   const name = useSignal("");
   const merges = spansToMerge(rows);
-  const checked = rows.length > 0 && rows.every((row) => row.checked);
+  const checked = rows.length > 0 && rows.every(({ segment }) => segment.checked);
   const segments = rows.map(({ segment }) => segment);
   return (
     <div class="table-actions">

@@ -152,7 +152,7 @@ function TableRow(props: {
   go: (at: number, many: "one" | "range" | "more") => void;
 }): JSX.Element {
   const { row, at, color, chosen, go } = props;
-  const { segment, checked, confidence: confidence } = row;
+  const { segment, confidence } = row;
   return (
     <div
       role="row"
@@ -174,7 +174,7 @@ function TableRow(props: {
         <span class="swatch" style={{ background: color }} /> {nameOf(segment)}
       </span>
       <span role="gridcell" class="number">
-        {checked ? (
+        {segment.checked ? (
           <span title="checked">✓</span>
         ) : (
           <span title={confidence.why}>{confidence.short}</span>

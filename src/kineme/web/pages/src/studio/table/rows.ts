@@ -29,22 +29,19 @@ export const EVERYTHING: Filter = {
   confidenceBelow: Infinity,
 };
 
-/** A segment, the number of its row in the table, whether it is checked, and its confidence. */
+/** A segment, the number of its row in the table, and its confidence. */
 export interface Row {
   segment: Segment;
   number: number;
-  checked: boolean;
   confidence: Confidence;
 }
 
 export function rowsOf(table: Segments, filter: Filter, order: Order, down: boolean): Row[] {
-  const checked = new Set(table.checked);
   const confidences = confidenceOf(table);
   const rows = table.segments
     .map((segment, number) => ({
       segment,
       number,
-      checked: checked.has(number),
       confidence: confidences.get(segment),
     }))
     .filter((row) => passes(row, filter));
@@ -74,13 +71,13 @@ export function spansToMerge(
   return spans.filter(({ n }) => n > 1).map(({ level, start, stop }) => ({ level, start, stop }));
 }
 
-function passes({ segment, checked, confidence }: Row, filter: Filter): boolean {
+function passes({ segment, confidence }: Row, filter: Filter): boolean {
   const { level, kind, text, shortest, longest, confidenceBelow } = filter;
   const duration = durationOf(segment);
   return (
     (!level || segment.level === level) &&
     (!kind || (segment.kind === "transition") === (kind === "transition")) &&
-    (!filter.checked || checked === (filter.checked === "yes")) &&
+    (!filter.checked || Boolean(segment.checked) === (filter.checked === "yes")) &&
     isCalled(segment, text.trim().toLowerCase()) &&
     duration >= shortest &&
     duration <= longest &&
