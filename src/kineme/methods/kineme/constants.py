@@ -82,8 +82,8 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     # Segments: the tree and its shortest description.
     part: float = constant(
-        "a longer recording is segmented in parts of about this at most", unit="s", limits=SOME_TIME,
-        fine=True, default=600.0,
+        "a longer recording is segmented in parts of about this at most", unit="s",
+        limits=SOME_TIME, fine=True, default=600.0,
     )  # fmt: skip
     compared_within: float = constant(
         "samples are compared within this of each other, for the median distance and for the "

@@ -413,7 +413,7 @@ def spread(start: int, stop: int, most: int) -> Samples:
     return start + (2 * np.arange(n) + 1) * (stop - start) // (2 * n)
 
 
-def part_ends(rows: Floats, longest: int, side: int) -> list[int]:
+def part_ends(rows: Rows | Floats, longest: int, side: int) -> list[int]:
     """Return the ends of about equal parts, each where the rows change most nearby.
 
     The first is 0 and the last the number of rows. Equal parts are at most `longest`; their ends
@@ -444,7 +444,7 @@ def part_ends(rows: Floats, longest: int, side: int) -> list[int]:
     return [*ends, n]
 
 
-def _changes(rows: Floats, at: Samples, side: int) -> Floats:
+def _changes(rows: Rows | Floats, at: Samples, side: int) -> Floats:
     """Return how much the mean of rows, and their mean change, differ before and after frames."""
     first, last = int(at[0]) - side, int(at[-1]) + side
     span = np.asarray(rows[first:last], np.float64)
