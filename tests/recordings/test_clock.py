@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import xarray as xr
 from typer.testing import CliRunner
 
 import kineme
@@ -107,6 +106,7 @@ def as_frame(frame: pd.DataFrame, times, _: Path) -> Signals:
 
 
 def as_xarray(frame: pd.DataFrame, times, _: Path) -> Signals:
+    xr = pytest.importorskip("xarray")
     array = xr.DataArray(frame, dims=("time", "channel"))
     return as_signals(array.assign_coords(time=np.asarray(times)))
 
