@@ -64,8 +64,8 @@ def segment(
         bool,
         option(
             INPUT,
-            "Take the files for sensors of one recording, each with its own rate and clock, and "
-            "join them by time. Results are called after the first.",
+            "Take the files for sensors of one recording and join them by time.",
+            "--join",
         ),
     ] = False,
     recursive: Recursive = False,

@@ -30,7 +30,7 @@ def split(
         Path,
         option(
             OUTPUT,
-            "Folder to make, or a .glb for all clips; of several recordings a path with {name}.",
+            "Folder, or .glb of all clips; of several recordings with {name} in it.",
             "--output",
             "-o",
         ),
@@ -45,11 +45,9 @@ def split(
     ] = None,
     root_motion: Annotated[
         RootMotionMode,
-        option(OUTPUT, "Keep it, move it to a root bone, or put clips to the origin without it."),
+        option(OUTPUT, "keep, extract (to a root bone), in-place.", metavar="HOW"),
     ] = "keep",
-    straight: Annotated[
-        bool, option(OUTPUT, "Take the turn out of each clip.", "--straight")
-    ] = False,
+    straight: Annotated[bool, option(OUTPUT, "Take out each clip's turn.", "--straight")] = False,
     mirror: Annotated[
         bool, option(OUTPUT, "Exchange left and right in each clip.", "--mirror")
     ] = False,

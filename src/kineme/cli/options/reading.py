@@ -38,7 +38,7 @@ Take = Annotated[
     str | None,
     option(
         READING_OPTIONS,
-        "Which of several animations, by name or number; all for each of them.",
+        "Which of several animations, by name or number; or all.",
         metavar="NAME",
     ),
 ]
