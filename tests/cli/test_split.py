@@ -153,7 +153,7 @@ def test_clips_as_animations_of_a_glb_and_back(kineme, tmp_path: Path) -> None:
     assert package.read(tmp_path / "walk.bvh").n_frames == 326
     done = kineme("split", bundled_recording(), *cuts, "--format", "doc", "-o", "more")
     assert done.returncode == 1
-    assert "format is 'doc': motions are written as amc, bvh, csv, glb" in done.stderr
+    assert "format is 'doc': motions are written as amc, bvh, csv, fbx, glb" in done.stderr
 
 
 def test_convert_overwrites_nothing_and_knows_its_formats(kineme, tmp_path: Path) -> None:

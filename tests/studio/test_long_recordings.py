@@ -72,7 +72,7 @@ def test_a_long_recording_that_is_read_otherwise_says_when_its_segments_are_ther
     before = recordings.message(name).revision
     wanted = held_back(monkeypatch)
     monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
-    recordings.read_as(name, {"fps": 30})
+    recordings.read_as(name, ReadOptions(fps=30))
     assert told.get(timeout=600) == (name, before)  # one more once they are found
     assert recordings.message(name).finding
     wanted.set()
