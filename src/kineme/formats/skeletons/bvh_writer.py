@@ -41,7 +41,8 @@ def write_bvh(motion: Motion, path: Path) -> None:
     turns, translations, offsets, slides = local_pose(motion, path, "a BVH")
     slides |= np.array(skeleton.parents) < 0
     unit, back = UNIT, rot.IDENTITY
-    if skeleton.rig is not None and skeleton.rig.is_plain:
+    own = motion.provenance.format == "BVH"
+    if own and skeleton.rig is not None and skeleton.rig.is_plain:
         # In the units and axes of the file, those of the world and of the joints alike.
         unit, back = skeleton.rig.unit, rot.conjugate(skeleton.rig.turn)
         turns = rot.multiply(rot.multiply(back, turns), skeleton.rig.turn)
