@@ -24,7 +24,7 @@ WALK = {"recording": "walk.bvh", "start_s": 0.5, "stop_s": 1.6}
 @pytest.fixture
 def client(folder: Path) -> Iterator[TestClient]:
     shown, hub = ShownLibrary(folder), Hub()
-    recordings = OpenRecordings(shown.as_folder(), hub.tell, shown.options())
+    recordings = OpenRecordings(shown.as_folder(), hub.tell, *shown.options())
     app = create_app(recordings, token=TOKEN, port=PORT, hub=hub, library=shown)
     with TestClient(
         app, base_url=f"http://127.0.0.1:{PORT}", headers={"x-kineme-token": TOKEN}
