@@ -6,6 +6,7 @@ import { useStore } from "../context";
 import { clusterColor } from "../colors";
 import { NameInput } from "../layout/NameInput";
 import type { Cluster } from "../segments";
+import { Button } from "../layout/controls";
 
 export function ClusterName({ cluster }: { cluster: Cluster }): JSX.Element {
   const store = useStore();
@@ -28,8 +29,7 @@ export function ClusterName({ cluster }: { cluster: Cluster }): JSX.Element {
     );
   const begin = (): void => void (naming.value = edits !== null);
   return (
-    <button
-      type="button"
+    <Button
       class="plain"
       aria-pressed={store.cluster.value === id}
       title={edits ? "Double click or F2 to name it" : undefined}
@@ -39,6 +39,6 @@ export function ClusterName({ cluster }: { cluster: Cluster }): JSX.Element {
       <span class="swatch" style={{ background: clusterColor(id) }} />
       <span class="cluster-name">{label || `cluster ${id}`}</span>
       {store.present.value?.cluster === id && <span class="now" title="At the playhead" />}
-    </button>
+    </Button>
   );
 }

@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { useStore } from "../context";
 import type { ClusterCurves, CycleCurve } from "../messages";
 import { selectCycle } from "./cycles";
+import { Button } from "../layout/controls";
 
 const FARTHEST = 3; // repetitions named that differ most from the mean
 
@@ -26,13 +27,12 @@ export function Chosen({ curves, leftOut, at }: Shown & { at: number }): JSX.Ele
       <span class="quiet">{isOut ? "left out by hand" : deviationOf(cycle, curves.unit)}</span>
       <span class="spacer" />
       {edits && (
-        <button
-          type="button"
+        <Button
           title={(isOut ? "Count it in the mean again" : "Leave it out of the mean") + key}
           onClick={() => edits.exclude([cycle.start_frame], !isOut)}
         >
           {isOut ? "Bring back" : "Leave out"}
-        </button>
+        </Button>
       )}
     </p>
   );
@@ -93,16 +93,14 @@ function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
   const what = excluded ? "Leave out of the mean" : "Bring back into the mean";
   return (
     <span class="chip">
-      <button
-        type="button"
+      <Button
         title={`${deviation}, from ${cycle.start_s.toFixed(2)} to ${cycle.stop_s.toFixed(2)} s`}
         onClick={() => selectCycle(store, cycle)}
       >
         {at}
-      </button>
+      </Button>
       {edits && (
-        <button
-          type="button"
+        <Button
           title={what}
           aria-label={`${what}: ${at}`}
           onClick={({ detail }) => {
@@ -110,7 +108,7 @@ function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
           }}
         >
           {excluded ? "×" : "↺"}
-        </button>
+        </Button>
       )}
     </span>
   );

@@ -7,6 +7,7 @@ import type { Level } from "../../messages";
 import { explain } from "../server/api";
 import { save } from "../server/save";
 import { Dialog } from "./Dialog";
+import { Button } from "../../layout/controls";
 
 interface Props {
   close: () => void;
@@ -79,15 +80,14 @@ export function ExportDialog({ close }: Props): JSX.Element {
           {session.state.value?.export_formats.map(({ name, suffix, help }) => (
             <tr key={name}>
               <td>
-                <button
-                  type="button"
+                <Button
                   data-format={name}
                   disabled={busy.value !== ""}
                   onClick={() => void write(name)}
+                  busy={busy.value === name}
                 >
                   {name}
-                  {busy.value === name && <span class="busy" />}
-                </button>
+                </Button>
               </td>
               <td class="quiet">{suffix}</td>
               <td>{help}</td>

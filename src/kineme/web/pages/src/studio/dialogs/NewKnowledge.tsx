@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import { explain } from "../server/api";
+import { Checkbox, toggled } from "../../layout/controls";
 
 export function NewKnowledge(): JSX.Element {
   const { session } = useStudio();
@@ -32,19 +33,13 @@ export function NewKnowledge(): JSX.Element {
       {named.length === 0 && <p class="quiet">No recording of the folder has names yet.</p>}
       <div class="choices">
         {named.map(({ id, name: title, named: count }) => (
-          <label class="check" key={id}>
-            <input
-              type="checkbox"
-              checked={!left.value.has(id)}
-              onChange={(event) => {
-                const now = new Set(left.value);
-                if (event.currentTarget.checked) now.delete(id);
-                else now.add(id);
-                left.value = now;
-              }}
-            />
+          <Checkbox
+            key={id}
+            checked={!left.value.has(id)}
+            onCheck={() => (left.value = toggled(left.value, id))}
+          >
             {title} <span class="quiet">{count}</span>
-          </label>
+          </Checkbox>
         ))}
       </div>
       <p class="actions">

@@ -8,6 +8,7 @@ import { counted } from "../../counted";
 import { inWords } from "../editing/words";
 import { explain } from "../server/api";
 import { Dialog } from "./Dialog";
+import { Button } from "../../layout/controls";
 
 interface Props {
   close: () => void;
@@ -56,18 +57,15 @@ export function VersionsDialog({ close }: Props): JSX.Element {
               </td>
               <td>
                 <span class="group">
-                  <button type="button" onClick={() => void look(version)}>
-                    Look
-                  </button>
-                  <button
-                    type="button"
+                  <Button onClick={() => void look(version)}>Look</Button>
+                  <Button
                     onClick={() => {
                       void edited?.edit({ kind: "restore", version: version.number });
                       close();
                     }}
                   >
                     Bring back
-                  </button>
+                  </Button>
                 </span>
               </td>
             </tr>

@@ -3,6 +3,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStudio } from "../context";
 import { explain } from "../server/api";
+import { Button, CloseButton } from "../../layout/controls";
 
 const KEYS = 9;
 
@@ -25,23 +26,18 @@ export function Vocabulary(): JSX.Element {
       <div class="choices">
         {labels.map((label, i) => (
           <span class="group" key={label}>
-            <button
-              type="button"
+            <Button
               title={
                 i < KEYS ? `Name the segment “${label}” (${i + 1})` : `Name the segment “${label}”`
               }
               onClick={() => editor.nameTarget(label)}
             >
               {i < KEYS && <kbd>{i + 1}</kbd>} {label}
-            </button>
-            <button
-              type="button"
-              class="icon"
-              aria-label={`Take “${label}” off the list`}
+            </Button>
+            <CloseButton
+              label={`Take “${label}” off the list`}
               onClick={() => void keep(labels.filter((each) => each !== label))}
-            >
-              ×
-            </button>
+            />
           </span>
         ))}
       </div>

@@ -6,6 +6,7 @@ import { useStudio } from "../context";
 import { counted } from "../../counted";
 import type { AnnotatorChoice } from "../../messages";
 import { explain } from "../server/api";
+import { Button, Checkbox, toggled } from "../../layout/controls";
 
 const TABLES_HERE = "tables"; // the id of whoever works here
 
@@ -33,10 +34,7 @@ export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
     }
     busy.value = false;
   };
-  const toggle = (id: string, chosen: boolean): void => {
-    const others = [...ticked.value].filter((each) => each !== id);
-    ticked.value = new Set(chosen ? [...others, id] : others);
-  };
+
   if (people.value.length < 2)
     return (
       <p class="quiet">
@@ -48,25 +46,23 @@ export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
     <div class="choices">
       <fieldset class="people">
         {people.value.map(({ id, name, recordings }) => (
-          <label key={id}>
-            <input
-              type="checkbox"
-              checked={ticked.value.has(id)}
-              onChange={(event) => toggle(id, event.currentTarget.checked)}
-            />{" "}
+          <Checkbox
+            key={id}
+            checked={ticked.value.has(id)}
+            onCheck={() => (ticked.value = toggled(ticked.value, id))}
+          >
             {name} <span class="quiet">{counted(recordings, "recording")}</span>
-          </label>
+          </Checkbox>
         ))}
       </fieldset>
-      <button
-        type="button"
+      <Button
         class="primary"
         disabled={busy.value || ticked.value.size < 2}
         onClick={() => void compare()}
+        busy={busy.value}
       >
         Compare {ticked.value.size} people
-        {busy.value && <span class="busy" />}
-      </button>
+      </Button>
     </div>
   );
 }

@@ -7,6 +7,7 @@ import type { Level } from "../../messages";
 import { nameOf } from "../../segments";
 import { clock } from "../../view";
 import { progressOf } from "./doubts";
+import { Button, Select } from "../../layout/controls";
 
 const MOST = 100; // rows; the rest comes when these are checked
 
@@ -21,13 +22,14 @@ export function ReviewPanel(): JSX.Element {
   const scope = several && (
     <label class="field">
       Look through{" "}
-      <select
+      <Select
         value={review.everywhere.value ? "folder" : "recording"}
-        onChange={(event) => void review.goEverywhere(event.currentTarget.value === "folder")}
-      >
-        <option value="recording">this recording</option>
-        <option value="folder">all recordings</option>
-      </select>
+        options={[
+          ["recording", "this recording"],
+          ["folder", "all recordings"],
+        ]}
+        onSelect={(chosen) => void review.goEverywhere(chosen === "folder")}
+      />
     </label>
   );
   if (review.everywhere.value) return <FolderReview scope={scope} />;
@@ -51,8 +53,7 @@ export function ReviewPanel(): JSX.Element {
           const { segment, short } = doubt;
           return (
             <li key={`${segment.level} ${segment.start_frame}`}>
-              <button
-                type="button"
+              <Button
                 class="plain"
                 aria-current={doubt === present ? "true" : undefined}
                 title={doubt.why}
@@ -64,7 +65,7 @@ export function ReviewPanel(): JSX.Element {
                 </span>
                 <span class="number quiet">{clock(segment.start_s, 2)}</span>
                 <span class="number">{short || "–"}</span>
-              </button>
+              </Button>
             </li>
           );
         })}
@@ -89,8 +90,7 @@ function FolderReview({ scope }: { scope: ComponentChildren }): JSX.Element {
           const { segment, short, why } = doubt;
           return (
             <li key={`${id} ${segment.level} ${segment.start_frame}`}>
-              <button
-                type="button"
+              <Button
                 class="plain"
                 aria-current={place === queue.looking.value ? "true" : undefined}
                 title={why}
@@ -103,7 +103,7 @@ function FolderReview({ scope }: { scope: ComponentChildren }): JSX.Element {
                 <span class="number quiet">{clock(segment.start_s, 2)}</span>
                 <span class="number">{short || "–"}</span>
                 <span class="of quiet">{recording}</span>
-              </button>
+              </Button>
             </li>
           );
         })}

@@ -7,6 +7,7 @@ import { findRow } from "../../segments";
 import { explain } from "../server/api";
 import { save } from "../server/save";
 import { type Row, spansToMerge } from "./rows";
+import { Button } from "../../layout/controls";
 
 export function Actions({ rows }: { rows: Row[] }): JSX.Element {
   const { session, editor } = useStudio();
@@ -58,8 +59,7 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
         />
         <button type="submit">Name {rows.length}</button>
       </form>
-      <button
-        type="button"
+      <Button
         disabled={!merges.length}
         title="Neighbours become one segment"
         onClick={() =>
@@ -72,12 +72,11 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
         }
       >
         Merge
-      </button>
-      <button type="button" onClick={() => editor.check(segments, !checked)}>
+      </Button>
+      <Button onClick={() => editor.check(segments, !checked)}>
         {checked ? "Uncheck" : "Check"}
-      </button>
-      <button
-        type="button"
+      </Button>
+      <Button
         disabled={!divisible}
         title="The chosen ones become a cluster of their own"
         onClick={() =>
@@ -88,23 +87,21 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
         }
       >
         New cluster
-      </button>
-      <button
-        type="button"
+      </Button>
+      <Button
         disabled={busy.value}
         title="The chosen segments as motion files"
         onClick={() => void clips(false)}
       >
         Clips…
-      </button>
-      <button
-        type="button"
+      </Button>
+      <Button
         disabled={busy.value}
         title="The same, each made to close, so that it can be repeated without a jerk"
         onClick={() => void clips(true)}
       >
         Loops…
-      </button>
+      </Button>
     </div>
   );
 }
@@ -113,13 +110,12 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
 export function LoopsButton(): JSX.Element {
   const { session, front } = useStudio();
   return (
-    <button
-      type="button"
+    <Button
       disabled={!session.edited.value || !session.store.recording.value?.motion}
       title="Which repetitions make good loops: seam, sliding feet, turn and speed"
       onClick={() => front.show("loops")}
     >
       Loops by quality…
-    </button>
+    </Button>
   );
 }
