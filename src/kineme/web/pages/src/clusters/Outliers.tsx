@@ -20,16 +20,16 @@ export function Chosen({ curves, leftOut, at }: Shown & { at: number }): JSX.Ele
   if (!cycle) return <p class="chosen quiet">None of them at the playhead.</p>;
   const isOut = leftOut.has(at);
   const key = store.selected.value?.start_frame === cycle.start_frame ? " (X)" : "";
-  const edits = store.edits.value;
+  const edit = store.edit.value;
   return (
     <p class="chosen" aria-label="At the playhead">
       <span class="number">{cycle.start_s.toFixed(2)} s</span>
       <span class="quiet">{isOut ? "left out by hand" : deviationOf(cycle, curves.unit)}</span>
       <span class="spacer" />
-      {edits && (
+      {edit && (
         <Button
           title={(isOut ? "Count it in the mean again" : "Leave it out of the mean") + key}
-          onClick={() => edits.exclude([cycle.start_frame], !isOut)}
+          onClick={() => edit({ kind: "exclude", frames: [cycle.start_frame], excluded: !isOut })}
         >
           {isOut ? "Bring back" : "Leave out"}
         </Button>
@@ -88,7 +88,7 @@ interface ChipProps {
 
 function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
   const store = useStore();
-  const edits = store.edits.value;
+  const edit = store.edit.value;
   const at = `${cycle.start_s.toFixed(1)} s`;
   const what = excluded ? "Leave out of the mean" : "Bring back into the mean";
   return (
@@ -99,12 +99,12 @@ function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
       >
         {at}
       </Button>
-      {edits && (
+      {edit && (
         <Button
           title={what}
           aria-label={`${what}: ${at}`}
           onClick={({ detail }) => {
-            if (detail < 2) edits.exclude([cycle.start_frame], excluded); // the next comes in its place
+            if (detail < 2) edit({ kind: "exclude", frames: [cycle.start_frame], excluded }); // the next comes in its place
           }}
         >
           {excluded ? "×" : "↺"}

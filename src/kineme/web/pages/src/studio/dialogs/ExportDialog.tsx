@@ -4,7 +4,6 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { Level } from "../../messages";
-import { explain } from "../server/api";
 import { save } from "../server/save";
 import { Dialog } from "./Dialog";
 import { Button } from "../../layout/controls";
@@ -31,17 +30,13 @@ export function ExportDialog({ close }: Props): JSX.Element {
     const edited = session.edited.value;
     if (!edited) return;
     busy.value = format;
-    try {
+    await session.bulletin.attempt("export", async () => {
       const { api } = session;
-      save(
-        await (all.value
-          ? api.exportedTogether(format, level.value)
-          : api.exported(edited.id, format, level.value)),
-      );
-      session.bulletin.solved("export");
-    } catch (error) {
-      session.bulletin.problem(explain(error), "export");
-    }
+      const asked = all.value
+        ? api.exportedTogether(format, level.value)
+        : api.exported(edited.id, format, level.value);
+      save(await asked);
+    });
     busy.value = "";
   };
   return (

@@ -41,13 +41,10 @@ export function LoopsDialog({ close }: Props): JSX.Element {
   }, [opened, api, found, chosen, problem]);
   const write = async (): Promise<void> => {
     busy.value = true;
-    try {
+    await bulletin.attempt("clips", async () => {
       const rows = [...chosen.value].sort((a, b) => a - b);
       save(await api.clips(opened!.id, { rows, loops: true }));
-      bulletin.solved("clips");
-    } catch (error) {
-      bulletin.problem(explain(error), "clips");
-    }
+    });
     busy.value = false;
   };
   const play = async (number: number): Promise<void> => {

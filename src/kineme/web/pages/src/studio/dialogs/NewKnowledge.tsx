@@ -3,7 +3,6 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
-import { explain } from "../server/api";
 import { Checkbox, toggled } from "../../layout/controls";
 
 export function NewKnowledge(): JSX.Element {
@@ -16,15 +15,12 @@ export function NewKnowledge(): JSX.Element {
   const make = async (event: Event): Promise<void> => {
     event.preventDefault();
     busy.value = true;
-    try {
+    await session.bulletin.attempt("knowledge", async () => {
       const recordings = named.map(({ id }) => id).filter((id) => !left.value.has(id));
       const made = await session.api.makeKnowledge({ name: name.value.trim(), recordings });
-      session.bulletin.solved("knowledge");
       session.bulletin.tell(`${made.name} is in the folder: other recordings can take its names.`);
       await session.refresh();
-    } catch (error) {
-      session.bulletin.problem(explain(error), "knowledge");
-    }
+    });
     busy.value = false;
   };
   return (

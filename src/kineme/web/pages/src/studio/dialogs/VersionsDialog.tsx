@@ -6,7 +6,6 @@ import { useStudio } from "../context";
 import type { Version } from "../../messages";
 import { counted } from "../../counted";
 import { inWords } from "../editing/words";
-import { explain } from "../server/api";
 import { Dialog } from "./Dialog";
 import { Button } from "../../layout/controls";
 
@@ -20,21 +19,17 @@ export function VersionsDialog({ close }: Props): JSX.Element {
   const edited = session.edited.value;
   useEffect(() => {
     if (!edited) return;
-    session.api
-      .versions(edited.id)
-      .then((found) => (versions.value = found))
-      .catch((error: unknown) => session.bulletin.problem(explain(error), "versions"));
+    void session.bulletin.attempt("versions", async () => {
+      versions.value = await session.api.versions(edited.id);
+    });
   }, [edited, session, versions]);
   const fps = edited?.confirmed.value.fps ?? 1;
-  const look = async (version: Version): Promise<void> => {
-    try {
+  const look = (version: Version): Promise<boolean> =>
+    session.bulletin.attempt("versions", async () => {
       const found = await session.api.version(edited!.id, version.number);
       session.beside.lay({ ...found, name: `Version ${version.number}` }, true);
       close();
-    } catch (error) {
-      session.bulletin.problem(explain(error), "versions");
-    }
-  };
+    });
   return (
     <Dialog title="Tables that were replaced" close={close}>
       <p class="quiet">

@@ -2,6 +2,7 @@
 import type { JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { useStudio } from "../context";
+import { placeOf } from "../editing/commands";
 import { clusterColor, NO_COLOR } from "../../colors";
 import type { Kind, Segment } from "../../messages";
 import { NameInput } from "../../layout/NameInput";
@@ -69,7 +70,7 @@ export function SegmentPanel(): JSX.Element {
               [segment.level, segment.level],
               ["transition", "transition"],
             ]}
-            onSelect={(kind) => editor.setKind(segment, kind)}
+            onSelect={(to) => editor.edit({ kind: "set_kind", ...placeOf(segment), to })}
           />
         </label>
         <label class="field">
@@ -86,7 +87,7 @@ export function SegmentPanel(): JSX.Element {
           names={namesOf(session)}
           naming="cluster"
 
-          onName={(label) => editor.nameCluster(segment.cluster, label)}
+          onName={(label) => editor.edit({ kind: "name_cluster", cluster: segment.cluster, label })}
         />
       )}
       <Comment segment={segment} />
@@ -111,7 +112,7 @@ function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
       label="Cluster of the segment"
       value={segment.cluster}
       options={[...clusters].sort((a, b) => a - b).map((id) => [id, title(id)])}
-      onSelect={(id) => editor.setCluster(segment, id)}
+      onSelect={(cluster) => editor.edit({ kind: "set_cluster", ...placeOf(segment), cluster })}
     />
   );
 }

@@ -2,7 +2,6 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStudio } from "../context";
-import { explain } from "../server/api";
 import { Button, CloseButton } from "../../layout/controls";
 
 const KEYS = 9;
@@ -11,15 +10,11 @@ export function Vocabulary(): JSX.Element {
   const { session, editor } = useStudio();
   const labels = session.state.value?.labels ?? [];
   const name = useSignal("");
-  const keep = async (next: string[]): Promise<void> => {
-    try {
+  const keep = (next: string[]): Promise<boolean> =>
+    session.bulletin.attempt("labels", async () => {
       await session.api.shareLabels({ labels: next });
-      session.bulletin.solved("labels");
       await session.refresh();
-    } catch (error) {
-      session.bulletin.problem(explain(error), "labels");
-    }
-  };
+    });
   return (
     <section class="vocabulary" aria-label="Shared labels">
       <h2>Labels of the folder</h2>

@@ -5,7 +5,6 @@ import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import { counted } from "../../counted";
 import type { AnnotatorChoice } from "../../messages";
-import { explain } from "../server/api";
 import { Button, Checkbox, toggled } from "../../layout/controls";
 
 const TABLES_HERE = "tables"; // the id of whoever works here
@@ -16,14 +15,12 @@ export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
   const ticked = useSignal<ReadonlySet<string>>(new Set());
   const busy = useSignal(false);
   useEffect(() => {
-    session.api
-      .annotators()
-      .then((found) => {
-        const others = found.filter(({ id }) => id !== TABLES_HERE);
-        people.value = found;
-        ticked.value = new Set((others.length > 1 ? others : found).map(({ id }) => id));
-      })
-      .catch((error: unknown) => session.bulletin.problem(explain(error), "agreement"));
+    void session.bulletin.attempt("agreement", async () => {
+      const found = await session.api.annotators();
+      const others = found.filter(({ id }) => id !== TABLES_HERE);
+      people.value = found;
+      ticked.value = new Set((others.length > 1 ? others : found).map(({ id }) => id));
+    });
   }, [session, people, ticked]);
   const compare = async (): Promise<void> => {
     busy.value = true;
