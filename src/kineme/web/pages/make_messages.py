@@ -5,7 +5,7 @@
 writes ``src/messages.ts`` beside this file from `kineme.web.messages`,
 `kineme.web.requests`, `kineme.web.annotator_messages` and
 `kineme.web.library_messages`: the same names, with
-their docstrings. Generators that start from JSON Schema lose the names of
+what their docstrings begin with. Generators that start from JSON Schema lose the names of
 ``Level`` and ``Edit`` and need a node package more; this one reads
 ``msgspec.inspect``. ``src/studio/server/paths.ts`` has the paths of
 `kineme.studio`. A test fails while the two sides differ.
@@ -159,13 +159,13 @@ def _alternatives(info: Any, aliases: dict[str, inspect.Type]) -> str:
 
 
 def _comment(text: str) -> str:
-    """Return a docstring as a JSDoc comment, its markup as Markdown."""
-    text = re.split(r"\n\s*Examples\n", text)[0]  # they are of Python
-    text = re.sub(r":\w+:`~?([\w.]+)`", r"`\1`", text.replace("``", "`"))
-    lines = [line.strip() for line in text.strip().splitlines()]
+    """Return the first paragraph of a docstring as a JSDoc comment, its markup as Markdown."""
+    first = text.strip().split("\n\n")[0]
+    first = re.sub(r":\w+:`~?([\w.]+)`", r"`\1`", first.replace("``", "`"))
+    lines = [line.strip() for line in first.splitlines()]
     if len(lines) == 1:
         return f"/** {lines[0]} */"
-    return "\n".join(["/**", *(f" * {line}".rstrip() for line in lines), " */"])
+    return "\n".join(["/**", *(f" * {line}" for line in lines), " */"])
 
 
 def messages_typescript() -> str:

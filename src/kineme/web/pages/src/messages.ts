@@ -4,11 +4,7 @@ export type Level = "activity" | "primitive";
 
 export type Kind = "activity" | "primitive" | "transition";
 
-/**
- * A row of the segment table, and what people did to it where they did something.
- *
- * It is `excluded` where it counts in no mean.
- */
+/** A row of the segment table, and what people did to it where they did something. */
 export interface Segment {
   level: Level;
   kind: Kind;
@@ -29,11 +25,7 @@ export interface Segment {
 
 export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Exclude | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
 
-/**
- * A segment table as its JSON file has it (`kineme.segments/2`), marks in its rows.
- *
- * `cluster_names` has the names of clusters by their numbers.
- */
+/** A segment table as its JSON file has it (`kineme.segments/2`), marks in its rows. */
 export interface Segments {
   schema: string;
   n_frames: number;
@@ -44,15 +36,7 @@ export interface Segments {
   cluster_names: Record<string, string>;
 }
 
-/**
- * How to read the binary motion; see `kineme.web.display`.
- *
- * `n_samples` poses at `sample_fps`; position of a joint in metres, y up:
- * `origin + step * integer`. `heading` is where the body looks at each
- * sample: radians about y from +z towards +x; null where it is not known.
- * `effectors` has the joint of `left_ankle`, `right_ankle`, `head`,
- * `left_wrist`, `right_wrist` and `pelvis`; it is empty without a body.
- */
+/** How to read the binary motion; see `kineme.web.display`. */
 export interface MotionHead {
   n_samples: number;
   sample_fps: number;
@@ -65,15 +49,7 @@ export interface MotionHead {
   effectors: Record<string, number>;
 }
 
-/**
- * Pyramid of self-similarity tiles; see `kineme.web.matrix`.
- *
- * Level 0 has one cell per sample of `fps` and `sizes[0]` cells a side;
- * each next level halves that; the last is one tile. Tiles are square, `tile`
- * cells a side, the last of a row or column cut off at the end of the recording.
- * A report has the tiles with row >= column only, the others being their mirror
- * images; of the finer levels it may lack those off the diagonal, too.
- */
+/** Pyramid of self-similarity tiles; see `kineme.web.matrix`. */
 export interface MatrixHead {
   fps: number;
   tile: number;
@@ -95,11 +71,7 @@ export interface CurveList {
   levels: number;
 }
 
-/**
- * What can be measured of a repetition, as `kineme info --channels` has it.
- *
- * `opposite` is the channel of the other side of the body; empty where there is none.
- */
+/** What can be measured of a repetition, as `kineme info --channels` has it. */
 export interface CycleChannel {
   name: string;
   unit: string;
@@ -112,13 +84,7 @@ export interface CycleChannels {
   channels: CycleChannel[];
 }
 
-/**
- * A repetition: from 0 to 100 % of the cycle, evenly; null where nothing was recorded.
- *
- * `start_frame` is that of its segment, `start_s` and `stop_s` where it was measured.
- * Where it `counts` it is part of the mean; else `note` says why not. `distance` is how far
- * it is from the mean: the root of the mean square.
- */
+/** A repetition: from 0 to 100 % of the cycle, evenly; null where nothing was recorded. */
 export interface CycleCurve {
   start_frame: number;
   start_s: number;
@@ -129,11 +95,7 @@ export interface CycleCurve {
   values: (number | null)[];
 }
 
-/**
- * Mean curve of the same movement in another recording, of `n` of `total` repetitions.
- *
- * `differs` says where the bounds of the difference leave out 0.
- */
+/** Mean curve of the same movement in another recording, of `n` of `total` repetitions. */
 export interface OtherSession {
   n: number;
   total: number;
@@ -142,15 +104,7 @@ export interface OtherSession {
   differs: boolean[];
 }
 
-/**
- * A channel over the repetitions of a cluster, and of those with the same name.
- *
- * Mean and standard deviation are of `n` of `total` repetitions: of the inner ones, or where
- * there are none (`ends`) of all; `left_out` counts those that people left out. `cycles` are
- * those drawn: those farthest from the mean first, after them those that do not count. `turned`
- * counts activities that were cut at another phase than the others. `beside` is of another
- * recording, where one was asked for and has the movement and the channel.
- */
+/** A channel over the repetitions of a cluster, and of those with the same name. */
 export interface ClusterCurves {
   channel: string;
   unit: string;
@@ -165,12 +119,7 @@ export interface ClusterCurves {
   beside: OtherSession | null;
 }
 
-/**
- * Curves in a report.
- *
- * `curves` have them by channel, `tables` by cluster the number of those, for the table that
- * is shown and then for each of the `levels` of a `Recording`.
- */
+/** Curves in a report. */
 export interface ReportCurves {
   channels: CycleChannel[];
   curves: Record<string, ClusterCurves>[];
@@ -189,17 +138,7 @@ export interface Video {
   offset_s: number;
 }
 
-/**
- * Everything a page needs of one recording but the binary parts.
- *
- * `read_options` has what people said of how it is read (`kineme.web.requests.ReadRequest`),
- * `takes` the animations in its file, of which `take` is this one, `people` those in it,
- * where there are several, of whom `person` is this one: what has the same `file` is of the
- * same time and space. `levels` are the tables at all details, coarsest first, in a report; the
- * studio's server is asked for them.
- * While `finding` its segments are still to be found, and the table is a single transition;
- * while `being_read` its file is still being read, and few of its poses are here.
- */
+/** Everything a page needs of one recording but the binary parts. */
 export interface Recording {
   id: string;
   name: string;
@@ -225,12 +164,7 @@ export interface Recording {
   warnings: string[];
 }
 
-/**
- * Rows in which a table differs from that of the revision `of`.
- *
- * A row is known by its level and first frame: `removed` ones are there no more, `rows` are
- * new, or have changed. The numbers of the activities that rows lie in (`activity`) follow.
- */
+/** Rows in which a table differs from that of the revision `of`. */
 export interface TableChange {
   of: number;
   removed: [Level, number][];
@@ -238,11 +172,7 @@ export interface TableChange {
   cluster_names: Record<string, string>;
 }
 
-/**
- * What an edit made, already on the disk as `saved`.
- *
- * It is a `change` of the table that was edited, or another table, `segmentation`.
- */
+/** What an edit made, already on the disk as `saved`. */
 export interface Edited {
   revision: number;
   change: TableChange | null;
@@ -259,12 +189,7 @@ export interface ScoreMeaning {
   help: string;
 }
 
-/**
- * Other result, and how well the shown one agrees with it.
- *
- * `meanings` are those of the scores; `differences` are spans in seconds, in order, in which
- * the two say different things.
- */
+/** Other result, and how well the shown one agrees with it. */
 export interface Comparison {
   name: string;
   segmentation: Segments;
@@ -273,13 +198,7 @@ export interface Comparison {
   differences?: [number, number][];
 }
 
-/**
- * A table that would take the place of the present one.
- *
- * `corrections` (segments made by hand or checked) and `names` are those of the present
- * table; `lost` says, in a sentence each, what the new one would not have of them.
- * `details` are those that make a difference, `detail` the one of them that is shown.
- */
+/** A table that would take the place of the present one. */
 export interface Preview {
   segmentation: Segments;
   corrections: number;
@@ -304,11 +223,7 @@ export interface Versions {
   versions: Version[];
 }
 
-/**
- * A repetition as a loop: the number of its row in the table, and how good it would be.
- *
- * `slide_m_s` is null where no foot is planted; `rank` 1 is the best of a cluster.
- */
+/** A repetition as a loop: the number of its row in the table, and how good it would be. */
 export interface LoopRow {
   number: number;
   rank: number;
@@ -324,12 +239,7 @@ export interface Loops {
   loops: LoopRow[];
 }
 
-/**
- * A round of a loop as it would be written, its first frame again at the end.
- *
- * `numbers` are all its frames, as `kineme.web.display` has them, in base 64. The next round is
- * turned by `turn` radians about the vertical axis, then moved by `x` and `z` metres.
- */
+/** A round of a loop as it would be written, its first frame again at the end. */
 export interface PlayedLoop {
   motion: MotionHead;
   numbers: string;
@@ -338,11 +248,7 @@ export interface PlayedLoop {
   z: number;
 }
 
-/**
- * What the page of a folder shows of a segment table: its columns, and what people did.
- *
- * `checked` are numbers of rows, `comments` counts them.
- */
+/** What the page of a folder shows of a segment table: its columns, and what people did. */
 export interface BriefTable {
   n_frames: number;
   fps: number;
@@ -370,11 +276,7 @@ export interface FolderTables {
   recordings: FolderRecording[];
 }
 
-/**
- * What is being computed for a recording, and how much of that is done, 0 to 1.
- *
- * `stage` is empty where nothing is, `share` null where nobody knows.
- */
+/** What is being computed for a recording, and how much of that is done, 0 to 1. */
 export interface Progress {
   stage: string;
   share: number | null;
@@ -386,11 +288,7 @@ export interface Changed {
   revision: number;
 }
 
-/**
- * Why a request was refused, in one sentence; `people` are those one of whom is to be chosen.
- *
- * `reading` says that the recording could not be read as it was told to be.
- */
+/** Why a request was refused, in one sentence; `people` are those one of whom is to be chosen. */
 export interface Failure {
   error: string;
   people?: string[];
@@ -408,12 +306,7 @@ export interface Parameter {
   unit: string;
 }
 
-/**
- * A preset, and those of its constants that the page offers to change.
- *
- * `signal_parameters` are the same for signals, where lengths are in
- * standard deviations of the channels.
- */
+/** A preset, and those of its constants that the page offers to change. */
 export interface PresetChoice {
   name: string;
   help: string;
@@ -421,12 +314,7 @@ export interface PresetChoice {
   signal_parameters: Parameter[];
 }
 
-/**
- * A recording of the folder, opened or not; people in the same file have the same `file`.
- *
- * `segments`, `checked` and `named` count the rows of its table, if it has been saved
- * (`corrected`), that are there, checked, have a name, and are no transitions.
- */
+/** A recording of the folder, opened or not; people in the same file have the same `file`. */
 export interface Listing {
   id: string;
   file: string;
@@ -452,13 +340,7 @@ export interface ExportFormat {
   help: string;
 }
 
-/**
- * What the studio offers: the first message a page asks for.
- *
- * `suffixes` are those of files that can be recordings, `details` the levels of detail that
- * a segmentation may have, `labels` those that all recordings share, `of_library` whether the
- * recordings are those of a library.
- */
+/** What the studio offers: the first message a page asks for. */
 export interface State {
   version: string;
   folder: string;
@@ -527,11 +409,7 @@ export interface SetCluster {
   cluster: number;
 }
 
-/**
- * Make the segment that starts at `frame` a transition in no cluster, or no transition.
- *
- * `to` is `transition`, or what its level says.
- */
+/** Make the segment that starts at `frame` a transition in no cluster, or no transition. */
 export interface SetKind {
   kind: "set_kind";
   level: Level;
@@ -539,11 +417,7 @@ export interface SetKind {
   to: Kind;
 }
 
-/**
- * Segment the recording again by a preset; `keep` takes over corrections and names.
- *
- * `detail` is 1 by default, less is coarser.
- */
+/** Segment the recording again by a preset; `keep` takes over corrections and names. */
 export interface SegmentAgain {
   kind: "segment";
   preset: string;
@@ -633,11 +507,7 @@ export interface Together {
   edits: ByHand[];
 }
 
-/**
- * An edit of the table as it was at `revision`.
- *
- * `name` is the edit's own: one that is sent again, for want of an answer, is made once.
- */
+/** An edit of the table as it was at `revision`. */
 export interface EditRequest {
   revision: number;
   edit: Edit;
@@ -674,11 +544,7 @@ export interface VideoRequest {
   offset_s: number;
 }
 
-/**
- * How a recording is read: what is to be other than the file says, by its name.
- *
- * The names are those of `kineme.formats.ReadOptions`. `everybody` shows all people in it.
- */
+/** How a recording is read: what is to be other than the file says, by its name. */
 export interface ReadRequest {
   options: Record<string, string | number | boolean | string[]>;
   everybody?: boolean;
@@ -726,12 +592,7 @@ export interface RecordingAgreement {
   differences: Difference[];
 }
 
-/**
- * How far people agree over the folder.
- *
- * With `by_names` classes are names; else those of one stand for those of another by the best
- * mapping. `failures` are sentences on labels that could not be read.
- */
+/** How far people agree over the folder. */
 export interface Agreement {
   annotators: string[];
   by_names: boolean;
@@ -756,12 +617,7 @@ export interface LibraryRecording {
   duration_s: number;
 }
 
-/**
- * A cluster of a library, as `kineme.library.open_library.Cluster` tells it.
- *
- * `recordings` are places in the list of all; `unsure` counts those of single recordings that
- * may as well be in another cluster.
- */
+/** A cluster of a library, as `kineme.library.open_library.Cluster` tells it. */
 export interface LibraryCluster {
   cluster: number;
   label: string;
@@ -777,11 +633,7 @@ export interface LibraryCluster {
   unsure: number;
 }
 
-/**
- * A library: its recordings, its clusters, and what could not be read, with the reason.
- *
- * `undo` is the last edit of its clusters, in words, where that can be taken back.
- */
+/** A library: its recordings, its clusters, and what could not be read, with the reason. */
 export interface LibraryState {
   folder: string;
   hours: number;
@@ -791,11 +643,7 @@ export interface LibraryState {
   undo: string;
 }
 
-/**
- * Where a recording is like an example; `label` is that of the cluster.
- *
- * `name` is that of the segment there, in the table beside the recording.
- */
+/** Where a recording is like an example; `label` is that of the cluster. */
 export interface LibraryHit {
   recording: string;
   start_s: number;
@@ -817,11 +665,7 @@ export interface NamedHits {
   left: string[];
 }
 
-/**
- * A span of a recording to be drawn small: a motion, its numbers in base 64, or curves.
- *
- * Curves are those of the first channels, from 0 to 1.
- */
+/** A span of a recording to be drawn small: a motion, its numbers in base 64, or curves. */
 export interface LibraryFigure {
   motion: MotionHead | null;
   numbers: string;
@@ -879,20 +723,12 @@ export interface UndoEdit {
 
 export type LibraryEdit = CallCluster | JoinClusters | PartCluster | UndoEdit;
 
-/**
- * Saved tables take numbers and names of clusters from the library.
- *
- * Clusters that have another name keep it, unless `names`: then they take it, too.
- */
+/** Saved tables take numbers and names of clusters from the library. */
 export interface TablesRequest {
   names: boolean;
 }
 
-/**
- * What a cluster of one recording is called now holds for it in all recordings.
- *
- * In a library for the cluster of it; else for what is called `before` elsewhere.
- */
+/** What a cluster of one recording is called now holds for it in all recordings. */
 export interface CallEverywhere {
   recording: string;
   cluster: number;

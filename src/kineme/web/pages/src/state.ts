@@ -1,7 +1,7 @@
 /** The state of a page: what is open, where the playhead stands, what is selected, and what follows. */
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
 import { clusterColor, labelColors } from "./colors";
-import type { Level, Recording, Segment, Segments } from "./messages";
+import type { ByHand, Level, Recording, Segment, Segments } from "./messages";
 import type { OpenRecording } from "./opened";
 import { clustersOf, labelSpans, laneOf, nearestBorder, segmentAt, type Cluster } from "./segments";
 import type { Span } from "./view";
@@ -17,15 +17,6 @@ export interface Drag {
 export interface Selection {
   level: Level;
   start_frame: number;
-}
-
-/** What the page asks for when the user drags a border or names a cluster. The report has none. */
-export interface EditHooks {
-  moveBorder(level: Level, frame: number, to: number): void;
-  nameCluster(cluster: number, label: string): void;
-  mergeClusters(cluster: number, into: number): void;
-  orderClusters(order: number[]): void;
-  exclude(frames: number[], excluded: boolean): void;
 }
 
 /** Another result shown below the first. */
@@ -83,7 +74,8 @@ export class State {
   readonly curves = signal(false);
   /** null where there is one detail only. */
   readonly levels = signal<Levels | null>(null);
-  readonly edits = signal<EditHooks | null>(null);
+  /** Makes an edit of the table; null in a report, which is not edited. */
+  readonly edit = signal<((edit: ByHand) => void) | null>(null);
   /** The border that a pointer or a key that is held moves. */
   readonly drag = signal<Drag | null>(null);
 

@@ -30,12 +30,8 @@ beforeEach(() => {
   store.add({ data: {} as RecordingData, recording: signal(recording), motion: signal(null) });
   moves = [];
   drag = null;
-  store.edits.value = {
-    moveBorder: (...move) => void moves.push(move),
-    nameCluster: () => undefined,
-    mergeClusters: () => undefined,
-    orderClusters: () => undefined,
-    exclude: () => undefined,
+  store.edit.value = (edit) => {
+    if (edit.kind === "move_border") moves.push([edit.level, edit.frame, edit.to]);
   };
   const { activities, primitives } = store;
   lanes = layOut(

@@ -3,6 +3,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import type { CurveList } from "../messages";
 import { nameOf, rowsOf, toggle } from "./chosen";
+import { Checkbox } from "../layout/controls";
 
 interface Props {
   list: CurveList;
@@ -35,14 +36,13 @@ export function ChannelChoice({ list, ends }: Props): JSX.Element {
             {found
               .filter(({ head }) => head.group === group)
               .map(({ head, curve }) => (
-                <label class="check" key={curve}>
-                  <input
-                    type="checkbox"
-                    checked={shown.has(curve)}
-                    onChange={() => toggle(list, ends, head)}
-                  />
+                <Checkbox
+                  key={curve}
+                  checked={shown.has(curve)}
+                  onCheck={() => toggle(list, ends, head)}
+                >
                   {head.name}
-                </label>
+                </Checkbox>
               ))}
           </fieldset>
         ))}

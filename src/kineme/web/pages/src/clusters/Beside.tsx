@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import type { ClusterCurves } from "../messages";
 import type { OpenRecording } from "../opened";
 import type { Store } from "../store";
+import { Select } from "../layout/controls";
 
 /** What is drawn of it, or why nothing is. */
 export function whatIsBeside(
@@ -40,18 +41,15 @@ export function BesideSelect({ others, id, choose }: Choice): JSX.Element | null
   return (
     <div class="curve-choice">
       <span class="quiet">Beside</span>
-      <select
-        aria-label="Beside"
+      <Select
+        label="Beside"
         value={id}
-        onChange={({ currentTarget: { value } }) => choose(value)}
-      >
-        <option value="">no other recording</option>
-        {others.map((each) => (
-          <option key={idOf(each)} value={idOf(each)}>
-            {each.recording.value.name}
-          </option>
-        ))}
-      </select>
+        options={[
+          ["", "no other recording"],
+          ...others.map((each) => [idOf(each), each.recording.value.name] as const),
+        ]}
+        onSelect={choose}
+      />
     </div>
   );
 }

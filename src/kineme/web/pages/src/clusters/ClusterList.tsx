@@ -6,6 +6,7 @@ import type { Segment } from "../messages";
 import { labelsOf, type Cluster } from "../segments";
 import { clock } from "../view";
 import { ClusterName } from "./ClusterName";
+import { Button } from "../layout/controls";
 
 export function ClusterList(): JSX.Element {
   const store = useStore();
@@ -108,10 +109,10 @@ function LabelList(): JSX.Element {
           return (
             <tr key={label} onClick={() => go(label)}>
               <th scope="row">
-                <button type="button" class="plain" title="Go to the next one">
+                <Button class="plain" title="Go to the next one">
                   <span class="swatch" style={{ background: color }} />
                   <span class="cluster-name">{label}</span>
-                </button>
+                </Button>
               </th>
               <Counts {...{ color, count, most, mean_s: total_s / count, total_s }} />
             </tr>

@@ -15,13 +15,13 @@ const ORDERS: readonly (readonly [string, (a: Cluster, b: Cluster) => number])[]
 export function ClusterTools(): JSX.Element | null {
   const store = useStore();
   const into = useSignal("");
-  const edits = store.edits.value;
+  const edit = store.edit.value;
   const clusters = store.clusters.value;
   const shown = store.shownCluster.value;
-  if (!edits || clusters.length < 2) return null;
+  if (!edit || clusters.length < 2) return null;
   const order = (name: string): void => {
     const by = ORDERS.find(([each]) => each === name)?.[1];
-    if (by) edits.orderClusters([...allOf(store, clusters.slice().sort(by))]);
+    if (by) edit({ kind: "order_clusters", order: [...allOf(store, clusters.slice().sort(by))] });
   };
   return (
     <div class="cluster-tools">
@@ -47,7 +47,7 @@ export function ClusterTools(): JSX.Element | null {
           onChange={(event) => {
             const target = Number(event.currentTarget.value);
             event.currentTarget.value = "";
-            edits.mergeClusters(shown.id, target);
+            edit({ kind: "merge_clusters", cluster: shown.id, into: target });
           }}
         >
           <option value="">Merge {shown.label || shown.id} into…</option>

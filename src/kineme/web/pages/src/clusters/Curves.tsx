@@ -12,6 +12,7 @@ import { cycleAt, leftOutOf, selectCycle } from "./cycles";
 import { Chosen, Farthest, LeftOut } from "./Outliers";
 import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
 import { shownCluster, useClusterCurves } from "./useClusterCurves";
+import { Select } from "../layout/controls";
 
 const DASHED = " (dashed)";
 
@@ -115,34 +116,24 @@ interface Choice {
 }
 
 function ChannelSelect({ channels, channel, choose }: Choice): JSX.Element {
-  const group = channels.find(({ name }) => name === channel)?.group;
+  const group = channels.find(({ name }) => name === channel)?.group ?? "";
   const groups = [...new Set(channels.map((each) => each.group))];
-  const names = (of: string | undefined): string[] =>
+  const names = (of: string): string[] =>
     channels.filter((each) => each.group === of).map(({ name }) => name);
   return (
     <>
-      <select
-        aria-label="Channel"
+      <Select
+        label="Channel"
         value={channel}
-        onChange={({ currentTarget: { value } }) => choose(value)}
-      >
-        {names(group).map((name) => (
-          <option key={name} value={name}>
-            {name}
-          </option>
-        ))}
-      </select>
-      <select
-        aria-label="What is measured"
+        options={names(group).map((name) => [name, name])}
+        onSelect={choose}
+      />
+      <Select
+        label="What is measured"
         value={group}
-        onChange={({ currentTarget: { value } }) => choose(names(value)[0]!)}
-      >
-        {groups.map((each) => (
-          <option key={each} value={each}>
-            {each}
-          </option>
-        ))}
-      </select>
+        options={groups.map((each) => [each, each])}
+        onSelect={(chosen) => choose(names(chosen)[0]!)}
+      />
     </>
   );
 }

@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { useStore } from "../context";
 import type { ClusterCurves, CycleCurve } from "../messages";
 import { selectCycle } from "./cycles";
+import { Button } from "../layout/controls";
 
 const FARTHEST = 3; // repetitions named that differ most from the mean
 
@@ -19,20 +20,19 @@ export function Chosen({ curves, leftOut, at }: Shown & { at: number }): JSX.Ele
   if (!cycle) return <p class="chosen quiet">None of them at the playhead.</p>;
   const isOut = leftOut.has(at);
   const key = store.selected.value?.start_frame === cycle.start_frame ? " (X)" : "";
-  const edits = store.edits.value;
+  const edit = store.edit.value;
   return (
     <p class="chosen" aria-label="At the playhead">
       <span class="number">{cycle.start_s.toFixed(2)} s</span>
       <span class="quiet">{isOut ? "left out by hand" : deviationOf(cycle, curves.unit)}</span>
       <span class="spacer" />
-      {edits && (
-        <button
-          type="button"
+      {edit && (
+        <Button
           title={(isOut ? "Count it in the mean again" : "Leave it out of the mean") + key}
-          onClick={() => edits.exclude([cycle.start_frame], !isOut)}
+          onClick={() => edit({ kind: "exclude", frames: [cycle.start_frame], excluded: !isOut })}
         >
           {isOut ? "Bring back" : "Leave out"}
-        </button>
+        </Button>
       )}
     </p>
   );
@@ -88,29 +88,27 @@ interface ChipProps {
 
 function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
   const store = useStore();
-  const edits = store.edits.value;
+  const edit = store.edit.value;
   const at = `${cycle.start_s.toFixed(1)} s`;
   const what = excluded ? "Leave out of the mean" : "Bring back into the mean";
   return (
     <span class="chip">
-      <button
-        type="button"
+      <Button
         title={`${deviation}, from ${cycle.start_s.toFixed(2)} to ${cycle.stop_s.toFixed(2)} s`}
         onClick={() => selectCycle(store, cycle)}
       >
         {at}
-      </button>
-      {edits && (
-        <button
-          type="button"
+      </Button>
+      {edit && (
+        <Button
           title={what}
           aria-label={`${what}: ${at}`}
           onClick={({ detail }) => {
-            if (detail < 2) edits.exclude([cycle.start_frame], excluded); // the next comes in its place
+            if (detail < 2) edit({ kind: "exclude", frames: [cycle.start_frame], excluded }); // the next comes in its place
           }}
         >
           {excluded ? "×" : "↺"}
-        </button>
+        </Button>
       )}
     </span>
   );

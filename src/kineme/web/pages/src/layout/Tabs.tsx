@@ -2,6 +2,7 @@
 import { useSignal, type Signal } from "@preact/signals";
 import type { ComponentChildren, JSX } from "preact";
 import { isForPlayer } from "../focus";
+import { Button } from "./controls";
 
 export interface Tab {
   id: string;
@@ -33,11 +34,10 @@ export function Tabs({ label, tabs, open }: Props): JSX.Element {
     <div class="tabs">
       <div class="tab-row" role="tablist" aria-label={label} onKeyDown={onKeyDown}>
         {tabs.map((each) => (
-          <button
+          <Button
             key={each.id}
             id={`tab-${each.id}`}
             role="tab"
-            type="button"
             aria-selected={each === tab}
             aria-controls={`panel-${each.id}`}
             tabIndex={each === tab ? 0 : -1}
@@ -47,7 +47,7 @@ export function Tabs({ label, tabs, open }: Props): JSX.Element {
             }}
           >
             {each.title}
-          </button>
+          </Button>
         ))}
       </div>
       {tab && (

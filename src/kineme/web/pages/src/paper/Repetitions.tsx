@@ -8,6 +8,7 @@ import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
 import { clock } from "../view";
 import { repetitionsOf } from "./repetitions";
+import { Button } from "../layout/controls";
 
 export function Repetitions({ of }: { of: ReadonlySignal<Recording | undefined> }): JSX.Element {
   const store = useStore();
@@ -36,10 +37,10 @@ export function Repetitions({ of }: { of: ReadonlySignal<Recording | undefined> 
         {rows.map(({ activity, durations, leftOut, mean_s, deviation_s }) => (
           <tr key={activity.start_frame}>
             <th scope="row">
-              <button type="button" class="plain" onClick={() => store.select(activity)}>
+              <Button class="plain" onClick={() => store.select(activity)}>
                 <span class="swatch" style={{ background: store.colorOf(activity) ?? NO_COLOR }} />
                 {nameOf(activity)}
-              </button>
+              </Button>
             </th>
             <td class="number">{clock(activity.start_s, 1)}</td>
             <td class="number">{durationOf(activity).toFixed(1)} s</td>

@@ -5,6 +5,7 @@ import { theme, toggleTheme } from "../theme";
 import { IconButton } from "../transport/icons";
 import { type DialogName, useStudio } from "./context";
 import { pageAddress } from "./server/address";
+import { Button } from "../layout/controls";
 
 export function Header(): JSX.Element {
   const { session, front } = useStudio();
@@ -23,22 +24,20 @@ export function Header(): JSX.Element {
         {news && <span class={news.refused ? "news refused" : "news"}>{news.text}</span>}
       </div>
       <span class="group">
-        <button
-          type="button"
+        <Button
           disabled={!recording?.can_undo && !session.unsent.value.length}
           title="Undo (Ctrl+Z)"
           onClick={() => edited?.undo()}
         >
           ↶ Undo
-        </button>
-        <button
-          type="button"
+        </Button>
+        <Button
           disabled={!recording?.can_redo}
           title="Redo (Ctrl+Shift+Z)"
           onClick={() => void edited?.edit({ kind: "redo" })}
         >
           ↷ Redo
-        </button>
+        </Button>
       </span>
       <SaveState />
       <span class="group">
@@ -60,15 +59,14 @@ export function Header(): JSX.Element {
         </Opener>
       </span>
       <IconButton icon="theme" label={`Show the page ${other}`} onClick={toggleTheme} />
-      <button
-        type="button"
+      <Button
         class="icon"
         title="Keys and help (?)"
         aria-label="Keys and help"
         onClick={() => front.show("help")}
       >
         ?
-      </button>
+      </Button>
     </>
   );
 }
@@ -81,14 +79,9 @@ function Opener(props: {
 }): JSX.Element {
   const { front } = useStudio();
   return (
-    <button
-      type="button"
-      title={props.title}
-      disabled={props.disabled}
-      onClick={() => front.show(props.name)}
-    >
+    <Button title={props.title} disabled={props.disabled} onClick={() => front.show(props.name)}>
       {props.children}
-    </button>
+    </Button>
   );
 }
 

@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { Offered } from "./folder/Offered";
 import { useStudio } from "./context";
 import type { EditedRecording } from "./editing/editedRecording";
+import { Button, CloseButton } from "../layout/controls";
 
 export function Notices(): JSX.Element {
   const { session } = useStudio();
@@ -22,15 +23,11 @@ export function Notices(): JSX.Element {
         {bulletin.problems.value.map(({ text }) => (
           <div class="notice danger" data-notice="problem" key={text}>
             <p>{text}</p>
-            <button
-              type="button"
-              class="icon"
-              aria-label="Dismiss"
+            <CloseButton
+              label="Dismiss"
               title="Dismiss (Escape)"
               onClick={() => bulletin.dismiss(text)}
-            >
-              ×
-            </button>
+            />
           </div>
         ))}
       </div>
@@ -47,12 +44,10 @@ function Blocked({ edited }: { edited: EditedRecording }): JSX.Element {
         {edited.confirmed.value.name}: {edited.blocked.value}. It is shown as it is now.{" "}
         <Waiting edits={edited.unsent()} />
       </p>
-      <button type="button" class="primary" onClick={() => edited.retry()}>
+      <Button class="primary" onClick={() => edited.retry()}>
         Make them here
-      </button>
-      <button type="button" onClick={() => edited.drop()}>
-        Drop them
-      </button>
+      </Button>
+      <Button onClick={() => edited.drop()}>Drop them</Button>
     </div>
   );
 }

@@ -29,13 +29,7 @@ function start(): void {
   const front = new Front();
   const review = new Review(session, editor);
   const parts = { session, editor, review, uploads: new Uploads(session), front };
-  store.edits.value = {
-    moveBorder: (level, frame, to) => editor.moveBorder(level, frame, to),
-    nameCluster: (cluster, label) => editor.nameCluster(cluster, label),
-    mergeClusters: (cluster, into) => editor.mergeClusters(cluster, into),
-    orderClusters: (order) => editor.orderClusters(order),
-    exclude: (frames, excluded) => editor.exclude(frames, excluded),
-  };
+  store.edit.value = (edit) => editor.edit(edit);
   effect(() => {
     if (editor.naming.value) front.tab.value = "segment";
   });

@@ -1,6 +1,7 @@
 /** What the page tells people in passing: one line of news, and problems that stay until read. */
 
 import { effect, signal, untracked } from "@preact/signals";
+import { explain } from "./server/answers";
 
 const READING_TIME = 6000; // milliseconds
 
@@ -51,6 +52,18 @@ export class Bulletin {
   solved(about: string): void {
     if (this.problems.value.some((each) => each.about === about))
       this.problems.value = this.problems.value.filter((each) => each.about !== about);
+  }
+
+  /** Does something; whether it worked. What went wrong stays until it has worked. */
+  async attempt(about: string, work: () => Promise<unknown>): Promise<boolean> {
+    try {
+      await work();
+      this.solved(about);
+      return true;
+    } catch (error) {
+      this.problem(explain(error), about);
+      return false;
+    }
   }
 
   /** Takes one away that has been read; the last one, where none is named. */

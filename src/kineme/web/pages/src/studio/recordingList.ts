@@ -6,11 +6,21 @@ import type { EditedRecording } from "./editing/editedRecording";
 
 /** How far a recording is. */
 export type Status = "new" | "corrected" | "labelled" | "checked";
-
-/** What the list is ordered by. */
-export type Order = "name" | "left" | "size";
+type Order = (typeof ORDERS)[number][0];
 
 const FAR: readonly Status[] = ["new", "corrected", "labelled", "checked"];
+
+/** What the list can be narrowed to. */
+export const STATUSES: readonly (readonly [Status | "", string])[] = [
+  ["", "all"],
+  ...FAR.map((status) => [status, status] as const),
+];
+/** What the list can be ordered by. */
+export const ORDERS = [
+  ["name", "by name"],
+  ["left", "what is left first"],
+  ["size", "largest first"],
+] as const;
 
 export class RecordingList {
   /** What the list of recordings shows. */

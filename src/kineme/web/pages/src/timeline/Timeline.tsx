@@ -50,12 +50,7 @@ export function Timeline(): JSX.Element {
           watch={() => {
             void [given(), store.range.value, store.selected.value, store.hovered.value];
             void [store.loop.value, store.drag.value, store.target.value, store.border.value];
-            void [
-              store.bounds.value,
-              store.labelColors.value,
-              store.edits.value,
-              store.table.value,
-            ];
+            void [store.bounds.value, store.labelColors.value, store.edit.value, store.table.value];
           }}
           draw={(pen, width, height) => {
             lanes.current = layOut(given(), height);

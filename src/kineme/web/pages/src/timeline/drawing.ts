@@ -142,7 +142,7 @@ function writeName(
 
 /** What edits are for: the segment, broken where it was not chosen, and the border nearest by. */
 function drawTarget(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
-  const target = store.edits.value ? store.target.value : store.selected.value;
+  const target = store.edit.value ? store.target.value : store.selected.value;
   if (!target || lane.level !== target.level) return;
   const left = toPixel(range, room, target.start_s);
   const right = toPixel(range, room, target.stop_s);
@@ -152,7 +152,7 @@ function drawTarget(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
   box(pen, left, lane.top - 0.5, Math.max(right - left, 2), lane.height + 1);
   pen.stroke();
   pen.setLineDash([]);
-  const border = store.edits.value && store.border.value;
+  const border = store.edit.value && store.border.value;
   if (!border) return;
   const x = toPixel(range, room, border.start_s);
   pen.fillStyle = cssColor("text");

@@ -97,7 +97,7 @@ export class Gestures {
     if (doing?.what !== "border") return;
     const { frame, to } = doing.drag;
     const { level } = doing.lane;
-    if (level && to !== frame) this.store.edits.value?.moveBorder(level, frame, to);
+    if (level && to !== frame) this.store.edit.value?.({ kind: "move_border", level, frame, to });
     else this.onDrag(null);
   }
 
@@ -166,7 +166,7 @@ export class Gestures {
 
   private borderAt(spot: Spot): Grip | null {
     const lane = laneAt(this.lanes(), spot.y);
-    if (!this.store.edits.value || !lane?.level || spot.x < GUTTER) return null;
+    if (!this.store.edit.value || !lane?.level || spot.x < GUTTER) return null;
     const { start_s, stop_s } = this.store.range.value;
     const reach = (spot.grip / (spot.width - GUTTER)) * (stop_s - start_s);
     const frame = borderNear(lane.segments, this.secondsAt(spot), reach, this.store.fps.value);

@@ -6,6 +6,7 @@ import { NumberInput } from "../layout/NumberInput";
 import { togglePlay } from "../player";
 import { clock } from "../view";
 import { IconButton } from "./icons";
+import { Button, Select } from "../layout/controls";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
@@ -48,28 +49,22 @@ export function Transport({ curves = false }: Props): JSX.Element {
         pressed={loop.value !== null}
         onClick={() => store.toggleLoop()}
       />
-      <select
-        aria-label="Speed"
-        value={String(speed.value)}
-        onChange={(event) => (speed.value = Number(event.currentTarget.value))}
-      >
-        {SPEEDS.map((each) => (
-          <option key={each} value={String(each)}>
-            {each}×
-          </option>
-        ))}
-      </select>
+      <Select
+        label="Speed"
+        value={speed.value}
+        options={SPEEDS.map((each) => [each, `${each}×`])}
+        onSelect={(chosen) => (speed.value = chosen)}
+      />
       <Clock />
       {curves && (
-        <button
-          type="button"
+        <Button
           class="curves-button"
           aria-pressed={store.curves.value}
           title="Curves and signals over time (G)"
           onClick={() => (store.curves.value = !store.curves.value)}
         >
           Curves
-        </button>
+        </Button>
       )}
       <div class="group">
         <IconButton icon="minus" label="Zoom out" keys="−" onClick={() => store.zoomBy(1 / 0.7)} />

@@ -1,5 +1,6 @@
 /** Small pictures on buttons; drawn in the text's colour. */
 import type { JSX } from "preact";
+import { Button } from "../layout/controls";
 
 const PATHS = {
   play: "M4 2.5v11l9-5.5z",
@@ -44,8 +45,7 @@ export function IconButton({
   onClick,
 }: ButtonProps): JSX.Element {
   return (
-    <button
-      type="button"
+    <Button
       class="icon"
       aria-label={label}
       title={keys ? `${label} (${keys})` : label}
@@ -54,6 +54,6 @@ export function IconButton({
       {...(pressed === undefined ? {} : { "aria-pressed": pressed })}
     >
       <Icon name={icon} />
-    </button>
+    </Button>
   );
 }

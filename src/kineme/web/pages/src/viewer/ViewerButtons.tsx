@@ -3,6 +3,7 @@ import type { Signal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import type { Store } from "../store";
+import { Button } from "../layout/controls";
 
 export function ViewerButtons({ onFrame }: { onFrame: () => void }): JSX.Element {
   const store = useStore();
@@ -22,18 +23,17 @@ export function ViewerButtons({ onFrame }: { onFrame: () => void }): JSX.Element
       >
         In step
       </Toggle>
-      <button
-        type="button"
+      <Button
         aria-pressed={store.ghost.value !== null}
         title="Keep the repetition at the playhead as a ghost, and lay it over the others (V)"
         disabled={!store.present.value || !store.active.value?.motion.value}
         onClick={() => store.toggleGhost()}
       >
         Ghost
-      </button>
-      <button type="button" onClick={onFrame} title="Put the camera where everything is seen">
+      </Button>
+      <Button onClick={onFrame} title="Put the camera where everything is seen">
         Reset view
-      </button>
+      </Button>
     </div>
   );
 }
@@ -49,8 +49,7 @@ interface ToggleProps {
 
 function Toggle({ on, title, disabled = false, onTurn, children }: ToggleProps): JSX.Element {
   return (
-    <button
-      type="button"
+    <Button
       aria-pressed={on.value}
       title={title}
       disabled={disabled}
@@ -60,7 +59,7 @@ function Toggle({ on, title, disabled = false, onTurn, children }: ToggleProps):
       }}
     >
       {children}
-    </button>
+    </Button>
   );
 }
 

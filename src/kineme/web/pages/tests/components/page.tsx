@@ -28,13 +28,7 @@ export async function show(component: JSX.Element, table: Segments): Promise<Pag
   const editor = new Editor(session);
   const review = new Review(session, editor);
   const parts = { session, editor, review, uploads: new Uploads(session), front: new Front() };
-  store.edits.value = {
-    moveBorder: (...move) => editor.moveBorder(...move),
-    nameCluster: () => undefined,
-    mergeClusters: () => undefined,
-    orderClusters: () => undefined,
-    exclude: () => undefined,
-  };
+  store.edit.value = (edit) => editor.edit(edit);
   await session.open("take");
   const page = render(
     <StoreProvider value={store}>

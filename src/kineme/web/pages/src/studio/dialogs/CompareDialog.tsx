@@ -6,6 +6,7 @@ import { useStudio } from "../context";
 import type { CompareRequest } from "../../messages";
 import { PeopleChoice } from "../people/PeopleChoice";
 import { Dialog } from "./Dialog";
+import { Button } from "../../layout/controls";
 
 interface Props {
   close: () => void;
@@ -32,14 +33,13 @@ export function CompareDialog({ close }: Props): JSX.Element {
           {presets.map(({ name, help }) => (
             <tr key={name}>
               <td>
-                <button
-                  type="button"
+                <Button
                   disabled={busy.value !== ""}
                   onClick={() => void compare(name, { preset: name })}
+                  busy={busy.value === name}
                 >
                   {name}
-                  {busy.value === name && <span class="busy" />}
-                </button>
+                </Button>
               </td>
               <td class="quiet">{help}</td>
             </tr>
@@ -50,16 +50,14 @@ export function CompareDialog({ close }: Props): JSX.Element {
       <div class="choices">
         {annotations.map(({ id, name }) => (
           <span class="group" key={id}>
-            <button
-              type="button"
+            <Button
               disabled={busy.value !== ""}
               onClick={() => void compare(name, { annotation: id })}
+              busy={busy.value === name}
             >
               {name}
-              {busy.value === name && <span class="busy" />}
-            </button>
-            <button
-              type="button"
+            </Button>
+            <Button
               aria-label={`Work on ${name}: it becomes the table`}
               title="It becomes the table you work on; the present one is kept in History"
               disabled={busy.value !== ""}
@@ -69,7 +67,7 @@ export function CompareDialog({ close }: Props): JSX.Element {
               }}
             >
               Work on it
-            </button>
+            </Button>
           </span>
         ))}
         {annotations.length === 0 && (

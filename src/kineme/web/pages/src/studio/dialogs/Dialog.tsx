@@ -1,6 +1,7 @@
 /** A window over the page; Escape and the backdrop close it, the keyboard stays inside. */
 import type { ComponentChildren, JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
+import { CloseButton } from "../../layout/controls";
 
 interface Props {
   title: string;
@@ -22,9 +23,7 @@ export function Dialog({ title, close, children }: Props): JSX.Element {
         <div class="panel-head">
           <h1>{title}</h1>
           <span class="spacer" />
-          <button type="button" class="icon" aria-label="Close" onClick={close}>
-            ×
-          </button>
+          <CloseButton label="Close" onClick={close} />
         </div>
         {children}
       </div>

@@ -4,9 +4,9 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { Level } from "../../messages";
-import { explain } from "../server/api";
 import { save } from "../server/save";
 import { Dialog } from "./Dialog";
+import { Button } from "../../layout/controls";
 
 interface Props {
   close: () => void;
@@ -30,17 +30,13 @@ export function ExportDialog({ close }: Props): JSX.Element {
     const edited = session.edited.value;
     if (!edited) return;
     busy.value = format;
-    try {
+    await session.bulletin.attempt("export", async () => {
       const { api } = session;
-      save(
-        await (all.value
-          ? api.exportedTogether(format, level.value)
-          : api.exported(edited.id, format, level.value)),
-      );
-      session.bulletin.solved("export");
-    } catch (error) {
-      session.bulletin.problem(explain(error), "export");
-    }
+      const asked = all.value
+        ? api.exportedTogether(format, level.value)
+        : api.exported(edited.id, format, level.value);
+      save(await asked);
+    });
     busy.value = "";
   };
   return (
@@ -79,15 +75,14 @@ export function ExportDialog({ close }: Props): JSX.Element {
           {session.state.value?.export_formats.map(({ name, suffix, help }) => (
             <tr key={name}>
               <td>
-                <button
-                  type="button"
+                <Button
                   data-format={name}
                   disabled={busy.value !== ""}
                   onClick={() => void write(name)}
+                  busy={busy.value === name}
                 >
                   {name}
-                  {busy.value === name && <span class="busy" />}
-                </button>
+                </Button>
               </td>
               <td class="quiet">{suffix}</td>
               <td>{help}</td>

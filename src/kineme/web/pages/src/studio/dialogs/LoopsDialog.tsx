@@ -12,6 +12,7 @@ import { explain } from "../server/api";
 import { save } from "../server/save";
 import { Dialog } from "./Dialog";
 import { LoopPlayer } from "./LoopPlayer";
+import { Button, Checkbox, toggled } from "../../layout/controls";
 
 interface Props {
   close: () => void;
@@ -40,13 +41,10 @@ export function LoopsDialog({ close }: Props): JSX.Element {
   }, [opened, api, found, chosen, problem]);
   const write = async (): Promise<void> => {
     busy.value = true;
-    try {
+    await bulletin.attempt("clips", async () => {
       const rows = [...chosen.value].sort((a, b) => a - b);
       save(await api.clips(opened!.id, { rows, loops: true }));
-      bulletin.solved("clips");
-    } catch (error) {
-      bulletin.problem(explain(error), "clips");
-    }
+    });
     busy.value = false;
   };
   const play = async (number: number): Promise<void> => {
@@ -79,13 +77,9 @@ export function LoopsDialog({ close }: Props): JSX.Element {
       {Boolean(found.value?.length) && (
         <>
           <p>
-            <button
-              type="button"
-              disabled={!chosen.value.size || busy.value}
-              onClick={() => void write()}
-            >
+            <Button disabled={!chosen.value.size || busy.value} onClick={() => void write()}>
               Save {chosen.value.size} as loops
-            </button>
+            </Button>
           </p>
           <table class="formats loops number">
             <thead>
@@ -113,18 +107,16 @@ export function LoopsDialog({ close }: Props): JSX.Element {
                 return (
                   <tr key={each.number}>
                     <td>
-                      <label class="check">
-                        <input
-                          type="checkbox"
-                          checked={chosen.value.has(each.number)}
-                          onChange={() => (chosen.value = toggled(chosen.value, each.number))}
-                        />
+                      <Checkbox
+                        checked={chosen.value.has(each.number)}
+                        onCheck={() => (chosen.value = toggled(chosen.value, each.number))}
+                      >
                         <span
                           class="swatch"
                           style={{ background: store.colorOf(segment) ?? NO_COLOR }}
                         />{" "}
                         {name}
-                      </label>
+                      </Checkbox>
                     </td>
                     <td>{each.rank}</td>
                     <td>{(100 * each.pose_m).toFixed(1)} cm</td>
@@ -132,17 +124,15 @@ export function LoopsDialog({ close }: Props): JSX.Element {
                     <td>{Math.round(each.turn_deg)}°</td>
                     <td>{each.speed_m_s.toFixed(2)} m/s</td>
                     <td>
-                      <button
-                        type="button"
+                      <Button
                         aria-label={`Play ${name}`}
                         aria-pressed={playing.value === each.number}
                         title="As it will be written, round after round"
                         onClick={() => void play(each.number)}
                       >
                         Play
-                      </button>{" "}
-                      <button
-                        type="button"
+                      </Button>{" "}
+                      <Button
                         aria-label={`Show ${name}`}
                         title="Where it is in the recording"
                         onClick={() => {
@@ -151,7 +141,7 @@ export function LoopsDialog({ close }: Props): JSX.Element {
                         }}
                       >
                         Show
-                      </button>
+                      </Button>
                     </td>
                   </tr>
                 );
@@ -166,10 +156,4 @@ export function LoopsDialog({ close }: Props): JSX.Element {
 
 function titleOf(segment: Segment): string {
   return `${nameOf(segment)} at ${clock(segment.start_s, 2)}`;
-}
-
-function toggled(chosen: ReadonlySet<number>, number: number): ReadonlySet<number> {
-  const next = new Set(chosen);
-  if (!next.delete(number)) next.add(number);
-  return next;
 }

@@ -3,7 +3,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
-import { explain } from "../server/api";
+import { Checkbox, toggled } from "../../layout/controls";
 
 export function NewKnowledge(): JSX.Element {
   const { session } = useStudio();
@@ -15,15 +15,12 @@ export function NewKnowledge(): JSX.Element {
   const make = async (event: Event): Promise<void> => {
     event.preventDefault();
     busy.value = true;
-    try {
+    await session.bulletin.attempt("knowledge", async () => {
       const recordings = named.map(({ id }) => id).filter((id) => !left.value.has(id));
       const made = await session.api.makeKnowledge({ name: name.value.trim(), recordings });
-      session.bulletin.solved("knowledge");
       session.bulletin.tell(`${made.name} is in the folder: other recordings can take its names.`);
       await session.refresh();
-    } catch (error) {
-      session.bulletin.problem(explain(error), "knowledge");
-    }
+    });
     busy.value = false;
   };
   return (
@@ -32,19 +29,13 @@ export function NewKnowledge(): JSX.Element {
       {named.length === 0 && <p class="quiet">No recording of the folder has names yet.</p>}
       <div class="choices">
         {named.map(({ id, name: title, named: count }) => (
-          <label class="check" key={id}>
-            <input
-              type="checkbox"
-              checked={!left.value.has(id)}
-              onChange={(event) => {
-                const now = new Set(left.value);
-                if (event.currentTarget.checked) now.delete(id);
-                else now.add(id);
-                left.value = now;
-              }}
-            />
+          <Checkbox
+            key={id}
+            checked={!left.value.has(id)}
+            onCheck={() => (left.value = toggled(left.value, id))}
+          >
             {title} <span class="quiet">{count}</span>
-          </label>
+          </Checkbox>
         ))}
       </div>
       <p class="actions">

@@ -5,6 +5,7 @@ import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import { Dialog } from "./Dialog";
 import { NewKnowledge } from "./NewKnowledge";
+import { Checkbox, Select } from "../../layout/controls";
 
 interface Props {
   close: () => void;
@@ -44,13 +45,11 @@ export function TransferDialog({ close }: Props): JSX.Element {
           </p>
           <label class="field">
             <span>Knowledge base</span>
-            <select value={base} onChange={(event) => (chosen.value = event.currentTarget.value)}>
-              {bases.map(({ id, name }) => (
-                <option key={id} value={id}>
-                  {name}
-                </option>
-              ))}
-            </select>
+            <Select
+              value={base}
+              options={bases.map(({ id, name }) => [id, name])}
+              onSelect={(id) => (chosen.value = id)}
+            />
           </label>
           <label class="field">
             <span>Largest distance at which two movements are the same</span>
@@ -64,14 +63,9 @@ export function TransferDialog({ close }: Props): JSX.Element {
               onInput={(event) => (threshold.value = event.currentTarget.value)}
             />
           </label>
-          <label class="check">
-            <input
-              type="checkbox"
-              checked={spread.value}
-              onChange={(event) => (spread.value = event.currentTarget.checked)}
-            />
+          <Checkbox checked={spread.value} onCheck={(checked) => (spread.value = checked)}>
             Give each cluster the name that most of its members got
-          </label>
+          </Checkbox>
           <p class="actions">
             <button type="submit" class="primary">
               Transfer labels

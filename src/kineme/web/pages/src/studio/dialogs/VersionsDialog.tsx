@@ -6,8 +6,8 @@ import { useStudio } from "../context";
 import type { Version } from "../../messages";
 import { counted } from "../../counted";
 import { inWords } from "../editing/words";
-import { explain } from "../server/api";
 import { Dialog } from "./Dialog";
+import { Button } from "../../layout/controls";
 
 interface Props {
   close: () => void;
@@ -19,21 +19,17 @@ export function VersionsDialog({ close }: Props): JSX.Element {
   const edited = session.edited.value;
   useEffect(() => {
     if (!edited) return;
-    session.api
-      .versions(edited.id)
-      .then((found) => (versions.value = found))
-      .catch((error: unknown) => session.bulletin.problem(explain(error), "versions"));
+    void session.bulletin.attempt("versions", async () => {
+      versions.value = await session.api.versions(edited.id);
+    });
   }, [edited, session, versions]);
   const fps = edited?.confirmed.value.fps ?? 1;
-  const look = async (version: Version): Promise<void> => {
-    try {
+  const look = (version: Version): Promise<boolean> =>
+    session.bulletin.attempt("versions", async () => {
       const found = await session.api.version(edited!.id, version.number);
       session.beside.lay({ ...found, name: `Version ${version.number}` }, true);
       close();
-    } catch (error) {
-      session.bulletin.problem(explain(error), "versions");
-    }
-  };
+    });
   return (
     <Dialog title="Tables that were replaced" close={close}>
       <p class="quiet">
@@ -56,18 +52,15 @@ export function VersionsDialog({ close }: Props): JSX.Element {
               </td>
               <td>
                 <span class="group">
-                  <button type="button" onClick={() => void look(version)}>
-                    Look
-                  </button>
-                  <button
-                    type="button"
+                  <Button onClick={() => void look(version)}>Look</Button>
+                  <Button
                     onClick={() => {
                       void edited?.edit({ kind: "restore", version: version.number });
                       close();
                     }}
                   >
                     Bring back
-                  </button>
+                  </Button>
                 </span>
               </td>
             </tr>

@@ -105,14 +105,9 @@ export class Beside {
   async compare(request: CompareRequest): Promise<boolean> {
     const edited = this.around.edited.value;
     if (!edited) return false;
-    try {
-      this.lay(await this.around.api.compare(edited.id, request));
-      this.around.bulletin.solved("compare");
-      return true;
-    } catch (error) {
-      this.around.bulletin.problem(explain(error), "compare");
-      return false;
-    }
+    return this.around.bulletin.attempt("compare", async () =>
+      this.lay(await this.around.api.compare(edited.id, request)),
+    );
   }
 
   /** Lays a result below the shown one. */

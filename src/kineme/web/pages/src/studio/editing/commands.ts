@@ -1,11 +1,16 @@
 /** Edits at the playhead or of the selected segment; null where there is nothing to do. */
-import type { Edit, Level, Segment } from "../../messages";
+import type { Edit, Level, MoveBorder, Segment } from "../../messages";
 import { indexAt, nearestBorder } from "../../segments";
 
 /** What a command looks at: the lane in which one works, and where the playhead is. */
 export interface Where {
   lane: readonly Segment[];
   frame: number;
+}
+
+/** How edits name a segment. */
+export function placeOf({ level, start_frame }: Segment): { level: Level; frame: number } {
+  return { level, frame: start_frame };
 }
 
 /** A new border at the playhead. */
@@ -33,10 +38,7 @@ export function deleteBorder(where: Where): Edit | null {
 }
 
 /** The border nearest to the playhead goes some frames on, or back, as far as its neighbours let it. */
-export function nudgeBorder(
-  where: Where,
-  by: number,
-): Extract<Edit, { kind: "move_border" }> | null {
+export function nudgeBorder(where: Where, by: number): MoveBorder | null {
   const after = nearestBorder(where.lane, where.frame);
   if (!after) return null;
   const before = where.lane[where.lane.indexOf(after) - 1]!;

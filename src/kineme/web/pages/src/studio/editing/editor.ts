@@ -6,7 +6,7 @@
  * where the playhead was then, in the table that these edits leave.
  */
 import { batch, computed, signal } from "@preact/signals";
-import type { ByHand, Edit, Kind, Level, Recording, Segment } from "../../messages";
+import type { ByHand, Edit, Level, MoveBorder, Recording, Segment } from "../../messages";
 import type { Store } from "../../store";
 import * as commands from "./commands";
 import type { EditedRecording } from "./editedRecording";
@@ -38,14 +38,20 @@ export class Editor {
     this.store = session.store;
   }
 
+  /** Makes an edit that needs no playhead. */
+  edit(edit: ByHand): void {
+    if (edit.kind === "move_border") this.moveBorder(edit);
+    else if (edit.kind === "exclude") this.exclude(edit.frames, edit.excluded);
+    else void this.send(edit);
+  }
+
   /** The border stays where it was dragged to until the table shows it there. */
-  moveBorder(level: Level, frame: number, to: number): void {
+  private moveBorder(edit: MoveBorder): void {
     const drag = this.store.drag.peek();
     const end = (): void => {
       if (this.store.drag.peek() === drag) this.store.drag.value = null;
     };
-    const made = this.send({ kind: "move_border", level, frame, to }, end);
-    void made.then(end);
+    void this.send(edit, end).then(end);
   }
 
   split(): void {
@@ -107,7 +113,7 @@ export class Editor {
     if (!this.held) return;
     const edit = commands.nudgeBorder(this.held.where, this.held.by);
     this.held = null;
-    if (edit) this.moveBorder(edit.level, edit.frame, edit.to);
+    if (edit) this.moveBorder(edit);
     else this.store.drag.value = null;
   }
 
@@ -135,43 +141,12 @@ export class Editor {
   }
 
   name(segment: Segment, label: string): void {
-    const { level, start_frame: frame } = segment;
-    void this.send({ kind: "name_segment", level, frame, label });
+    this.edit({ kind: "name_segment", ...commands.placeOf(segment), label });
   }
 
   /** Gives the segment one works on a name of its own. */
   nameTarget(label: string): void {
     this.atPlayhead((segment) => this.name(segment, label));
-  }
-
-  comment({ level, start_frame: frame }: Segment, text: string): void {
-    void this.send({ kind: "comment", level, frame, text });
-  }
-
-  splitCluster(cluster: number, frames: number[]): void {
-    void this.send({ kind: "split_cluster", cluster, frames });
-  }
-
-  orderClusters(order: number[]): void {
-    void this.send({ kind: "order_clusters", order });
-  }
-
-  nameCluster(cluster: number, label: string): void {
-    void this.send({ kind: "name_cluster", cluster, label });
-  }
-
-  mergeClusters(cluster: number, into: number): void {
-    void this.send({ kind: "merge_clusters", cluster, into });
-  }
-
-  setCluster(segment: Segment, cluster: number): void {
-    const { level, start_frame: frame } = segment;
-    if (cluster !== segment.cluster) void this.send({ kind: "set_cluster", level, frame, cluster });
-  }
-
-  setKind(segment: Segment, to: Kind): void {
-    const { level, start_frame: frame } = segment;
-    if (to !== segment.kind) void this.send({ kind: "set_kind", level, frame, to });
   }
 
   /** Marks segments as checked, or takes the mark away. */
@@ -186,7 +161,7 @@ export class Editor {
   }
 
   /** The primitives that start at these frames count in no mean, or do so again. */
-  exclude(frames: number[], excluded: boolean): void {
+  private exclude(frames: number[], excluded: boolean): void {
     const what = excluded ? "left out of means" : "in means again";
     void this.send({ kind: "exclude", frames, excluded }, () => {
       this.session.bulletin.tell(`${counted(frames.length, "repetition")} ${what}.`);

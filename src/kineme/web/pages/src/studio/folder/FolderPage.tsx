@@ -8,13 +8,14 @@ import type { JSX } from "preact";
 import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { isForPlayer } from "../../focus";
 import { AddFiles } from "../panels/AddFiles";
-import { StatusOptions } from "./StatusOptions";
+
 import { useStudio } from "../context";
-import type { Status } from "../recordingList";
+import { STATUSES } from "../recordingList";
 import { FolderProgress } from "./FolderProgress";
 import { FolderRow } from "./FolderRow";
 import { COLUMNS, fitting, gridOf, ordered, rowOf, type Column } from "./rows";
 import { shownColumns, showColumn } from "./shownColumns";
+import { Button, Checkbox, Select } from "../../layout/controls";
 
 const BELOW = ".layout > :not(.place-header)";
 const [HEIGHT, LOW] = [30, 26]; // pixels of a row: as usual, in a low window
@@ -91,18 +92,15 @@ function Page(): JSX.Element {
         <span class="spacer" />
         <AddFiles />
         <Find />
-        <button
-          type="button"
+        <Button
           class="primary"
           title="Through all recordings, what has the lowest confidence first (J)"
           onClick={() => void review.goEverywhere(true)}
         >
           Review all recordings
-        </button>
+        </Button>
         {isOpen && (
-          <button type="button" onClick={() => (front.folder.value = null)}>
-            Back to the recording
-          </button>
+          <Button onClick={() => (front.folder.value = null)}>Back to the recording</Button>
         )}
       </div>
       <div class="folder-tools">
@@ -113,13 +111,12 @@ function Page(): JSX.Element {
           value={list.search.value}
           onInput={(event) => (list.search.value = event.currentTarget.value)}
         />
-        <select
-          aria-label="Recordings that are"
+        <Select
+          label="Recordings that are"
           value={list.status.value}
-          onChange={(event) => (list.status.value = event.currentTarget.value as Status | "")}
-        >
-          <StatusOptions />
-        </select>
+          options={STATUSES}
+          onSelect={(chosen) => (list.status.value = chosen)}
+        />
         <span class="quiet number" role="status">
           {rows.value.length} of {folder.members.value.length} recordings
         </span>
@@ -135,14 +132,14 @@ function Page(): JSX.Element {
           </summary>
           <fieldset>
             {COLUMNS.slice(1).map(({ id, title, help }) => (
-              <label key={id} title={help}>
-                <input
-                  type="checkbox"
-                  checked={shownColumns.value.includes(id)}
-                  onChange={(event) => showColumn(id, event.currentTarget.checked)}
-                />{" "}
+              <Checkbox
+                key={id}
+                title={help}
+                checked={shownColumns.value.includes(id)}
+                onCheck={(checked) => showColumn(id, checked)}
+              >
                 {title}
-              </label>
+              </Checkbox>
             ))}
           </fieldset>
         </details>
@@ -162,15 +159,14 @@ function Page(): JSX.Element {
             const sorted = by === id ? (reverse ? "descending" : "ascending") : "none";
             return (
               <span key={id} role="columnheader" aria-sort={sorted}>
-                <button
-                  type="button"
+                <Button
                   class="plain"
                   title={`${help}; order by it`}
                   onClick={() => (order.value = [id, by === id && !reverse])}
                 >
                   {title}
                   {by === id && (reverse ? " ▾" : " ▴")}
-                </button>
+                </Button>
               </span>
             );
           })}
@@ -232,12 +228,11 @@ function Find(): JSX.Element | null {
     );
   if (!n || !folder.ready.value) return null;
   return (
-    <button
-      type="button"
+    <Button
       title="Find the segments of the recordings that have none yet; they are saved once you edit them"
       onClick={() => void folder.find()}
     >
       Segment {counted(n, "recording")}
-    </button>
+    </Button>
   );
 }

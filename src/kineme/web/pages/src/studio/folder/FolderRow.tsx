@@ -6,6 +6,7 @@ import { clock } from "../../view";
 import { MiddleShortened } from "../panels/MiddleShortened";
 import { queueOf, stripOf } from "./briefTables";
 import { secondsOf, type Column, type Row } from "./rows";
+import { Button } from "../../layout/controls";
 
 const PLACES = 2; // of the least sure ones
 const CELLS: Record<Column, (row: Row) => JSX.Element | string> = {
@@ -59,17 +60,16 @@ function Name({ row: { listing } }: { row: Row }): JSX.Element {
   const { session, front } = useStudio();
   const opening = session.opening.value === listing.id;
   return (
-    <button
-      type="button"
+    <Button
       class="plain name"
       aria-label={`Open ${listing.name}`}
       title={`Open ${listing.name}`}
       aria-busy={opening}
       onClick={() => void session.open(listing.id).then(() => (front.folder.value = null))}
+      busy={opening}
     >
       <MiddleShortened name={listing.name} />
-      {opening && <span class="busy" />}
-    </button>
+    </Button>
   );
 }
 
@@ -88,9 +88,8 @@ function Least({ row: { listing, table } }: { row: Row }): JSX.Element {
       {places
         .filter(({ value }) => value !== null)
         .map((doubt) => (
-          <button
+          <Button
             key={`${doubt.segment.level} ${doubt.segment.start_frame}`}
-            type="button"
             class="plain"
             title={`${nameOf(doubt.segment)}. ${doubt.why}`}
             onClick={() => {
@@ -100,7 +99,7 @@ function Least({ row: { listing, table } }: { row: Row }): JSX.Element {
             }}
           >
             {doubt.short} <span class="quiet">at {clock(doubt.segment.start_s, 1)}</span>
-          </button>
+          </Button>
         ))}
     </>
   );

@@ -1,6 +1,7 @@
 /** A name of a cluster, for all recordings: said by what others are known, given in one action. */
 import type { JSX } from "preact";
 import { useStudio } from "../context";
+import { Button, CloseButton } from "../../layout/controls";
 
 export function Offered(): JSX.Element {
   const { review } = useStudio();
@@ -16,18 +17,10 @@ export function Offered(): JSX.Element {
           ? "The library knows it in other recordings, too."
           : `In other recordings it is known by its name, “${before}”.`}
       </p>
-      <button type="button" class="primary" onClick={() => void offer.take()}>
+      <Button class="primary" onClick={() => void offer.take()}>
         “{label}” in all recordings
-      </button>
-      <button
-        type="button"
-        class="icon"
-        title="Here only"
-        aria-label="Here only"
-        onClick={() => (offer.present.value = null)}
-      >
-        ×
-      </button>
+      </Button>
+      <CloseButton label="Here only" onClick={() => (offer.present.value = null)} />
     </div>
   );
 }

@@ -5,6 +5,7 @@ import { useStudio } from "../context";
 import { nameOf } from "../../segments";
 import { clock } from "../../view";
 import { FolderProgress } from "./FolderProgress";
+import { CloseButton } from "../../layout/controls";
 
 export function QueueBar(): JSX.Element | null {
   const { session, review } = useStudio();
@@ -30,15 +31,10 @@ export function QueueBar(): JSX.Element | null {
       <FolderProgress tally={review.folder.tally.value} />
       <span class="group">
         <ReviewButtons />
-        <button
-          type="button"
-          class="icon"
-          title="Leave the queue of the folder"
-          aria-label="Leave the queue of the folder"
+        <CloseButton
+          label="Leave the queue of the folder"
           onClick={() => void review.goEverywhere(false)}
-        >
-          ×
-        </button>
+        />
       </span>
     </section>
   );

@@ -1,7 +1,6 @@
 /** What a cluster of one recording is called now, offered for all recordings of the folder. */
 import { counted } from "../../counted";
 import { effect, signal, untracked } from "@preact/signals";
-import { explain } from "../server/api";
 import type { Segments } from "../../messages";
 import type { Session } from "../session";
 import type { Folder } from "./folder";
@@ -46,16 +45,13 @@ export class NameOffer {
     const offer = this.present.value;
     if (!offer) return;
     this.present.value = null;
-    try {
-      bulletin.solved("offer");
+    await bulletin.attempt("offer", async () => {
       const { tables, others, left } = await api.callEverywhere(offer, this.isLibrary());
       const kept = others ? ` Another name stays with ${counted(others, "cluster")} there.` : "";
       const lost = left.length ? ` Not changed: ${left.join("; ")}.` : "";
       bulletin.tell(`“${offer.label}” in ${counted(tables, "saved table")} more.${kept}${lost}`);
       if (state.value) await this.session.refresh();
-    } catch (error) {
-      bulletin.problem(explain(error), "offer");
-    }
+    });
   }
 
   isLibrary(): boolean {

@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { Dialog } from "../dialogs/Dialog";
+import { Button, Checkbox, toggled } from "../../layout/controls";
 
 interface Props<Value> {
   title: string;
@@ -19,37 +20,30 @@ export function ChoiceDialog<Value>(props: Props<Value>): JSX.Element {
   const { title, say, action, choices, most = choices.length, choose, close } = props;
   const chosen = useSignal<ReadonlySet<Value>>(new Set());
   const n = chosen.value.size;
-  const toggle = (value: Value): void => {
-    const next = new Set(chosen.value);
-    if (!next.delete(value)) next.add(value);
-    chosen.value = next;
-  };
+
   return (
     <Dialog title={title} close={close}>
       <p>{say}</p>
       <ul class="choice-list">
         {choices.map(({ value, text, picture }) => (
           <li key={value}>
-            <label>
-              <input
-                type="checkbox"
-                checked={chosen.value.has(value)}
-                onChange={() => toggle(value)}
-              />{" "}
+            <Checkbox
+              checked={chosen.value.has(value)}
+              onCheck={() => (chosen.value = toggled(chosen.value, value))}
+            >
               {text}
               {picture}
-            </label>
+            </Checkbox>
           </li>
         ))}
       </ul>
-      <button
-        type="button"
+      <Button
         class="primary"
         disabled={!n || n > most}
         onClick={() => void choose([...chosen.value]).then(close)}
       >
         {action} {n || ""}
-      </button>
+      </Button>
     </Dialog>
   );
 }

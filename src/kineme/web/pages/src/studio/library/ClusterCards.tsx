@@ -9,8 +9,15 @@ import { ChoiceDialog } from "./ChoiceDialog";
 import { Figure } from "./Figure";
 import { ordered, seconds, type Order } from "./hits";
 import type { LibraryPage } from "./libraryPage";
+import { Button, Select } from "../../layout/controls";
 
 const AT_ONCE = 120;
+const ORDERS = [
+  ["seconds", "by how long"],
+  ["count", "by how many"],
+  ["name", "by name"],
+  ["unsure", "by how unsure"],
+] as const;
 
 export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
   const order = useSignal<Order>("seconds");
@@ -21,15 +28,11 @@ export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
       <div class="tools">
         <label>
           Order{" "}
-          <select
+          <Select
             value={order.value}
-            onChange={(event) => (order.value = event.currentTarget.value as Order)}
-          >
-            <option value="seconds">by how long</option>
-            <option value="count">by how many</option>
-            <option value="name">by name</option>
-            <option value="unsure">by how unsure</option>
-          </select>
+            options={ORDERS}
+            onSelect={(chosen) => (order.value = chosen)}
+          />
         </label>
         <span class="quiet">A name is kept at once, and stays through every build.</span>
         <Tables page={page} />
@@ -41,9 +44,7 @@ export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
         ))}
       </ul>
       {clusters.length > shown.value && (
-        <button type="button" onClick={() => (shown.value += AT_ONCE)}>
-          Show more of {clusters.length}
-        </button>
+        <Button onClick={() => (shown.value += AT_ONCE)}>Show more of {clusters.length}</Button>
       )}
     </>
   );
@@ -56,27 +57,25 @@ function Tables({ page }: { page: LibraryPage }): JSX.Element {
   const saved = recordings.filter(({ status }) => status === "corrected" || status === "checked");
   return (
     <>
-      <button
-        type="button"
+      <Button
         disabled={!undo}
         title={undo ? `Take back: ${undo}` : "Nothing to take back"}
         onClick={() => void page.edit({ kind: "undo" })}
       >
         ↶ Undo
-      </button>
+      </Button>
       {saved.length > 0 && (
-        <button
-          type="button"
+        <Button
           title="Recordings that nobody has corrected have them anyway. Segments stay; undo is in each recording."
           onClick={() => void page.updateTables(false)}
         >
           Numbers and names to {counted(saved.length, "corrected recording")}
-        </button>
+        </Button>
       )}
       {others > 0 && (
-        <button type="button" onClick={() => void page.updateTables(true)}>
+        <Button onClick={() => void page.updateTables(true)}>
           Replace {counted(others, "other name")}, too
-        </button>
+        </Button>
       )}
       <span role="status">{text}</span>
     </>
@@ -113,32 +112,29 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
         {it.unsure > 0 && <span class="unsure"> · {it.unsure} unsure</span>}
       </p>
       <div class="card-tools">
-        <button
-          type="button"
+        <Button
           aria-label={`Find more like this: ${called}`}
           onClick={() =>
             void page.ask({ title: called, like: [], unlike: [], cluster: it.cluster })
           }
         >
           Find more like this
-        </button>
-        <button
-          type="button"
+        </Button>
+        <Button
           aria-label={`Merge others into ${called}`}
           disabled={!others.length}
           onClick={() => (dialog.value = "merge")}
         >
           Merge…
-        </button>
-        <button
-          type="button"
+        </Button>
+        <Button
           aria-label={`Split ${called}`}
           disabled={n < 2}
           title={n < 2 ? "It is in one recording only" : undefined}
           onClick={() => (dialog.value = "split")}
         >
           Split…
-        </button>
+        </Button>
       </div>
       {dialog.value === "merge" && (
         <ChoiceDialog

@@ -6,6 +6,7 @@ import { pageAddress } from "../server/address";
 import { Figure } from "./Figure";
 import { keyOf } from "./hits";
 import type { LibraryPage } from "./libraryPage";
+import { Button } from "../../layout/controls";
 
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -47,24 +48,21 @@ export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): 
       </p>
       {name && <p class="hit-name">{name}</p>}
       <div class="card-tools">
-        <button
-          type="button"
+        <Button
           aria-pressed={right === true}
           aria-label={`Yes: ${recording}, ${time}`}
           onClick={() => page.judge(hit, true)}
         >
           ✓ Yes
-        </button>
-        <button
-          type="button"
+        </Button>
+        <Button
           aria-pressed={right === false}
           aria-label={`No: ${recording}, ${time}`}
           onClick={() => page.judge(hit, false)}
         >
           ✗ No
-        </button>
-        <button
-          type="button"
+        </Button>
+        <Button
           title="Find more like this one"
           aria-label={`Find more like ${recording}, ${time}`}
           onClick={() => {
@@ -77,7 +75,7 @@ export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): 
           }}
         >
           More…
-        </button>
+        </Button>
       </div>
     </li>
   );

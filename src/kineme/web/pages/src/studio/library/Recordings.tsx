@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 import { pageAddress } from "../server/address";
 import { seconds } from "./hits";
 import type { LibraryPage } from "./libraryPage";
+import { Button } from "../../layout/controls";
 
 const AT_ONCE = 200;
 /** Seconds of a recording that a search begins with. */
@@ -52,8 +53,7 @@ export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
                 <td class="number">{seconds(each.duration_s)}</td>
                 <td>{each.status}</td>
                 <td>
-                  <button
-                    type="button"
+                  <Button
                     disabled={!each.vocabulary}
                     aria-label={`Find like a part of ${each.recording}`}
                     onClick={() => {
@@ -66,7 +66,7 @@ export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
                     }}
                   >
                     Find like…
-                  </button>
+                  </Button>
                 </td>
               </tr>
             ))}

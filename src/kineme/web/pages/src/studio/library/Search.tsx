@@ -8,6 +8,7 @@ import { startHitKeys } from "./hitKeys";
 import { asCsv, asJson, keyOf } from "./hits";
 import type { LibraryPage } from "./libraryPage";
 import { SpanForm } from "./SpanForm";
+import { Button } from "../../layout/controls";
 
 export function Search({ page }: { page: LibraryPage }): JSX.Element {
   const { value: question } = page.question;
@@ -27,13 +28,12 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
       )}
       {hits.length > 0 && (
         <div class="tools">
-          <button
-            type="button"
+          <Button
             aria-pressed={page.playing.value}
             onClick={() => (page.playing.value = !page.playing.value)}
           >
             {page.playing.value ? "Stop all" : "Play all"}
-          </button>
+          </Button>
           <Downloads page={page} />
           <span class="quiet">
             Is the framed one right? <kbd>Y</kbd> yes, <kbd>N</kbd> no, arrow keys for the next.
@@ -62,9 +62,9 @@ function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
         {yes} confirmed, {no} refused. Search again, with those confirmed as further examples and
         without what is more like those refused?
       </p>
-      <button type="button" class="primary" onClick={() => void page.refine()}>
+      <Button class="primary" onClick={() => void page.refine()}>
         Search again with these
-      </button>
+      </Button>
       {yes > 0 && (
         <label>
           Name {yes === 1 ? "it" : `these ${yes}`} alone, in the {yes === 1 ? "table" : "tables"}{" "}
@@ -107,16 +107,13 @@ function Downloads({ page }: { page: LibraryPage }): JSX.Element {
   };
   return (
     <span class="group">
-      <button type="button" onClick={() => write("hits.csv", asCsv)}>
-        CSV
-      </button>
-      <button
-        type="button"
+      <Button onClick={() => write("hits.csv", asCsv)}>CSV</Button>
+      <Button
         title="One object a line, as kineme library search --json"
         onClick={() => write("hits.jsonl", asJson)}
       >
         JSON
-      </button>
+      </Button>
     </span>
   );
 }

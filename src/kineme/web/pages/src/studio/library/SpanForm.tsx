@@ -4,6 +4,7 @@ import { NumberInput } from "../../layout/NumberInput";
 import type { Span } from "../../messages";
 import { seconds } from "./hits";
 import type { LibraryPage } from "./libraryPage";
+import { Button, Checkbox } from "../../layout/controls";
 
 export function SpanForm({ page }: { page: LibraryPage }): JSX.Element {
   const recordings = (page.state.value?.recordings ?? []).filter((each) => each.vocabulary);
@@ -52,21 +53,14 @@ export function SpanForm({ page }: { page: LibraryPage }): JSX.Element {
           if (threshold > 0) page.threshold.value = threshold;
         }}
       />
-      <label>
-        <input
-          type="checkbox"
-          checked={page.mirror.value}
-          onChange={(event) => (page.mirror.value = event.currentTarget.checked)}
-        />{" "}
+      <Checkbox checked={page.mirror.value} onCheck={(checked) => (page.mirror.value = checked)}>
         mirrored, too
-      </label>
+      </Checkbox>
       <button type="submit" class="primary" disabled={!valid}>
         Find more like this
       </button>
       {page.question.value && (
-        <button type="button" onClick={() => void page.searchAgain()}>
-          The last search again
-        </button>
+        <Button onClick={() => void page.searchAgain()}>The last search again</Button>
       )}
     </form>
   );

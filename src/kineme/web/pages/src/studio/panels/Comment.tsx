@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { useDraft } from "../../layout/draft";
 import { useStudio } from "../context";
 import type { Segment } from "../../messages";
+import { placeOf } from "../editing/commands";
 
 interface Props {
   segment: Segment;
@@ -10,7 +11,9 @@ interface Props {
 
 export function Comment({ segment }: Props): JSX.Element {
   const { editor } = useStudio();
-  const draft = useDraft(segment.comment ?? "", (now) => editor.comment(segment, now.trim()));
+  const draft = useDraft(segment.comment ?? "", (now) =>
+    editor.edit({ kind: "comment", ...placeOf(segment), text: now.trim() }),
+  );
   return (
     <label class="field">
       <span>Comment</span>

@@ -6,6 +6,7 @@ import { laneOf, nameOf, segmentAt } from "../../segments";
 import { clock } from "../../view";
 import { useStudio } from "../context";
 import { AgreementPanel } from "../people/AgreementPanel";
+import { Button } from "../../layout/controls";
 
 export function ComparePanel(): JSX.Element {
   const { session, front } = useStudio();
@@ -19,13 +20,9 @@ export function ComparePanel(): JSX.Element {
           Lay another preset’s result, or what one or more people say, below this one.
         </p>
         <p>
-          <button
-            type="button"
-            disabled={!session.edited.value}
-            onClick={() => front.show("compare")}
-          >
+          <Button disabled={!session.edited.value} onClick={() => front.show("compare")}>
             Compare…
-          </button>
+          </Button>
         </p>
       </div>
     );
@@ -34,9 +31,7 @@ export function ComparePanel(): JSX.Element {
       <div class="panel-head">
         <b class="name">{comparison.name}</b>
         <span class="spacer" />
-        <button type="button" onClick={() => session.beside.stop()}>
-          Stop comparing
-        </button>
+        <Button onClick={() => session.beside.stop()}>Stop comparing</Button>
       </div>
       {(comparison.differences?.length ?? 0) > 0 && <Differences comparison={comparison} />}
       <table class="scores number">
@@ -84,9 +79,9 @@ function Differences({ comparison }: { comparison: Comparison }): JSX.Element {
         {comparison.differences?.map((span) => (
           <tr key={span[0]}>
             <td>
-              <button type="button" class="link" onClick={() => store.seek(span[0])}>
+              <Button class="link" onClick={() => store.seek(span[0])}>
                 {clock(span[0], 2)}
-              </button>
+              </Button>
             </td>
             <td>{(span[1] - span[0]).toFixed(2)}</td>
             <td>{nameAt(present, span)}</td>

@@ -4,6 +4,7 @@ import { useStore } from "../../context";
 import type { Level } from "../../messages";
 import { useStudio } from "../context";
 import { deleteBorder, mergeWithNext } from "../editing/commands";
+import { Button } from "../../layout/controls";
 
 const LEVELS: readonly (readonly [Level, string])[] = [
   ["activity", "Activities"],
@@ -19,43 +20,39 @@ export function EditTools(): JSX.Element {
     <>
       <span class="group" role="group" aria-label="Work on">
         {LEVELS.map(([level, name]) => (
-          <button
+          <Button
             key={level}
-            type="button"
             aria-pressed={store.worked.value === level}
             disabled={!store.lane(level).length}
             title={`Work on ${name.toLowerCase()} (A)`}
             onClick={() => store.workOn(level)}
           >
             {name}
-          </button>
+          </Button>
         ))}
       </span>
       <span class="group edit-tools" role="group" aria-label="Segments">
-        <button
-          type="button"
+        <Button
           disabled={disabled}
           title="A border at the playhead (S)"
           onClick={() => editor.split()}
         >
           Split
-        </button>
-        <button
-          type="button"
+        </Button>
+        <Button
           disabled={!mergeWithNext(where)}
           title="The segment and the next one become one (M)"
           onClick={() => editor.mergeWithNext()}
         >
           Merge
-        </button>
-        <button
-          type="button"
+        </Button>
+        <Button
           disabled={!deleteBorder(where)}
           title="Delete the border nearest to the playhead (Delete)"
           onClick={() => editor.deleteBorder()}
         >
           Delete border
-        </button>
+        </Button>
       </span>
     </>
   );

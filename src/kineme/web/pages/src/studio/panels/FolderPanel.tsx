@@ -1,18 +1,19 @@
 /** The recordings of the folder: search, open, show beside, add. */
 import type { JSX } from "preact";
-import { StatusOptions } from "../folder/StatusOptions";
+
 import { AddFiles } from "./AddFiles";
 import { MiddleShortened } from "./MiddleShortened";
 import { useStudio } from "../context";
 import { checkedIn } from "../../segments";
 import type { Listing } from "../../messages";
-import type { Order, Status } from "../recordingList";
+import { ORDERS, STATUSES, type Status } from "../recordingList";
+import { Button, CloseButton, Select } from "../../layout/controls";
 
 const SIGNS: Record<Status, string> = { new: "", corrected: "✎", labelled: "◐", checked: "✓" };
 
 export function FolderPanel(): JSX.Element {
   const { session, front } = useStudio();
-  const { search, status } = session.list;
+  const { search, status, order } = session.list;
   const all = session.state.value?.recordings ?? [];
   const found = session.list.listed.value;
   const done = all.filter((each) => session.list.statusOf(each) === "checked").length;
@@ -22,13 +23,12 @@ export function FolderPanel(): JSX.Element {
         <h2>Recordings</h2>
         <span class="spacer" />
         {all.length > 1 && (
-          <button
-            type="button"
+          <Button
             title="All recordings with their segments, and how far each is"
             onClick={() => (front.folder.value = true)}
           >
             Folder
-          </button>
+          </Button>
         )}
         <AddFiles />
       </div>
@@ -41,22 +41,18 @@ export function FolderPanel(): JSX.Element {
             value={search.value}
             onInput={(event) => (search.value = event.currentTarget.value)}
           />
-          <select
-            aria-label="Show recordings that are"
+          <Select
+            label="Show recordings that are"
             value={status.value}
-            onChange={(event) => (status.value = event.currentTarget.value as Status | "")}
-          >
-            <StatusOptions />
-          </select>
-          <select
-            aria-label="Order of the recordings"
-            value={session.list.order.value}
-            onChange={(event) => (session.list.order.value = event.currentTarget.value as Order)}
-          >
-            <option value="name">by name</option>
-            <option value="left">what is left first</option>
-            <option value="size">largest first</option>
-          </select>
+            options={STATUSES}
+            onSelect={(chosen) => (status.value = chosen)}
+          />
+          <Select
+            label="Order of the recordings"
+            value={order.value}
+            options={ORDERS}
+            onSelect={(chosen) => (order.value = chosen)}
+          />
         </div>
       )}
       {done > 0 && (
@@ -94,8 +90,7 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
   const several = store.opened.value.length > 1;
   return (
     <li class={current ? "current" : ""}>
-      <button
-        type="button"
+      <Button
         class="recording"
         aria-current={current ? "true" : undefined}
         aria-busy={opening}
@@ -107,29 +102,20 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
       >
         <MiddleShortened name={name} />
         {opening ? <span class="busy" /> : <span aria-hidden="true">{SIGNS[status]}</span>}
-      </button>
+      </Button>
       {shown && several ? (
-        <button
-          type="button"
-          class="icon"
-          aria-label={`Close ${name}`}
-          title="Close"
-          onClick={() => session.close(id)}
-        >
-          ×
-        </button>
+        <CloseButton label={`Close ${name}`} title="Close" onClick={() => session.close(id)} />
       ) : (
         !shown &&
         store.opened.value.length > 0 && (
-          <button
-            type="button"
+          <Button
             class="icon"
             aria-label={`Show ${name} beside the others`}
             title="Show beside the others"
             onClick={() => void session.open(id, { beside: true })}
           >
             +
-          </button>
+          </Button>
         )
       )}
     </li>

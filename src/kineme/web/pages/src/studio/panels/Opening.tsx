@@ -4,6 +4,7 @@ import { useEffect } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStudio } from "../context";
 import { megabytes } from "./FolderPanel";
+import { Button } from "../../layout/controls";
 
 export function Opening(): JSX.Element | null {
   const { session } = useStudio();
@@ -19,9 +20,7 @@ export function Opening(): JSX.Element | null {
   return (
     <p class="opening">
       Reading {listing.name}, {megabytes(listing.bytes)}: {seconds.value} s{" "}
-      <button type="button" onClick={() => session.stopOpening()}>
-        Cancel
-      </button>
+      <Button onClick={() => session.stopOpening()}>Cancel</Button>
     </p>
   );
 }

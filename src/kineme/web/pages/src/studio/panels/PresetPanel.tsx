@@ -13,6 +13,7 @@ import type { Choice } from "../editing/beside";
 import { ParameterSlider } from "./ParameterSlider";
 import { Proposed } from "./Proposed";
 import { RunProgress } from "./RunProgress";
+import { Button, Select } from "../../layout/controls";
 
 /** Whether the constants are shown, beside preset and detail: of all recordings. */
 const advanced = signal(false);
@@ -100,31 +101,25 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
         <h2>Segmentation</h2>
         {busy && <span class="busy" role="status" aria-label="Segmenting" />}
         <span class="spacer" />
-        <button
-          type="button"
+        <Button
           title={isFound ? "The preset’s own values" : "Segments by this preset, to look at"}
           disabled={isFound ? isUsual : busy || proposal !== null}
           onClick={() => again({ preset, values: defaults(choice), detail: 1 }, 0)}
         >
           {isFound ? "Reset" : "Segment"}
-        </button>
+        </Button>
       </div>
       {busy && <RunProgress id={edited.id} />}
       <div class="preset-choice">
-        <select
-          aria-label="Preset"
+        <Select
+          label="Preset"
           value={preset}
-          onChange={(event) => {
-            const next = presets.find((each) => each.name === event.currentTarget.value)!;
+          options={presets.map(({ name }) => [name, name])}
+          onSelect={(chosen) => {
+            const next = presets.find(({ name }) => name === chosen)!;
             again({ preset: next.name, values: defaults(next), detail: 1 }, 0);
           }}
-        >
-          {presets.map(({ name }) => (
-            <option key={name} value={name}>
-              {name}
-            </option>
-          ))}
-        </select>
+        />
         <p class="preset-help quiet">{choice.help}</p>
         <DetailSlider />
         <details

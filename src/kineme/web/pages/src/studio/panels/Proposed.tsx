@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { useStudio } from "../context";
 import type { Proposal } from "../editing/beside";
 import { counted } from "../../counted";
+import { Button, Checkbox } from "../../layout/controls";
 
 export function Proposed(props: {
   proposal: Proposal;
@@ -18,14 +19,9 @@ export function Proposed(props: {
     <div class="proposed" role="group" aria-label="Preview">
       <div class="proposed-said">
         {some && (
-          <label class="check">
-            <input
-              type="checkbox"
-              checked={keep}
-              onChange={(event) => setKeep(event.currentTarget.checked)}
-            />
+          <Checkbox checked={keep} onCheck={setKeep}>
             Take over {counts}
-          </label>
+          </Checkbox>
         )}
         {some && keep && preview.lost.length > 0 && (
           <details open>
@@ -42,17 +38,14 @@ export function Proposed(props: {
         </p>
       </div>
       <p class="actions">
-        <button type="button" onClick={() => session.beside.discard()}>
-          Discard
-        </button>
-        <button
-          type="button"
+        <Button onClick={() => session.beside.discard()}>Discard</Button>
+        <Button
           class="primary"
           disabled={keep !== proposal.keep}
           onClick={() => session.beside.apply()}
         >
           {some ? (keep ? "Apply" : `Apply: replaces ${counts}`) : "Apply"}
-        </button>
+        </Button>
       </p>
     </div>
   );

@@ -4,6 +4,7 @@ import { useRef } from "preact/hooks";
 import type { JSX, TargetedEvent } from "preact";
 import { personCalled } from "../../opened";
 import { useStudio } from "../context";
+import { Button } from "../../layout/controls";
 
 const UNITS = ["m", "cm", "mm", "inch", "cmu"];
 const AXES = ["x", "y", "z", "-x", "-y", "-z"];
@@ -128,26 +129,24 @@ function People(props: {
     <fieldset class="people-choice">
       <legend>{question ? "Who is to be seen?" : "People in this file"}</legend>
       {names.map((name) => (
-        <button
+        <Button
           key={name}
-          type="button"
           aria-pressed={shown.includes(name)}
           title={`Show ${personCalled(name)} alone: each has a table of their own`}
           onClick={() => void read(name)}
         >
           {personCalled(name)}
-        </button>
+        </Button>
       ))}
       {names.length > 1 && !session.state.value?.of_library && (
-        <button
-          type="button"
+        <Button
           class={question ? "primary" : ""}
           aria-pressed={all}
           title="Show all of them together, in the same time and space"
           onClick={() => void read(undefined, true)}
         >
           All {names.length} people
-        </button>
+        </Button>
       )}
     </fieldset>
   );

@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import type { Progress } from "../../messages";
 import { useStudio } from "../context";
+import { Button } from "../../layout/controls";
 
 const PAUSE = 400; // milliseconds between two questions, and before the first
 
@@ -25,9 +26,9 @@ export function RunProgress({ id }: { id: string }): JSX.Element | null {
   return (
     <div class="run-progress">
       <progress aria-label="Segmentation" value={share ?? undefined} />
-      <button type="button" title="What is there stays (Escape)" onClick={() => session.cancel()}>
+      <Button title="What is there stays (Escape)" onClick={() => session.cancel()}>
         Cancel
-      </button>
+      </Button>
       <span class="quiet">{text}</span>
     </div>
   );

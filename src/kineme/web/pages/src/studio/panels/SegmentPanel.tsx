@@ -2,6 +2,7 @@
 import type { JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { useStudio } from "../context";
+import { placeOf } from "../editing/commands";
 import { clusterColor, NO_COLOR } from "../../colors";
 import type { Kind, Segment } from "../../messages";
 import { NameInput } from "../../layout/NameInput";
@@ -11,6 +12,7 @@ import { counted } from "../../counted";
 import type { Session } from "../session";
 import { Comment } from "./Comment";
 import { Vocabulary } from "./Vocabulary";
+import { Checkbox, Select } from "../../layout/controls";
 
 export function SegmentPanel(): JSX.Element {
   const { session, editor, review } = useStudio();
@@ -53,24 +55,23 @@ export function SegmentPanel(): JSX.Element {
 
         onName={(label) => editor.name(segment, label)}
       />
-      <label class="check">
-        <input
-          type="checkbox"
-          checked={review.isChecked(segment)}
-          onChange={(event) => editor.check([segment], event.currentTarget.checked)}
-        />
+      <Checkbox
+        checked={review.isChecked(segment)}
+        onCheck={(checked) => editor.check([segment], checked)}
+      >
         Checked: no new segmentation changes it
-      </label>
+      </Checkbox>
       <div class="pair">
         <label class="field">
           <span>Kind</span>
-          <select
+          <Select<Kind>
             value={segment.kind}
-            onChange={(event) => editor.setKind(segment, event.currentTarget.value as Kind)}
-          >
-            <option value={segment.level}>{segment.level}</option>
-            <option value="transition">transition</option>
-          </select>
+            options={[
+              [segment.level, segment.level],
+              ["transition", "transition"],
+            ]}
+            onSelect={(to) => editor.edit({ kind: "set_kind", ...placeOf(segment), to })}
+          />
         </label>
         <label class="field">
           <span>Cluster</span>
@@ -86,7 +87,7 @@ export function SegmentPanel(): JSX.Element {
           names={namesOf(session)}
           naming="cluster"
 
-          onName={(label) => editor.nameCluster(segment.cluster, label)}
+          onName={(label) => editor.edit({ kind: "name_cluster", cluster: segment.cluster, label })}
         />
       )}
       <Comment segment={segment} />
@@ -107,19 +108,12 @@ function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
     return label ? `${id}: ${label}` : String(id);
   };
   return (
-    <select
-      aria-label="Cluster of the segment"
+    <Select
+      label="Cluster of the segment"
       value={segment.cluster}
-      onChange={(event) => editor.setCluster(segment, Number(event.currentTarget.value))}
-    >
-      {[...clusters]
-        .sort((a, b) => a - b)
-        .map((id) => (
-          <option key={id} value={id}>
-            {title(id)}
-          </option>
-        ))}
-    </select>
+      options={[...clusters].sort((a, b) => a - b).map((id) => [id, title(id)])}
+      onSelect={(cluster) => editor.edit({ kind: "set_cluster", ...placeOf(segment), cluster })}
+    />
   );
 }
 

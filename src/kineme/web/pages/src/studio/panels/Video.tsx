@@ -3,7 +3,6 @@ import { useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStudio } from "../context";
-import { explain } from "../server/api";
 
 const APART = 0.12; // seconds that picture and figure may be apart while they play
 
@@ -40,16 +39,11 @@ function Player({ id, name, offset }: Props): JSX.Element {
     if (!playing && !shown.paused) shown.pause();
   };
   useSignalEffect(follow);
-  const place = async (seconds: number): Promise<void> => {
+  const place = (seconds: number): void => {
     if (!Number.isFinite(seconds)) return;
     start.current = seconds;
     follow();
-    try {
-      await api.placeVideo(id, { offset_s: seconds });
-      session.bulletin.solved("video");
-    } catch (error) {
-      session.bulletin.problem(explain(error), "video");
-    }
+    void session.bulletin.attempt("video", () => api.placeVideo(id, { offset_s: seconds }));
   };
   return (
     <figure class="video">
@@ -70,7 +64,7 @@ function Player({ id, name, offset }: Props): JSX.Element {
             class="number"
             step="0.02"
             defaultValue={String(offset)}
-            onChange={(event) => void place(event.currentTarget.valueAsNumber)}
+            onChange={(event) => place(event.currentTarget.valueAsNumber)}
           />{" "}
           s of the video
         </label>

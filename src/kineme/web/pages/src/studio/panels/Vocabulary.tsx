@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStudio } from "../context";
-import { explain } from "../server/api";
+import { Button, CloseButton } from "../../layout/controls";
 
 const KEYS = 9;
 
@@ -10,38 +10,29 @@ export function Vocabulary(): JSX.Element {
   const { session, editor } = useStudio();
   const labels = session.state.value?.labels ?? [];
   const name = useSignal("");
-  const keep = async (next: string[]): Promise<void> => {
-    try {
+  const keep = (next: string[]): Promise<boolean> =>
+    session.bulletin.attempt("labels", async () => {
       await session.api.shareLabels({ labels: next });
-      session.bulletin.solved("labels");
       await session.refresh();
-    } catch (error) {
-      session.bulletin.problem(explain(error), "labels");
-    }
-  };
+    });
   return (
     <section class="vocabulary" aria-label="Shared labels">
       <h2>Labels of the folder</h2>
       <div class="choices">
         {labels.map((label, i) => (
           <span class="group" key={label}>
-            <button
-              type="button"
+            <Button
               title={
                 i < KEYS ? `Name the segment “${label}” (${i + 1})` : `Name the segment “${label}”`
               }
               onClick={() => editor.nameTarget(label)}
             >
               {i < KEYS && <kbd>{i + 1}</kbd>} {label}
-            </button>
-            <button
-              type="button"
-              class="icon"
-              aria-label={`Take “${label}” off the list`}
+            </Button>
+            <CloseButton
+              label={`Take “${label}” off the list`}
               onClick={() => void keep(labels.filter((each) => each !== label))}
-            >
-              ×
-            </button>
+            />
           </span>
         ))}
       </div>

@@ -5,6 +5,7 @@ import type { Agreement, RecordingAgreement } from "../../messages";
 import { clock } from "../../view";
 import { useStudio } from "../context";
 import { MiddleShortened } from "../panels/MiddleShortened";
+import { Button } from "../../layout/controls";
 
 const BY_NAMES = "Names are compared, in capitals or small letters.";
 const BY_MAPPING =
@@ -18,9 +19,7 @@ export function AgreementPanel({ agreement }: { agreement: Agreement }): JSX.Ele
       <div class="panel-head">
         <b class="name">{agreement.annotators.length} people</b>
         <span class="spacer" />
-        <button type="button" onClick={() => session.people.stop()}>
-          Stop comparing
-        </button>
+        <Button onClick={() => session.people.stop()}>Stop comparing</Button>
       </div>
       <p class="quiet">
         {agreement.by_names ? BY_NAMES : BY_MAPPING} 1 is equal; of kappa, 0 is what chance gives.
@@ -98,9 +97,9 @@ function Differences({ recording }: { recording: RecordingAgreement }): JSX.Elem
         {recording.differences.map(({ start_s, stop_s, labels }) => (
           <tr key={start_s}>
             <td>
-              <button type="button" class="link" onClick={() => store.seek(start_s)}>
+              <Button class="link" onClick={() => store.seek(start_s)}>
                 {clock(start_s, 2)}
-              </button>
+              </Button>
             </td>
             <td>{(stop_s - start_s).toFixed(2)}</td>
             {labels.map((label, i) => (
@@ -135,15 +134,14 @@ function ByRecording({ agreement }: { agreement: Agreement }): JSX.Element {
         {agreement.recordings.map(({ id, name, fleiss_kappa, differences }) => (
           <tr key={id}>
             <td>
-              <button
-                type="button"
+              <Button
                 class="link halves"
                 title={name}
                 aria-current={id === session.store.recording.value?.id}
                 onClick={() => void session.open(id)}
               >
                 <MiddleShortened name={name} />
-              </button>
+              </Button>
             </td>
             <td>{shown(fleiss_kappa)}</td>
             <td>{differences.length}</td>

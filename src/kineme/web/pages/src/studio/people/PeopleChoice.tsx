@@ -5,7 +5,7 @@ import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import { counted } from "../../counted";
 import type { AnnotatorChoice } from "../../messages";
-import { explain } from "../server/api";
+import { Button, Checkbox, toggled } from "../../layout/controls";
 
 const TABLES_HERE = "tables"; // the id of whoever works here
 
@@ -15,14 +15,12 @@ export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
   const ticked = useSignal<ReadonlySet<string>>(new Set());
   const busy = useSignal(false);
   useEffect(() => {
-    session.api
-      .annotators()
-      .then((found) => {
-        const others = found.filter(({ id }) => id !== TABLES_HERE);
-        people.value = found;
-        ticked.value = new Set((others.length > 1 ? others : found).map(({ id }) => id));
-      })
-      .catch((error: unknown) => session.bulletin.problem(explain(error), "agreement"));
+    void session.bulletin.attempt("agreement", async () => {
+      const found = await session.api.annotators();
+      const others = found.filter(({ id }) => id !== TABLES_HERE);
+      people.value = found;
+      ticked.value = new Set((others.length > 1 ? others : found).map(({ id }) => id));
+    });
   }, [session, people, ticked]);
   const compare = async (): Promise<void> => {
     busy.value = true;
@@ -33,10 +31,7 @@ export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
     }
     busy.value = false;
   };
-  const toggle = (id: string, chosen: boolean): void => {
-    const others = [...ticked.value].filter((each) => each !== id);
-    ticked.value = new Set(chosen ? [...others, id] : others);
-  };
+
   if (people.value.length < 2)
     return (
       <p class="quiet">
@@ -48,25 +43,23 @@ export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
     <div class="choices">
       <fieldset class="people">
         {people.value.map(({ id, name, recordings }) => (
-          <label key={id}>
-            <input
-              type="checkbox"
-              checked={ticked.value.has(id)}
-              onChange={(event) => toggle(id, event.currentTarget.checked)}
-            />{" "}
+          <Checkbox
+            key={id}
+            checked={ticked.value.has(id)}
+            onCheck={() => (ticked.value = toggled(ticked.value, id))}
+          >
             {name} <span class="quiet">{counted(recordings, "recording")}</span>
-          </label>
+          </Checkbox>
         ))}
       </fieldset>
-      <button
-        type="button"
+      <Button
         class="primary"
         disabled={busy.value || ticked.value.size < 2}
         onClick={() => void compare()}
+        busy={busy.value}
       >
         Compare {ticked.value.size} people
-        {busy.value && <span class="busy" />}
-      </button>
+      </Button>
     </div>
   );
 }

@@ -35,21 +35,16 @@ export class People {
   }
 
   /** Compares people over the folder, on a recording that two of them labelled; whether it could. */
-  async compare(annotators: string[]): Promise<boolean> {
+  compare(annotators: string[]): Promise<boolean> {
     const { api, store, bulletin } = this.around;
-    try {
+    return bulletin.attempt("agreement", async () => {
       const found = await api.agreement({ annotators });
       this.chosen = annotators;
       this.lanes = null;
       store.others.value = [];
       this.agreement.value = found;
-      bulletin.solved("agreement");
       if (!this.ofRecording.value) await this.around.open(found.recordings[0]!.id);
-      return true;
-    } catch (error) {
-      bulletin.problem(explain(error), "agreement");
-      return false;
-    }
+    });
   }
 
   stop(): void {

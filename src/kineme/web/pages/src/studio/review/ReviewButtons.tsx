@@ -1,22 +1,22 @@
 /** On to the next place to look at, with or without a mark on this one. */
 import type { JSX } from "preact";
 import { useStudio } from "../context";
+import { Button } from "../../layout/controls";
 
 export function ReviewButtons(): JSX.Element {
   const { review } = useStudio();
   return (
     <>
-      <button type="button" title="Next to look at (J)" onClick={() => void review.next()}>
+      <Button title="Next to look at (J)" onClick={() => void review.next()}>
         Next
-      </button>
-      <button
-        type="button"
+      </Button>
+      <Button
         class="primary"
         title="The segment is right: mark it and go on (K)"
         onClick={() => review.checkAndGoOn()}
       >
         Checked, next
-      </button>
+      </Button>
     </>
   );
 }

@@ -6,7 +6,9 @@ import { clusterColor, NO_COLOR } from "../../colors";
 import type { Level } from "../../messages";
 import { nameOf } from "../../segments";
 import { clock } from "../../view";
-import { progressOf } from "./doubts";
+import { progressOf, type Doubt } from "./doubts";
+import { keyOf } from "./review";
+import { Button, Select } from "../../layout/controls";
 
 const MOST = 100; // rows; the rest comes when these are checked
 
@@ -21,13 +23,14 @@ export function ReviewPanel(): JSX.Element {
   const scope = several && (
     <label class="field">
       Look through{" "}
-      <select
+      <Select
         value={review.everywhere.value ? "folder" : "recording"}
-        onChange={(event) => void review.goEverywhere(event.currentTarget.value === "folder")}
-      >
-        <option value="recording">this recording</option>
-        <option value="folder">all recordings</option>
-      </select>
+        options={[
+          ["recording", "this recording"],
+          ["folder", "all recordings"],
+        ]}
+        onSelect={(chosen) => void review.goEverywhere(chosen === "folder")}
+      />
     </label>
   );
   if (review.everywhere.value) return <FolderReview scope={scope} />;
@@ -47,27 +50,15 @@ export function ReviewPanel(): JSX.Element {
             : "Every segment of this recording is checked."}
       </p>
       <ol class="doubts">
-        {doubts.slice(0, MOST).map((doubt) => {
-          const { segment, short } = doubt;
-          return (
-            <li key={`${segment.level} ${segment.start_frame}`}>
-              <button
-                type="button"
-                class="plain"
-                aria-current={doubt === present ? "true" : undefined}
-                title={doubt.why}
-                onClick={() => review.go(doubt)}
-              >
-                <span class="swatch" style={{ background: store.colorOf(segment) ?? NO_COLOR }} />
-                <span class="name">
-                  {nameOf(segment)} <span class="quiet">{segment.level}</span>
-                </span>
-                <span class="number quiet">{clock(segment.start_s, 2)}</span>
-                <span class="number">{short || "–"}</span>
-              </button>
-            </li>
-          );
-        })}
+        {doubts.slice(0, MOST).map((doubt) => (
+          <Item
+            key={keyOf(doubt.segment)}
+            doubt={doubt}
+            color={store.colorOf(doubt.segment) ?? NO_COLOR}
+            current={doubt === present}
+            go={() => review.go(doubt)}
+          />
+        ))}
       </ol>
       {doubts.length > MOST && <p class="quiet note">and {doubts.length - MOST} more</p>}
     </div>
@@ -84,33 +75,47 @@ function FolderReview({ scope }: { scope: ComponentChildren }): JSX.Element {
     <div class="review-panel">
       {scope}
       <ol class="doubts">
-        {places.slice(0, MOST).map((place) => {
-          const { id, recording, doubt } = place;
-          const { segment, short, why } = doubt;
-          return (
-            <li key={`${id} ${segment.level} ${segment.start_frame}`}>
-              <button
-                type="button"
-                class="plain"
-                aria-current={place === queue.looking.value ? "true" : undefined}
-                title={why}
-                onClick={() => void queue.go(place)}
-              >
-                <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
-                <span class="name">
-                  {nameOf(segment)} <span class="quiet">{segment.level}</span>
-                </span>
-                <span class="number quiet">{clock(segment.start_s, 2)}</span>
-                <span class="number">{short || "–"}</span>
-                <span class="of quiet">{recording}</span>
-              </button>
-            </li>
-          );
-        })}
+        {places.slice(0, MOST).map((place) => (
+          <Item
+            key={`${place.id} ${keyOf(place.doubt.segment)}`}
+            doubt={place.doubt}
+            color={clusterColor(place.doubt.segment.cluster)}
+            current={place === queue.looking.value}
+            go={() => void queue.go(place)}
+          >
+            <span class="of quiet">{place.recording}</span>
+          </Item>
+        ))}
       </ol>
       {places.length > MOST && <p class="quiet note">and {places.length - MOST} more</p>}
       {without > 0 && <p class="quiet note">{without} recordings are not segmented yet</p>}
     </div>
+  );
+}
+
+interface ItemProps {
+  doubt: Doubt;
+  color: string;
+  current: boolean;
+  go: () => void;
+  children?: ComponentChildren;
+}
+
+/** A segment to look at; a click goes there. */
+function Item({ doubt, color, current, go, children }: ItemProps): JSX.Element {
+  const { segment, short, why } = doubt;
+  return (
+    <li>
+      <Button class="plain" aria-current={current ? "true" : undefined} title={why} onClick={go}>
+        <span class="swatch" style={{ background: color }} />
+        <span class="name">
+          {nameOf(segment)} <span class="quiet">{segment.level}</span>
+        </span>
+        <span class="number quiet">{clock(segment.start_s, 2)}</span>
+        <span class="number">{short || "–"}</span>
+        {children}
+      </Button>
+    </li>
   );
 }
 

@@ -84,7 +84,7 @@ export class Review {
 }
 
 /** Where it starts; an edit of its end makes it no other. */
-function keyOf({ level, start_frame }: Segment): string {
+export function keyOf({ level, start_frame }: Segment): string {
   return `${level} ${start_frame}`;
 }
 

@@ -3,29 +3,27 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStudio } from "../context";
 import type { ByHand } from "../../messages";
+import { placeOf } from "../editing/commands";
 import { findRow } from "../../segments";
-import { explain } from "../server/api";
 import { save } from "../server/save";
 import { type Row, spansToMerge } from "./rows";
+import { Button } from "../../layout/controls";
 
 export function Actions({ rows }: { rows: Row[] }): JSX.Element {
   const { session, editor } = useStudio();
   const busy = useSignal(false);
   const clips = async (loops: boolean): Promise<void> => {
-    const { edited, api, bulletin } = session;
-    if (!edited.value) return;
+    const edited = session.edited.value;
+    if (!edited) return;
     busy.value = true;
-    try {
-      await edited.value.settled(); // edits on their way may move rows
-      const { segmentation } = edited.value.confirmed.value;
+    await session.bulletin.attempt("clips", async () => {
+      await edited.settled(); // edits on their way may move rows
+      const { segmentation } = edited.confirmed.value;
       const present = rows.map(({ segment }) => findRow(segmentation, segment));
       const numbers = present.map((row) => segmentation.segments.indexOf(row!));
       const there = numbers.filter((number) => number >= 0);
-      save(await api.clips(edited.value.id, { rows: there, loops }));
-      bulletin.solved("clips");
-    } catch (error) {
-      bulletin.problem(explain(error), "clips");
-    }
+      save(await session.api.clips(edited.id, { rows: there, loops }));
+    });
     busy.value = false;
   };
   const cluster = rows[0]?.segment.cluster ?? -1;
@@ -43,10 +41,11 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
       <form
         onSubmit={(event) => {
           event.preventDefault();
-          const edits = segments.map(({ level, start_frame: frame }): ByHand => {
-            return { kind: "name_segment", level, frame, label: name.value.trim() };
+          const label = name.value.trim();
+          const edits = segments.map((each): ByHand => {
+            return { kind: "name_segment", ...placeOf(each), label };
           });
-          editor.together(edits, `named “${name.value.trim()}”`);
+          editor.together(edits, `named “${label}”`);
         }}
       >
         <input
@@ -58,8 +57,7 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
         />
         <button type="submit">Name {rows.length}</button>
       </form>
-      <button
-        type="button"
+      <Button
         disabled={!merges.length}
         title="Neighbours become one segment"
         onClick={() =>
@@ -72,39 +70,37 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
         }
       >
         Merge
-      </button>
-      <button type="button" onClick={() => editor.check(segments, !checked)}>
+      </Button>
+      <Button onClick={() => editor.check(segments, !checked)}>
         {checked ? "Uncheck" : "Check"}
-      </button>
-      <button
-        type="button"
+      </Button>
+      <Button
         disabled={!divisible}
         title="The chosen ones become a cluster of their own"
         onClick={() =>
-          editor.splitCluster(
+          editor.edit({
+            kind: "split_cluster",
             cluster,
-            segments.map(({ start_frame }) => start_frame),
-          )
+            frames: segments.map(({ start_frame }) => start_frame),
+          })
         }
       >
         New cluster
-      </button>
-      <button
-        type="button"
+      </Button>
+      <Button
         disabled={busy.value}
         title="The chosen segments as motion files"
         onClick={() => void clips(false)}
       >
         Clips…
-      </button>
-      <button
-        type="button"
+      </Button>
+      <Button
         disabled={busy.value}
         title="The same, each made to close, so that it can be repeated without a jerk"
         onClick={() => void clips(true)}
       >
         Loops…
-      </button>
+      </Button>
     </div>
   );
 }
@@ -113,13 +109,12 @@ export function Actions({ rows }: { rows: Row[] }): JSX.Element {
 export function LoopsButton(): JSX.Element {
   const { session, front } = useStudio();
   return (
-    <button
-      type="button"
+    <Button
       disabled={!session.edited.value || !session.store.recording.value?.motion}
       title="Which repetitions make good loops: seam, sliding feet, turn and speed"
       onClick={() => front.show("loops")}
     >
       Loops by quality…
-    </button>
+    </Button>
   );
 }

@@ -13,6 +13,7 @@ import { clock } from "../../view";
 import { between, EVERYTHING, type Filter, type Order, type Row, rowsOf } from "./rows";
 import { Actions, LoopsButton } from "./Actions";
 import { TableFilter } from "./TableFilter";
+import { Button } from "../../layout/controls";
 
 const HEIGHT = 26; // pixels of a row
 const MORE = 6; // rows drawn above and below what is seen
@@ -87,16 +88,15 @@ export function SegmentTable(): JSX.Element {
       {many.length > 0 && <Actions rows={many} />}
       <div class="table-head" role="presentation">
         {COLUMNS.map(([id, title]) => (
-          <button
+          <Button
             key={id}
-            type="button"
             class="plain"
             title={`Order by ${title.toLowerCase()}`}
             onClick={() => (order.value = [id, order.value[0] === id && !order.value[1]])}
           >
             {title}
             {order.value[0] === id && (order.value[1] ? " ▾" : " ▴")}
-          </button>
+          </Button>
         ))}
       </div>
       <div

@@ -1,9 +1,25 @@
 /** What the table of segments is narrowed to. */
 import { signal, type Signal } from "@preact/signals";
 import type { JSX } from "preact";
-import type { Level } from "../../messages";
-import { EVERYTHING, type Filter } from "./rows";
 
+import { EVERYTHING, type Filter } from "./rows";
+import { Button, Select } from "../../layout/controls";
+
+const LEVELS = [
+  ["", "both levels"],
+  ["activity", "activities"],
+  ["primitive", "primitives"],
+] as const;
+const KINDS = [
+  ["", "every kind"],
+  ["movement", "no transitions"],
+  ["transition", "transitions"],
+] as const;
+const CHECKED = [
+  ["", "checked or not"],
+  ["no", "not checked"],
+  ["yes", "checked"],
+] as const;
 /** Whether more is shown than name and level. */
 const open = signal(false);
 
@@ -23,24 +39,20 @@ export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element
         value={text}
         onInput={(event) => change({ text: event.currentTarget.value })}
       />
-      <select
-        aria-label="Level"
+      <Select
+        label="Level"
         value={level}
-        onChange={(event) => change({ level: event.currentTarget.value as Level | "" })}
-      >
-        <option value="">both levels</option>
-        <option value="activity">activities</option>
-        <option value="primitive">primitives</option>
-      </select>
-      <button
-        type="button"
+        options={LEVELS}
+        onSelect={(chosen) => change({ level: chosen })}
+      />
+      <Button
         aria-expanded={open.value}
         aria-pressed={narrowed}
         title="Kind, checked or not, length, confidence"
         onClick={() => (open.value = !open.value)}
       >
         More
-      </button>
+      </Button>
       {open.value && <MoreFilters filter={filter} />}
     </div>
   );
@@ -56,24 +68,18 @@ function MoreFilters({ filter }: { filter: Signal<Filter> }): JSX.Element {
   const { shortest, longest, confidenceBelow } = filter.value;
   return (
     <div class="more-filters">
-      <select
-        aria-label="Kind of segment"
+      <Select
+        label="Kind of segment"
         value={filter.value.kind}
-        onChange={(event) => change({ kind: event.currentTarget.value as Filter["kind"] })}
-      >
-        <option value="">every kind</option>
-        <option value="movement">no transitions</option>
-        <option value="transition">transitions</option>
-      </select>
-      <select
-        aria-label="Checked or not"
+        options={KINDS}
+        onSelect={(kind) => change({ kind })}
+      />
+      <Select
+        label="Checked or not"
         value={filter.value.checked}
-        onChange={(event) => change({ checked: event.currentTarget.value as Filter["checked"] })}
-      >
-        <option value="">checked or not</option>
-        <option value="no">not checked</option>
-        <option value="yes">checked</option>
-      </select>
+        options={CHECKED}
+        onSelect={(checked) => change({ checked })}
+      />
       <span class="group">
         <input
           type="number"
