@@ -102,7 +102,7 @@ def _write_draft(draft: Path, final: Path, path: AnyPath) -> Iterator[None]:
     try:
         descriptor = _hold(draft)
         yield
-        # The folder holds the name, and must be on the disk as well.
+        # Flush the folder too: it stores the new name.
         _synchronise(final.parent)
     except FileError as error:
         raise _rename_error(error, draft, final) from error

@@ -124,7 +124,7 @@ class Cycles:
         return list(dict.fromkeys(self.columns["group"].tolist()))
 
     def select(self, rows: NDArray[np.bool_]) -> Cycles:
-        """Some of the cycles, such as those of one recording.
+        """Return the cycles at which a mask is True, such as those of one recording.
 
         Parameters
         ----------
@@ -137,7 +137,7 @@ class Cycles:
         Raises
         ------
         ParameterError
-            No mask of as many cycles.
+            ``rows`` is not a boolean array with one value per cycle.
 
         Examples
         --------
@@ -150,7 +150,7 @@ class Cycles:
         """
         mask = np.asarray(rows)
         if mask.dtype != bool or mask.shape != (len(self),):
-            raise ParameterError(f"rows are chosen by a mask of {len(self)} cycles")
+            raise ParameterError(f"rows must be a boolean array of length {len(self)}")
         columns = {name: column[mask] for name, column in self.columns.items()}
         return replace(self, columns=columns, curves=self.curves[mask])
 

@@ -24,7 +24,7 @@ def bundled_recording() -> Path:
 
 
 def bundled_truth() -> Path:
-    """Its true segments: a table that `kineme.read_segments` reads.
+    """Return the file of the bundled recording's true segments, for `kineme.read_segments`.
 
     Examples
     --------

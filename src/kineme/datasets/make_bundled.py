@@ -15,8 +15,8 @@ _DECIMALS = 2  # of centimetres and degrees: a small file, and finer than any ca
 
 
 def make_bundled(folder: Path) -> None:
-    """Leave recording and truth in a folder."""
-    actions = (
+    """Write the bundled recording and its true segments to a folder."""
+    actions = (  # name, number of repetitions
         Action("walk", 5),
         Action("squat", 4),
         Action("walk", 4),

@@ -203,7 +203,7 @@ class Library:
         Raises
         ------
         ParameterError
-            DuckDB cannot make sense of it.
+            DuckDB rejects the query.
         MissingDependencyError
             duckdb is not installed.
         """

@@ -76,7 +76,7 @@ class OpenTables:
         """Return a table, one of `kineme.library.storage.tables.DESCRIBED`, as a pyarrow.Table."""
         if name not in self._computed:
             self._computed[name] = read_table(self.folder, self.head["tables"], name)
-        tables = self._edited  # an edit, in another thread, begins a new one
+        tables = self._edited  # keep this dict: an edit in another thread replaces it
         if name not in tables:
             tables[name] = apply_edits(self._computed[name], self.edits)
         return tables[name]

@@ -200,6 +200,7 @@ def mentions(name: str, *parts: str, side: str = "") -> bool:
     (True, False)
     """
     letters = [side[0].upper()] if side else ["L", "R", ""]
+    # A line with spaces lists several markers, so it is not a single name.
     lines = [line for part in parts for line in NAMES[part] if " " not in line]
     return has_word(name, {line.replace("*", letter) for line in lines for letter in letters})
 

@@ -102,12 +102,12 @@ class OpenRecording:
         except KinemeError as error:
             table, notes = self._table, [f"not segmented: {error}"]
         with self._lock:
-            if self._first is None:  # another thread has waited, too
+            if self._first is None:  # another thread has already taken the result
                 return
             self._first = None
             self._notes = [*self._notes, *notes]
             self.revision += 1
-            if not self._file.changed():  # else another program has left a table
+            if not self._file.changed():  # otherwise keep the table that another program wrote
                 self._table, self._journal = table, Journal(self._file.path, table)
 
     @property

@@ -184,11 +184,10 @@ def _blend_spans(
         # Blends of neighbouring jumps must not overlap, and need frames of both recordings.
         room = min(a.stop - a.start, b.stop - b.start) // 2
         n = min(half, room, motions[a.source].n_frames - a.stop, b.start)
-        # Frames before the jump continue past the end of the first span, and start before the
-        # second.
+        # Extend both spans by n frames across the jump, so that 2 n frames overlap.
         before, before_shift = placed(a, a.stop - n, a.stop + n)
         after, after_shift = placed(b, b.start - n, b.start + n)
-        # Weights at the middles of the frames; the new axes match joints and components.
+        # Smoothstep weights at the frame centres; the new axes are joints and components.
         w = ((np.arange(2 * n) + 0.5) / max(2 * n, 1))[:, None, None]
         w = w * w * (3 - 2 * w)
         rotations[t - n : t + n] = rot.slerp(before, after, w)

@@ -54,7 +54,7 @@ def positions_to_motion(
     if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
         raise content.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
     fps = options.fps or rate_in(content, arrays, _RATES)
-    complete = "parents" in arrays and "names" in arrays  # in metres with y up
+    complete = "parents" in arrays and "names" in arrays  # written by kineme: metres, y up
     if complete and options.unit in (None, "m", 1) and options.up in (None, "y"):
         return _as_written(content, name, arrays, positions, fps)
     usual = [f"joint{i}" for i in range(positions.shape[1])]

@@ -184,7 +184,7 @@ def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
         rows: NDArray[Any] = np.load(near(path), allow_pickle=False)
         if rows.ndim != 2 or rows.dtype != kind:
             raise ValueError("not rows of features")
-        if kind is np.float32:  # whole numbers hold nothing that overflows a distance
+        if kind is np.float32:  # integers cannot be nan or overflow a distance
             _check_sound(rows)
     return rows
 
