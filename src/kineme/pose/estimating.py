@@ -80,6 +80,12 @@ def estimate_poses(
         The table cannot be written.
     MissingDependencyError
         No estimator is installed.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> estimate_poses(Path("squats.mp4"))  # doctest: +SKIP
+    PosixPath('squats.mp4.poses.parquet')
     """
     check_path(video, "estimate_poses")
     path = Path(video)

@@ -37,6 +37,11 @@ class Pose:
     metres : (keypoints, 3) array, optional
         From the middle of the hips: to the right of the picture, up, and towards the camera.
         None where the estimator gives no depth.
+
+    Examples
+    --------
+    >>> Pose(np.array([[320.0, 180.0]]), np.array([0.9])).image.shape
+    (1, 2)
     """
 
     image: Floats
@@ -99,7 +104,12 @@ ESTIMATORS: Registry[PoseEstimator] = Registry(
 
 
 def register(new: PoseEstimator, *, replace: bool = False) -> None:
-    """Add an estimator; ParameterError where its name is taken and ``replace`` is False."""
+    """Add an estimator; ParameterError where its name is taken and ``replace`` is False.
+
+    Examples
+    --------
+    >>> register(ESTIMATORS["mediapipe"], replace=True)
+    """
     ESTIMATORS.register(new, replace=replace)
 
 
