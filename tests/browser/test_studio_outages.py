@@ -56,16 +56,18 @@ def test_edits_on_their_way_when_the_server_dies_are_kept_and_sent_and_no_more_a
     assert saved_primitives(mortal.folder / "take.segments.json")[2] == (border, "", False)
 
 
-@pytest.mark.parametrize("latency", [400, 700])
-def test_on_a_slow_line_edits_are_made_as_they_were_done(page, take, latency):
+@pytest.mark.parametrize("answered", [False, True], ids=["after the typing", "amid the typing"])
+def test_on_a_slow_line_edits_are_made_as_they_were_done(page, take, answered):
     screen = Screen(page)
     page.keyboard.press("Shift+ArrowRight")
     border = screen.state["selected"]["start_frame"]
-    screen.slow_down(latency)
+    screen.slow_down(500)
     for _ in range(3):
         page.keyboard.press("Alt+ArrowRight")
     page.keyboard.press("n")
     page.keyboard.type("hop")
+    if answered:  # the segment that is being named has moved by then
+        screen.wait("k.unsent.length === 0")
     page.keyboard.press("Enter")
     assert len(screen.state["unsent"]) >= 1
     screen.saved()

@@ -95,6 +95,15 @@ describe("while the server answers", () => {
     expect(segmentation.segments.map((each) => each.label)).toEqual(["", "", "hop", ""]);
   });
 
+  it("an edit that was begun before the last answer follows the segment it names", async () => {
+    const edited = await open();
+    const { segmentation } = edited.confirmed.value;
+    await edited.edit(MOVE);
+    const NAME: Edit = { kind: "name_segment", level: "primitive", frame: 30, label: "hop" };
+    await edited.edit(NAME, undefined, segmentation);
+    expect(server.got).toEqual([MOVE, { ...NAME, frame: 40 }]);
+  });
+
   it("what an answer tells of a table that is not ours is not taken over", async () => {
     const edited = await open();
     vi.spyOn(server, "edit").mockResolvedValueOnce(renamedAt(7, "hop"));

@@ -85,10 +85,17 @@ export class EditedRecording {
 
   /**
    * Sent when its turn comes; the promise ends when it was made, refused, or has to wait. `made` is
-   * called as the table is shown that it made.
+   * called as the table is shown that it made. An edit that somebody began on an earlier `table`
+   * follows the segments that it names from there.
    */
-  edit(edit: Edit, made?: () => void): Promise<void> {
+  edit(wanted: Edit, made?: () => void, table?: Segments): Promise<void> {
     if (!this.takesEdits()) return Promise.resolve();
+    const { segmentation, fps } = this.confirmed.peek();
+    const edit = table ? follow(wanted, table, segmentation) : wanted;
+    if (!edit) {
+      this.around.warn(`Not made: ${inWords(wanted, fps)} (${MISSING}).`);
+      return Promise.resolve();
+    }
     const queue = this.queue.peek();
     const name = crypto.randomUUID();
     if (made) this.whenMade.set(name, made);

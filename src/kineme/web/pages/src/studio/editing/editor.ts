@@ -6,7 +6,7 @@
  * where the playhead was then, in the table that these edits leave.
  */
 import { batch, computed, signal } from "@preact/signals";
-import type { ByHand, Edit, Level, MoveBorder, Recording, Segment } from "../../messages";
+import type { ByHand, Edit, Level, MoveBorder, Recording, Segment, Segments } from "../../messages";
 import type { Store } from "../../store";
 import * as commands from "./commands";
 import type { EditedRecording } from "./editedRecording";
@@ -38,11 +38,11 @@ export class Editor {
     this.store = session.store;
   }
 
-  /** Makes an edit that needs no playhead. */
-  edit(edit: ByHand): void {
+  /** Makes an edit that needs no playhead, of segments of `table` where edits came since. */
+  edit(edit: ByHand, table?: Segments): void {
     if (edit.kind === "move_border") this.moveBorder(edit);
     else if (edit.kind === "exclude") this.exclude(edit.frames, edit.excluded);
-    else void this.send(edit);
+    else void this.send(edit, undefined, table);
   }
 
   /** The border stays where it was dragged to until the table shows it there. */
@@ -140,8 +140,8 @@ export class Editor {
     else if (segment) this.naming.value = target;
   }
 
-  name(segment: Segment, label: string): void {
-    this.edit({ kind: "name_segment", ...commands.placeOf(segment), label });
+  name(segment: Segment, label: string, table?: Segments): void {
+    this.edit({ kind: "name_segment", ...commands.placeOf(segment), label }, table);
   }
 
   /** Gives the segment one works on a name of its own. */
@@ -244,15 +244,15 @@ export class Editor {
   }
 
   /** The selection follows the border that it starts at. */
-  private send(edit: Edit, made?: () => void): Promise<void> {
+  private send(edit: Edit, made?: () => void, table?: Segments): Promise<void> {
     const edited = this.turnOf ?? this.session.edited.peek();
-    const sent = edited?.edit(edit, () => {
+    const show = (): void => {
       made?.();
       if (edited !== this.session.edited.peek()) return;
       const at = this.store.selection.peek();
       const start = at && commands.followed(edit, at.level, at.start_frame);
       if (at && start !== null) this.store.selection.value = { ...at, start_frame: start };
-    });
-    return sent ?? Promise.resolve();
+    };
+    return edited?.edit(edit, show, table) ?? Promise.resolve();
   }
 }

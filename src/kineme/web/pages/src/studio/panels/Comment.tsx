@@ -2,17 +2,19 @@
 import type { JSX } from "preact";
 import { useDraft } from "../../layout/draft";
 import { useStudio } from "../context";
-import type { Segment } from "../../messages";
+import type { Segment, Segments } from "../../messages";
 import { placeOf } from "../editing/commands";
 
 interface Props {
   segment: Segment;
+  /** What the segment is a row of. */
+  table: Segments | undefined;
 }
 
-export function Comment({ segment }: Props): JSX.Element {
+export function Comment({ segment, table }: Props): JSX.Element {
   const { editor } = useStudio();
   const draft = useDraft(segment.comment ?? "", (now) =>
-    editor.edit({ kind: "comment", ...placeOf(segment), text: now.trim() }),
+    editor.edit({ kind: "comment", ...placeOf(segment), text: now.trim() }, table),
   );
   return (
     <label class="field">

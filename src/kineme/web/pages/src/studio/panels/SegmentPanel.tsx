@@ -24,10 +24,10 @@ export function SegmentPanel(): JSX.Element {
     return <p class="hint quiet">{hint}</p>;
   }
   const { store } = session;
-  const called = store.table.value?.cluster_names[segment.cluster] ?? "";
+  const table = store.table.value;
+  const called = table?.cluster_names[segment.cluster] ?? "";
   const label = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
-  const table = store.table.value;
   const confidence = table && confidenceOf(table).get(segment);
   return (
     <div class="segment-panel">
@@ -52,8 +52,7 @@ export function SegmentPanel(): JSX.Element {
         value={label}
         names={namesOf(session)}
         naming="segment"
-
-        onName={(label) => editor.name(segment, label)}
+        onName={(label) => editor.name(segment, label, table)}
       />
       <Checkbox
         checked={review.isChecked(segment)}
@@ -86,11 +85,10 @@ export function SegmentPanel(): JSX.Element {
           value={called}
           names={namesOf(session)}
           naming="cluster"
-
           onName={(label) => editor.edit({ kind: "name_cluster", cluster: segment.cluster, label })}
         />
       )}
-      <Comment segment={segment} />
+      <Comment segment={segment} table={table} />
       <Vocabulary />
     </div>
   );
