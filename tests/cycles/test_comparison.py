@@ -173,5 +173,5 @@ def test_what_cannot_be_compared_is_refused(walks, knees) -> None:
         compare_curves(
             knees, kineme.cycles(walks.motion, walks.truth, channels=["knee_*"], points=51)
         )
-    with pytest.raises(ParameterError, match="a mask of 16"):
+    with pytest.raises(ParameterError, match="a boolean array of length 16"):
         knees.select(np.array([1]))

@@ -217,7 +217,7 @@ def turn(motion: Motion, angle: float) -> Motion:
     True
     """
     if not is_number(angle):
-        raise ParameterError(f"angle must be a finite number (radians), not {angle!r:.60}")
+        raise ParameterError(f"angle is {angle!r:.60}: give a finite number, in radians")
     # A quaternion of half the angle about y.
     about_y = np.array([cos(angle / 2), 0.0, sin(angle / 2), 0.0])
     rotations = motion.rotations
