@@ -96,7 +96,7 @@ class Level:
 
 
 class FineLevel(NamedTuple):
-    """The finest segments of a view, and how far they are from each other.
+    """Finest segments of a view, and how far they are from each other.
 
     Attributes
     ----------
@@ -523,22 +523,20 @@ def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Sampl
     [0, 1, 0, 3]
     """
     means, lengths = means.copy(), sizes.astype(np.float64)
-    parts = np.eye(int(part_of.max()) + 1, dtype=bool)[part_of]
-    owner = np.arange(len(means))
-    alive = np.ones(len(means), dtype=bool)
+    numbers, owner = np.arange(len(means)), np.arange(len(means))
+    together = part_of[:, None] == part_of  # clusters that share a part, and each with itself
     while True:
         within = np.diag(means)
         # The energy distance: between two clusters, less the mean of what is within them.
         gaps = means - np.add.outer(within, within) / 2
-        together = parts @ parts.T
-        # Nearest cluster that was told from each: of the same part, and not itself.
-        told = np.where(together & alive & ~np.eye(len(means), dtype=bool), gaps, np.inf)
-        nearest = told.min(axis=1)
+        told_apart = np.where(together, gaps, np.inf)
+        np.fill_diagonal(told_apart, np.inf)
+        nearest = told_apart.min(axis=1)
         limits = np.minimum.outer(nearest, nearest)
         # A union costs gap / (1 / one length + 1 / other length).
         alone = price * np.add.outer(1 / lengths, 1 / lengths)
         ratios = gaps / np.maximum(np.where(np.isfinite(limits), limits, alone), TINY)
-        ratios[together | ~alive | ~alive[:, None]] = np.inf
+        ratios[together] = np.inf
         a, b = sorted(divmod(int(np.argmin(ratios)), len(ratios)))
         if not ratios[a, b] < 1:
             return owner
@@ -547,6 +545,9 @@ def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Sampl
         means[a] += share * (means[b] - means[a])
         means[:, a] += share * (means[:, b] - means[:, a])
         lengths[a] += lengths[b]
-        parts[a] |= parts[b]
-        alive[b] = False
-        owner[owner == b] = a
+        together[a] |= together[b]
+        together[:, a] = together[a]
+        owner[owner == numbers[b]] = numbers[a]
+        # What is left shrinks with each union, and so does the work.
+        numbers, lengths = np.delete(numbers, b), np.delete(lengths, b)
+        means, together = (np.delete(np.delete(m, b, 0), b, 1) for m in (means, together))
