@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 import kineme
 from growth import LINEAR, times_longer
-from kineme.formats.files import FileContent, unique
+from kineme._util.checks import unique
+from kineme.formats.files import FileContent
 from kineme.formats.skeletons.asf import read_asf
 
 N = 20_000

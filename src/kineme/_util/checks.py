@@ -193,6 +193,27 @@ def join_names(names: Sequence[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
 
 
+def unique(names: Iterable[str], *, allow_empty: bool = False) -> list[str]:
+    """Return the names, those that repeat an earlier one with a number behind them.
+
+    An empty name gets a number, too, unless it is allowed.
+
+    Examples
+    --------
+    >>> unique(["hip", "knee", "hip", ""])
+    ['hip', 'knee', 'hip_2', '_2']
+    """
+    distinct: dict[str, None] = {}
+    tried: dict[str, int] = {}  # the last number behind each name
+    for name in names:
+        new = name
+        while new in distinct or not (new or allow_empty):
+            tried[name] = tried.get(name, 1) + 1
+            new = f"{name}_{tried[name]}"
+        distinct[new] = None
+    return list(distinct)
+
+
 class Named(Protocol):
     """What a registry holds: anything with a name."""
 

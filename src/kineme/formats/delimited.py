@@ -21,7 +21,8 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.files import FileContent, numbers, unique
+from kineme._util.checks import unique
+from kineme.formats.files import FileContent, numbers
 from kineme.recordings.times import (
     append_unit,
     date_columns,

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.checks import is_text, warn
+from kineme._util.checks import is_text, unique, warn
 from kineme._util.files import atomic_write, read_head, refuse_pipe
 from kineme.errors import ReadError, WriteError
 from kineme.recordings import Motion, Note, Provenance
@@ -113,7 +113,7 @@ class FileContent:
 
 @dataclass(frozen=True)
 class FileHead(FileContent):
-    """The first bytes of a file that is too large to be loaded: its reader opens the path."""
+    """First bytes of a file that is too large to be loaded: its reader opens the path."""
 
     @cached_property
     def digest(self) -> str:
@@ -218,19 +218,6 @@ def rotations_of(motion: Motion, path: Path, what: str) -> NDArray[np.float64]:
 def format_point_name(name: str) -> str:
     """Return a point's name as tables hold it: one line, without a colon at its ends."""
     return " ".join(name.split()).strip(": ")
-
-
-def unique(names: Iterable[str]) -> list[str]:
-    """Return the names, those that repeat an earlier one with a number behind them."""
-    distinct: dict[str, None] = {}
-    tried: dict[str, int] = {}  # the last number behind each name
-    for name in names:
-        new = name
-        while not new or new in distinct:
-            tried[name] = tried.get(name, 1) + 1
-            new = f"{name}_{tried[name]}"
-        distinct[new] = None
-    return list(distinct)
 
 
 def _is_number(word: str | bytes) -> bool:

@@ -20,9 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import format_count, join_names
+from kineme._util.checks import format_count, join_names, unique
 from kineme.errors import ReadError
-from kineme.formats.files import unique
 from kineme.formats.gaps import Gaps, bridge, fill_gaps, mark_spans
 from kineme.formats.persons import chosen_person
 from kineme.formats.plausibility import doubt_rigid, drop_implausible

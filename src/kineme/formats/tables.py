@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
+from kineme._util.checks import unique
 from kineme.formats.channels.parquet import parquet_channels, parquet_columns, parquet_file
 from kineme.formats.channels.reading import (
     choose_channels,
@@ -28,7 +29,7 @@ from kineme.formats.channels.writing import write_signals
 from kineme.formats.columns import columns_to_motion, is_used
 from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, make_unique_names
 from kineme.formats.dialects import find_table, hold_channels, recognise_table
-from kineme.formats.files import FileContent, format_point_name, save, spell_names, unique
+from kineme.formats.files import FileContent, format_point_name, save, spell_names
 from kineme.formats.gaps import unseen
 from kineme.formats.keypoints.poses import holds_poses, parse_poses, poses_to_motion
 from kineme.formats.label_tables import refuse_labels

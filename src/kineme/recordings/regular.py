@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats, Ints, Masks
-from kineme._util.checks import format_count
+from kineme._util.checks import format_count, join_names
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import spans_of
 from kineme.recordings.clock import Clock, tells_dates
@@ -348,9 +348,11 @@ def doubt_channels(found: Resampled, fps: float, names: Sequence[str]) -> list[N
             clipped.append(name)
     remarks = []
     if frozen:
-        remarks.append(f"channels that do not change for a while: {_list(frozen)}")
+        remarks.append(f"channels that do not change for a while: {join_names(frozen, most=4)}")
     if clipped:
-        remarks.append(f"channels that are cut off at their largest values: {_list(clipped)}")
+        remarks.append(
+            f"channels that are cut off at their largest values: {join_names(clipped, most=4)}"
+        )
     return [Note(remark, "warning") for remark in remarks]
 
 
@@ -375,10 +377,6 @@ def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
         if often and far and np.median(entries[cut]) >= coarse:
             return len(np.unique(track)) >= _LEVELS
     return False
-
-
-def _list(parts: list[str]) -> str:
-    return ", ".join(parts[:4]) + (f" and {len(parts) - 4} more" if len(parts) > 4 else "")
 
 
 def _describe_filled(count: int) -> str:

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._util.arrays import Floats
-from kineme._util.checks import as_floats, check_type, is_number, join_names, warn
+from kineme._util.arrays import Floats, interpolate_frames
+from kineme._util.checks import as_floats, check_type, is_number, join_names, unique, warn
 from kineme.errors import ParameterError
-from kineme.recordings.arrays import as_rate
+from kineme.recordings.arrays import as_rate, spans_of
 from kineme.recordings.channel_names import is_channel_name
 from kineme.recordings.clock import Clock
 from kineme.recordings.provenance import Note, Provenance
@@ -149,22 +149,28 @@ def _samples_of_xarray(data: Any) -> _Samples:
         raise ParameterError("there is no variable of numbers along a dimension such as time")
     names, values = zip(*columns, strict=True)
     times = data.coords[along].values if along == "time" and along in data.coords else None
-    return _Samples(np.column_stack(values).astype(np.float64), _each_once(names), times)
+    return _Samples(
+        np.column_stack(values).astype(np.float64), tuple(unique(names, allow_empty=True)), times
+    )
 
 
 def _columns(array: Any, along: Any) -> Iterator[tuple[str, Any]]:
-    """Yield names and values of the columns of a data array."""
+    """Yield the name and values of each column of a data array, none if it is not numeric.
+
+    ``along`` is the time dimension. A name is that of the array and the labels of the column.
+    """
     if array.dtype.kind not in "iufb":
         return
     others = [dim for dim in array.dims if dim != along]
     values = array.transpose(along, *others).values
-    called = [] if array.name is None else [str(array.name)]
+    prefix = [] if array.name is None else [str(array.name)]
     labels = [
         array.coords[d].values if d in array.coords else range(array.sizes[d]) for d in others
     ]
-    for place in np.ndindex(*values.shape[1:]):
-        parts = [str(label[i]) for label, i in zip(labels, place, strict=True)]
-        yield "_".join([*called, *parts]) or "1", values[(slice(None), *place)]
+    for index in np.ndindex(*values.shape[1:]):
+        parts = [str(label[i]) for label, i in zip(labels, index, strict=True)]
+        # A single column without any name is called "1".
+        yield "_".join([*prefix, *parts]) or "1", values[(slice(None), *index)]
 
 
 def _samples_of_frame(frame: Any) -> _Samples:
@@ -186,7 +192,8 @@ def _samples_of_frame(frame: Any) -> _Samples:
     if left:
         notes.append(f"columns that are no channels: {', '.join(left)}")
     values = np.column_stack([_numbers(columns[i]) for i in chosen])
-    found = _Samples(values, _each_once(called[i] for i in chosen), notes=notes)
+    channels = tuple(unique((called[i] for i in chosen), allow_empty=True))
+    found = _Samples(values, channels, notes=notes)
     index: Any = getattr(frame, "index", None)
     kind = getattr(getattr(index, "dtype", None), "kind", "O")
     named = isinstance(getattr(index, "name", None), str) and is_time(index.name)
@@ -209,18 +216,6 @@ def _numbers(column: Any) -> Floats:
         return np.asarray(column, np.float64)
     except (ValueError, TypeError):
         return np.asarray(column.to_numpy(dtype=np.float64, na_value=np.nan))
-
-
-def _each_once(names: Any) -> tuple[str, ...]:
-    """Return names, those that repeat an earlier one with a number behind them."""
-    found: dict[str, None] = {}
-    for name in names:
-        new, number = name, 1
-        while new in found:
-            number += 1
-            new = f"{name}_{number}"
-        found[new] = None
-    return tuple(found)
 
 
 def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> Signals:
@@ -281,7 +276,7 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
     for clock, each in zip(clocks, signals, strict=True):
         seconds = clock.second(times)
         at = np.clip(seconds * each.fps, 0, each.n_frames - 1)
-        columns.append(_values_at(each.values, at))
+        columns.append(interpolate_frames(each.values, at))
         hidden = np.zeros(each.n_frames + 1, np.bool_)
         for begin, stop in each.gaps:
             hidden[begin:stop] = True
@@ -292,14 +287,8 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
     notes = [*(note for each in signals for note in each.provenance.notes), *notes]
     joined = Provenance(source.path, source.format, source.sha256).noted(*dict.fromkeys(notes))
     begun = Clock([0.0], [start]) if abs(start) > 0.5 / fps else None
-    edges = np.flatnonzero(np.diff(missing, prepend=False, append=False)).reshape(-1, 2)
-    gaps = [(begin, stop) for begin, stop in edges.tolist()]
+    gaps = [(begin, stop) for begin, stop in spans_of(missing).tolist()]
     return Signals(np.concatenate(columns, axis=1), fps, names, gaps, joined.timed(begun))
-
-
-def _values_at(values: Floats, at: Floats) -> Floats:
-    grid = np.arange(len(values), dtype=np.float64)
-    return np.stack([np.interp(at, grid, channel) for channel in values.T], axis=1)
 
 
 def _clocks_in_common(
@@ -336,8 +325,9 @@ def _names_in_common(signals: Sequence[Signals]) -> tuple[str, ...]:
     stems = [Path(each.provenance.path or str(k)).stem for k, each in enumerate(signals, 1)]
     if len(set(stems)) < len(stems):
         stems = [str(k) for k in range(1, len(signals) + 1)]
-    return _each_once(
+    names = (
         f"{stem}_{name}" if every.count(name) > 1 else name
         for stem, each in zip(stems, signals, strict=True)
         for name in each.names
     )
+    return tuple(unique(names, allow_empty=True))

@@ -18,9 +18,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from kineme._util.arrays import Array
+from kineme._util.checks import unique
 from kineme.formats.arrays.amass import poses_to_motion, rate_in
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import FileContent, unique
+from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.recordings import Motion, Skeleton

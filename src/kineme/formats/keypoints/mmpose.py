@@ -19,7 +19,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from kineme.formats.files import FileContent, unique
+from kineme._util.checks import unique
+from kineme.formats.files import FileContent
 from kineme.formats.keypoints.coco import LAYOUTS, LIMIT
 from kineme.formats.keypoints.video import Person, Video, video_to_motion
 from kineme.formats.options import ReadOptions

@@ -22,9 +22,10 @@ from __future__ import annotations
 
 import re
 
+from kineme._util.checks import unique
 from kineme.errors import ReadError
 from kineme.formats.channels.reading import ChannelTable, asked_for, columns_read, to_signals
-from kineme.formats.files import FileContent, unique
+from kineme.formats.files import FileContent
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion

@@ -25,8 +25,9 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
+from kineme._util.checks import unique
 from kineme._util.rotations import matrices, quaternions
-from kineme.formats.files import MOST_EXPANSION, FileContent, unique
+from kineme.formats.files import MOST_EXPANSION, FileContent
 from kineme.formats.scenes.characters import SceneNode, carriers
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks, metres

@@ -15,8 +15,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from kineme._util.checks import join_names
-from kineme.formats.files import FileContent, unique
+from kineme._util.checks import join_names, unique
+from kineme.formats.files import FileContent
 from kineme.formats.persons import chosen_person
 from kineme.recordings import Note
 

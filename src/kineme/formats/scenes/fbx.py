@@ -17,8 +17,9 @@ from __future__ import annotations
 import numpy as np
 
 from kineme._util.arrays import Floats
+from kineme._util.checks import unique
 from kineme._util.rotations import quaternions
-from kineme.formats.files import FileContent, unique
+from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames

@@ -19,7 +19,8 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme.formats.files import FileContent, unique
+from kineme._util.checks import unique
+from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import (

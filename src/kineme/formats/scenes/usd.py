@@ -26,11 +26,11 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme._util.checks import require_extra
+from kineme._util.checks import require_extra, unique
 from kineme._util.files import translate_read_errors
 from kineme._util.rotations import quaternions
 from kineme.errors import KinemeError, ReadError
-from kineme.formats.files import FileContent, load, unique
+from kineme.formats.files import FileContent, load
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import (

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import require_extra
+from kineme._util.checks import require_extra, unique
 from kineme._util.files import atomic_write
 from kineme.errors import WriteError
-from kineme.formats.files import rotations_of, spell_names, unique
+from kineme.formats.files import rotations_of, spell_names
 from kineme.formats.gaps import warn_of_gaps
 from kineme.formats.scenes.assembly import compose
 from kineme.recordings import Motion
