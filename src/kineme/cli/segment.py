@@ -90,12 +90,9 @@ def segment(
     def work(path: Path, options: ReadOptions, _: None, *targets: Path | None) -> None:
         check_writable(*targets)
         with batch.progress(path) as stage:
-            if joined:
-                stage("reading")
-                recording: Motion | Signals = _read_joined(joined, options)
-                result = load_or_find_segments(recording, None, segment_options, stage)
-            else:
-                recording, result = read_and_segment(path, options, None, segment_options, stage)
+            stage("reading")
+            recording = _read_joined(joined, options) if joined else read(path, **vars(options))
+            result = load_or_find_segments(recording, None, segment_options, stage)
             write_results(result, recording, segment_options, *targets)
         print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
