@@ -27,7 +27,7 @@ from kineme._util.files import AnyPath, atomic_write, hold, is_held, refuse_link
 from kineme._util.parallel import announce, check_cancelled, find_user_cache
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_file
-from kineme.formats.files import load, load_head
+from kineme.formats.files import FileContent, load, load_head
 from kineme.formats.keypoints.poses import (
     NOBODY,
     POSES,
@@ -88,8 +88,18 @@ def estimate_poses(
     PosixPath('squats.mp4.poses.parquet')
     """
     check_path(video, "estimate_poses")
-    path = Path(video)
-    digest = load_head(path).digest
+    return keep_poses(load_head(Path(video)), target, estimator=estimator, model=model)
+
+
+def keep_poses(
+    content: FileContent,
+    target: AnyPath | None = None,
+    *,
+    estimator: str | None = None,
+    model: AnyPath | None = None,
+) -> Path:
+    """Return the table of `estimate_poses` for a video of which the first bytes are loaded."""
+    path, digest = content.path, content.digest
     beside = _place(path, digest)
     place = beside if target is None else Path(target)
     asked: dict[str, object] = {"sha256": digest}

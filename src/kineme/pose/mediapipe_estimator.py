@@ -117,13 +117,14 @@ def _running(model: Any, find: Estimate) -> Iterator[Estimate]:
             model.close()
 
 
-def _pose(picture: Picture, image: Any, world: Any) -> Pose:
+def _pose(picture: Picture, image_landmarks: Any, world_landmarks: Any) -> Pose:
+    """Return a pose: image points in pixels, visibilities, world points in metres, y up."""
     height, width = picture.shape[:2]
     return Pose(
-        np.array([(each.x * width, each.y * height) for each in image]),
-        np.array([each.visibility for each in image]),
+        np.array([(each.x * width, each.y * height) for each in image_landmarks]),
+        np.array([each.visibility for each in image_landmarks]),
         # World landmarks have y down and z away from the camera.
-        np.array([(each.x, -each.y, -each.z) for each in world]),
+        np.array([(each.x, -each.y, -each.z) for each in world_landmarks]),
     )
 
 

@@ -6,7 +6,7 @@ from kineme.formats.files import FileContent
 from kineme.formats.keypoints.poses import poses_to_motion, read_poses
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.pose.estimating import estimate_poses
+from kineme.pose.estimating import keep_poses
 from kineme.recordings import Motion
 
 _BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free")
@@ -15,7 +15,7 @@ _EBML = b"\x1a\x45\xdf\xa3"  # Matroska and WebM
 
 def read_video(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of one person in a video; its poses are estimated unless that is done."""
-    poses = read_poses(estimate_poses(content.path))
+    poses = read_poses(keep_poses(content))
     return poses_to_motion(content, poses, options)
 
 
