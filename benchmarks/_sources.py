@@ -200,7 +200,7 @@ def judged_session(found: Segmentation, parts: list[Exercise]) -> Judged:
 
 
 def counted(found: Segmentation, start: float, stop: float) -> int:
-    """The most repetitions of one cluster between two frames of the recording."""
+    """Return the largest number of repetitions of one cluster between two frames."""
     rows = found_units(found)
     middles = (rows.start_frame + rows.stop_frame) / 2
     margin = TAGGED_S * found.fps

@@ -1,4 +1,4 @@
-"""The rig that a skeleton came from: the nodes of its file as they are at rest.
+"""Rig that a skeleton came from: the nodes of its file as they are at rest.
 
 A `Skeleton` says where joints are in metres with y up. A `Rig` keeps what a writer needs to put
 the file's own nodes back: those above the hips, and the rotation and scale that each has at rest.

@@ -78,7 +78,7 @@ def _write(
 
 
 def _read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDArray[Any]]:
-    """The arrays of the knowledge base at ``path``, whose features must have these settings."""
+    """Return the arrays of the knowledge base at ``path``; ReadError for other settings."""
     if not Path(path).exists():
         raise ReadError(path, "cannot be read: there is no such file")
     content = load(path)

@@ -68,7 +68,7 @@ def found_by_search(
 
 
 def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmentation:
-    """The recording cut into what was found: labelled activities and primitives."""
+    """Return the recording cut into what was found: labelled activities and primitives."""
     frames_per_sample = segmentation.fps / FPS
     primitives: list[Row] = []
     for match in found:
