@@ -16,9 +16,7 @@ LEAST = 0.02
 def times_longer(work: Callable[[int], object], n: int) -> float:
     """How many times the processor time for n is that for an eighth of it."""
 
-    def spent(
-        n: int,
-    ) -> float:  # without the garbage collector, which walks the whole suite's objects
+    def spent(n: int) -> float:  # `repeat` stops the garbage collector, which walks all that lives
         return min(repeat(lambda: work(n), timer=process_time, repeat=2, number=1))
 
     return spent(n) / max(spent(n // PARTS), LEAST)
