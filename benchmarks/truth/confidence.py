@@ -28,6 +28,7 @@ from scipy.optimize import linear_sum_assignment
 from scipy.special import expit
 from scipy.stats import rankdata
 
+import kineme
 from _figures import add_option, record
 from _options import DATA, command_line, few, needed
 from _recordings import (
@@ -41,6 +42,7 @@ from _recordings import (
     synthetic,
 )
 from _sources import NEAR_S, session_recordings
+from kineme.evaluation.recordings import recordings_below
 from kineme.methods.base import Columns
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.segmenter import segment_and_found
@@ -54,9 +56,11 @@ Numbers = tuple[float, float]
 PREFERRED = "seconds preferred"
 """Logarithm of the seconds of an activity times how much it prefers its own cluster; of a border
 the lesser of both sides."""
+SHARPNESS = "sharpness"
+"""Logarithm of how much more the recording changes at a border than nearby."""
 STATISTICS = {
     "link": (PREFERRED,),
-    "border": (PREFERRED,),
+    "border": (SHARPNESS, PREFERRED),
     "count": ("correlation", "evenness"),
     "cut": ("correlation",),
 }
@@ -182,6 +186,16 @@ def sensors(name: str, most: int, every: int) -> Known:
             yield signals, truth_of_labels(tables["labels"][stem], tables["events"][stem], stop)
 
 
+def continuous(name: str, every: int) -> Known:
+    """Recordings of several activities without a cut between them."""
+    folder = needed(name)
+    labels = by_recording(folder / "labels.csv")
+    paths = [path for path in recordings_below(folder) if path.stem in labels]
+    for path in paths[:: few(every, 4)]:
+        motion = kineme.read(path)
+        yield motion, truth_of_labels(labels[path.stem], [], motion.n_frames / motion.fps)
+
+
 def truth_of_labels(labels: list[Any], events: list[Any], stop: float) -> Truth:
     actions = [(float(row["start_s"]), float(row["stop_s"]), row["label"]) for row in labels]
     borders = [(one[1], other[0]) for one, other in pairwise(actions) if one[2] != other[2]]
@@ -201,9 +215,13 @@ KNOWN: Mapping[str, Callable[[int], Known]] = {
     "hapt": partial(sensors, "hapt", 20),
     "hugadb": partial(sensors, "hugadb", 60),
     "UI-PRMD": ui_prmd,
+    "swimming": partial(sensors, "swimming", 20),
+    "tug": partial(continuous, "bodies/tug"),
+    "takes": partial(continuous, "rigs/takes"),
     "synthetic": synthetic_all,
     "utkinect": partial(sensors, "utkinect", 20),
     "ipolgait": partial(sensors, "ipolgait", 60),
+    "mocap6": partial(continuous, "mocap6"),
     "subject 86": lambda _: cases(iter(subject_86())),
     "barbell": partial(sensors, "barbell", 40),
 }
@@ -274,13 +292,13 @@ def judge(source: str, recording: Motion | Signals, truth: Truth, near_s: float)
     segments = in_seconds(found.columns(), found.preset.working_fps)
     shown = found.evidence
     preferred, repeated = shown.preferred[:, None], shown.repeated[:, None]
-    of_links = preferred
-    of_borders = np.minimum(preferred, np.roll(preferred, 1))
+    lesser = np.fmin(shown.preferred, np.roll(shown.preferred, 1))
+    of_borders = np.column_stack([shown.sharpness, lesser])
     of_counts = np.column_stack([repeated, segments.evenness])
     of_counts[segments.counts < 2] = np.nan  # of one there is nothing to count
     of_cuts = repeated[shown.parents]
     judged = (
-        ("link", of_links, right_links(truth, segments)),
+        ("link", preferred, right_links(truth, segments)),
         ("border", of_borders, right_borders(truth, segments, near_s)),
         ("count", of_counts, right_counts(truth, segments)),
         ("cut", of_cuts, right_cuts(truth, segments)),

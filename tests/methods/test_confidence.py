@@ -8,11 +8,17 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial.distance import cdist
 
 import kineme
 from kineme.datasets import random_recording
 from kineme.methods.doubts import doubts
-from kineme.methods.kineme.confidence import mean_correlation, probability
+from kineme.methods.kineme.confidence import (
+    compute_changes,
+    compute_sharpness,
+    mean_correlation,
+    probability,
+)
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
 from loops import swing
@@ -61,6 +67,25 @@ def test_more_similar_repetitions_are_surer(count: int, noise: float, seed: int)
     shaken = rng.standard_normal((count, 16, 6))
     clear, less = (mean_correlation(shape + more * shaken) for more in (noise, noise + 3))
     assert less <= clear
+
+
+@given(st.integers(2, 30), st.integers(1, 8), st.integers(0, 99))
+def test_changes_are_energy_distances(n: int, side: int, seed: int) -> None:
+    view = np.random.default_rng(seed).standard_normal((n, 3)).astype(np.float32)
+    at = np.arange(1, n)
+    plain = []
+    for middle in at:
+        before, after = view[max(middle - side, 0) : middle], view[middle : middle + side]
+        within = cdist(before, before).mean() + cdist(after, after).mean()
+        plain.append(cdist(before, after).mean() - within / 2)
+    np.testing.assert_allclose(compute_changes(view, at, side), plain, atol=1e-9)
+
+
+def test_a_border_at_a_step_is_surer_than_one_in_a_slow_change() -> None:
+    at = np.array([30])
+    step = np.repeat(np.float32([0, 1]), 30)[:, None]
+    slope = np.linspace(0, 1, 60, dtype=np.float32)[:, None]
+    assert compute_sharpness(step, at, 10) > 2 * compute_sharpness(slope, at, 10)
 
 
 # --- the columns ------------------------------------------------------------------------------

@@ -219,8 +219,8 @@ class KinemeConstants(Preset):
         fine=True, default=(1.676, 1.044),
     )  # fmt: skip
     border_weights: tuple[float, float] = constant(
-        "confidence of a border by the same of the side with fewer", limits=WEIGHT, fine=True,
-        default=(1.666, 0.563),
+        "confidence of a border by how much more changes there than nearby", limits=WEIGHT,
+        fine=True, default=(-0.798, 5.271),
     )  # fmt: skip
     count_weights: tuple[float, float] = constant(
         "confidence of a count by how much repetitions correlate", limits=WEIGHT, fine=True,

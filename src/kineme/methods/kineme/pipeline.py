@@ -138,7 +138,7 @@ def _analyze(
         with stage("events"):
             segments = find_events(poses, segments, preset)
     with stage("confidence"):
-        statistics = evidence(poses, segments, preset)
+        statistics = evidence(poses, features, segments, preset)
     return KinemeFound(features, preset, unit, segments, statistics, fine, timings)
 
 
