@@ -252,6 +252,12 @@ RESULTS = (
         {"actions": "actions", "clusters": "clusters", "one_to_one": "one to one"},
     ),
     FigureTable(
+        "series",
+        "Time series that are no movement",
+        {"tssb": "TSSB, 38 series", "utsa": "UTSA, 16 series"},
+        {"covering": "covering", "ami": "AMI of states"},
+    ),
+    FigureTable(
         "loops",
         "Loops",
         {"": "recordings used in development", "others": "other recordings"},

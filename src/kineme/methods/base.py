@@ -33,6 +33,7 @@ from kineme.methods.constants import (
 
 if TYPE_CHECKING:
     from kineme.methods.stages import Progress
+    from kineme.recordings import Signals
 
 Columns = dict[str, NDArray[Any]]
 Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -170,6 +171,10 @@ class Preset(ABC):
     def signal_unit(self, features: NDArray[np.float64]) -> float:  # noqa: ARG002
         """Return how many standard deviations one unit of length is in these features."""
         return 1.0
+
+    def rate_of(self, signals: Signals) -> float:
+        """Return how many samples of signals count as a second: those that were taken in one."""
+        return signals.fps
 
     def at_most(self, fps: float) -> Self:  # noqa: ARG002 (most methods ask for no less)
         """Return the preset for a recording of that rate, which is the highest working rate."""

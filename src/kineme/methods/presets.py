@@ -1,8 +1,8 @@
 """Presets there are: ours, and those that other packages register.
 
 ``kineme`` is the default, and stands for ``sensors``, the same method with other
-constants, where it is given signals; ``voegele2014`` and ``krueger2017`` are the
-published methods.
+constants, where it is given signals; ``series`` is that at the pace of the signals;
+``voegele2014`` and ``krueger2017`` are the published methods.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ PRESETS: Registry[Preset] = Registry(
     builtins=(
         "kineme.preset:KINEME",
         "kineme.preset:SENSORS",
+        "kineme.series:SERIES",
         "region_growing.preset:VOEGELE2014",
         "region_growing.preset:KRUEGER2017",
     ),

@@ -195,7 +195,12 @@ def segment_with_options(
         progress("features")
     given = options.features
     seen = recording if given is None else wrap_features(recording, given, options.feature_fps)
-    chosen = options.resolved(signals=isinstance(seen, Signals)).at_most(seen.fps)
+    chosen = options.resolved(signals=isinstance(seen, Signals))
+    rate = seen.fps
+    if isinstance(seen, Signals):
+        seen = replace(seen, fps=chosen.rate_of(seen))
+    pace = seen.fps / rate  # seconds that count as one
+    chosen = chosen.at_most(seen.fps)
     if isinstance(seen, Signals):
         n_frames, n_channels = seen.values.shape
         if n_channels > max(n_frames, FEW_CHANNELS):
@@ -215,13 +220,15 @@ def segment_with_options(
     else:
         view = prepare_motion(seen, chosen, options.effectors)
     if given is not None:
-        view = rescale_spans(view, recording, seen.fps)
+        view = rescale_spans(view, recording, rate)
+    if pace != 1:
+        view = replace(view, notes=[*view.notes, f"{pace:.4g} s count as a second"])
     timings = {"features": time.perf_counter() - start}
     facts = {"joints": True} if view.joints else {}
     found = chosen.analyze(
         np.concatenate(view.features), mirror=view.mirror, progress=progress, **facts
     )
-    segmentation = _make_segmentation(recording, chosen, view, found, timings, details)
+    segmentation = _make_segmentation(recording, chosen, view, found, timings, pace, details)
     if options.detail != DEFAULT_DETAIL:
         segmentation = segmentation.at_detail(options.detail)
     return segmentation, found
@@ -279,6 +286,7 @@ def _make_segmentation(
     view: Prepared,
     found: Found,
     timings: dict[str, float],
+    pace: float,
     details: tuple[float, ...] | None,
 ) -> Segmentation:
     """Return what was found, in frames of the recording, with where it came from."""
@@ -286,7 +294,8 @@ def _make_segmentation(
 
     def placed(columns: Columns) -> Columns:
         near = AT_GAP * preset.working_fps
-        return convert_to_frames(columns, view.spans, n_frames, fps / preset.working_fps, near=near)
+        frames = fps * pace / preset.working_fps
+        return convert_to_frames(columns, view.spans, n_frames, frames, near=near)
 
     samples = found.columns()
     columns = placed(samples)

@@ -1,0 +1,75 @@
+"""Time series of any kind, whose own pace is its clock: the preset ``series``.
+
+The method's constants are seconds of a moving body. A series of another kind has another pace, and
+often no seconds at all. So the rate is set by two scales of the series itself, its dominant period
+and its length, whose geometric mean a second becomes: the first tells how long a pattern is, the
+second how long an activity is that somebody would look for in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from kineme._util.arrays import Floats
+from kineme.methods.kineme.preset import OF_SENSORS, KinemePreset
+from kineme.recordings import Signals
+
+PERIOD = 0.4
+"""Seconds that the dominant period lasts, as far as it decides."""
+LENGTH = 30.0
+"""Seconds that the series lasts, as far as its length decides."""
+SHORTEST = 10
+"""Samples of the shortest period: what is shorter is noise."""
+CYCLES = 4
+"""Times that a period fits into the series, at least."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeriesPreset(KinemePreset):
+    """The method for signals at the pace of the signals."""
+
+    def rate_of(self, signals: Signals) -> float:
+        """Return how many samples count as a second."""
+        of_length = max(signals.n_frames / LENGTH, 1.0)
+        period = estimate_period(signals.values)
+        return sqrt(period / PERIOD * of_length) if period else of_length
+
+
+def estimate_period(values: Floats) -> int | None:
+    """Return the dominant period of a series: the shift at which it is most like itself.
+
+    Parameters
+    ----------
+    values : (samples, channels) array
+
+    Returns
+    -------
+    int or None
+        Samples of the highest local maximum of the autocorrelation, summed over the channels;
+        None where there is none.
+
+    Examples
+    --------
+    >>> estimate_period(np.sin(np.arange(600) * 2 * np.pi / 25)[:, None])
+    25
+    """
+    n = len(values)
+    centred = np.nan_to_num(values - np.nanmean(values, axis=0))
+    centred /= np.maximum(centred.std(axis=0), 1e-12)
+    # By the Fourier transform of twice the length, where nothing wraps around.
+    spectrum = np.abs(np.fft.rfft(centred, 2 * n, axis=0)) ** 2
+    correlation = np.fft.irfft(spectrum.sum(axis=1))[: n // CYCLES]
+    inner = correlation[1:-1]
+    peaks = 1 + np.flatnonzero((inner > correlation[:-2]) & (inner >= correlation[2:]))
+    peaks = peaks[peaks >= SHORTEST]
+    return int(peaks[correlation[peaks].argmax()]) if len(peaks) else None
+
+
+SERIES = SeriesPreset(
+    name="series",
+    help="The same at the pace of the series: for time series that are no movement.",
+    **OF_SENSORS,
+)
