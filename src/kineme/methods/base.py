@@ -33,7 +33,6 @@ from kineme.methods.constants import (
 
 if TYPE_CHECKING:
     from kineme.methods.stages import Progress
-    from kineme.recordings import Signals
 
 Columns = dict[str, NDArray[Any]]
 Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -172,9 +171,9 @@ class Preset(ABC):
         """Return how many standard deviations one unit of length is in these features."""
         return 1.0
 
-    def rate_of(self, signals: Signals) -> float:
-        """Return how many samples of signals count as a second: those that were taken in one."""
-        return signals.fps
+    def rate_of(self, values: NDArray[np.float64], fps: float) -> float:  # noqa: ARG002
+        """Return how many samples (samples, channels) count as a second: those taken in one."""
+        return fps
 
     def at_most(self, fps: float) -> Self:  # noqa: ARG002 (most methods ask for no less)
         """Return the preset for a recording of that rate, which is the highest working rate."""

@@ -198,7 +198,7 @@ def segment_with_options(
     chosen = options.resolved(signals=isinstance(seen, Signals))
     rate = seen.fps
     if isinstance(seen, Signals):
-        seen = replace(seen, fps=chosen.rate_of(seen))
+        seen = replace(seen, fps=chosen.rate_of(seen.values, seen.fps))
     pace = seen.fps / rate  # seconds that count as one
     chosen = chosen.at_most(seen.fps)
     if isinstance(seen, Signals):

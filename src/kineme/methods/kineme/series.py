@@ -15,7 +15,6 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme.methods.kineme.preset import OF_SENSORS, KinemePreset
-from kineme.recordings import Signals
 
 PERIOD = 0.4
 """Seconds that the dominant period lasts, as far as it decides."""
@@ -31,10 +30,10 @@ CYCLES = 4
 class SeriesPreset(KinemePreset):
     """The method for signals at the pace of the signals."""
 
-    def rate_of(self, signals: Signals) -> float:
-        """Return how many samples count as a second."""
-        of_length = max(signals.n_frames / LENGTH, 1.0)
-        period = estimate_period(signals.values)
+    def rate_of(self, values: Floats, fps: float) -> float:  # noqa: ARG002
+        """Return how many samples (samples, channels) count as a second, whatever their rate."""
+        of_length = max(len(values) / LENGTH, 1.0)
+        period = estimate_period(values)
         return sqrt(period / PERIOD * of_length) if period else of_length
 
 
