@@ -216,11 +216,11 @@ class KinemeConstants(Preset):
     # Confidence: a constant, and the weight of a statistic.
     link_weights: tuple[float, float] = constant(
         "confidence of a cluster by the seconds for which an activity prefers it", limits=WEIGHT,
-        fine=True, default=(1.676, 1.044),
+        fine=True, default=(1.441, 1.041),
     )  # fmt: skip
     border_weights: tuple[float, float] = constant(
         "confidence of a border by how much more changes there than nearby", limits=WEIGHT,
-        fine=True, default=(-0.798, 5.271),
+        fine=True, default=(-0.288, 4.554),
     )  # fmt: skip
     count_weights: tuple[float, float] = constant(
         "confidence of a count by how much repetitions correlate", limits=WEIGHT, fine=True,
@@ -228,7 +228,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     cut_weights: tuple[float, float] = constant(
         "confidence of a border between repetitions by the same", limits=WEIGHT, fine=True,
-        default=(-0.6217, 2.034),
+        default=(-0.443, 1.882),
     )  # fmt: skip
 
     def __post_init__(self) -> None:
