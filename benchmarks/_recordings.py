@@ -16,7 +16,8 @@ import numpy as np
 
 import kineme
 from _options import DATA, few, needed
-from kineme.datasets import ACTIONS, Action, Exercise, join_exercises, synthesize
+from _sequences import Exercise, join_exercises
+from kineme.datasets import ACTIONS, Action, synthesize
 from kineme.evaluation import Truth, labelling_of
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation

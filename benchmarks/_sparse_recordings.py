@@ -18,7 +18,7 @@ from scipy.optimize import linear_sum_assignment
 
 from _options import few
 from _recordings import ACTORS, exercises, subject_86
-from kineme.datasets.sequences import join_recordings
+from _sequences import join_recordings
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut
 from kineme.segments.segmentation import Segmentation

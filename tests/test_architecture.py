@@ -94,11 +94,11 @@ ROOMS = {
     ),
     "datasets": Room(
         "recordings with known truth, the bundled one among them; CMU's, fetched",
-        "formats labels recordings segments",
+        "formats recordings segments",
     ),
     "evaluation": Room(
         "scores of any result against any truth, and of methods over a folder",
-        "datasets features formats labels methods recordings segments transfer",
+        "datasets formats labels methods recordings segments transfer",
     ),
     "web": Room(
         "sources of the pages, the built pages, and what they are told",

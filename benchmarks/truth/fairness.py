@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 
 import kineme
+import kineme_reproduction.benchmark  # noqa: F401 (the scores of the papers)
 from _figures import add_option, record
 from _options import command_line, needed
 from _recordings import CONDITIONS, Case, hdm05, subject_86, synthetic

@@ -5,7 +5,7 @@ ACA, HACA and GMM are told the true number of classes, as in all published compa
 HACA the lengths of segments that their authors chose per trial (Zhou et al., their program).
 
 Published accuracies ship as ``published.json``, trial by trial, each with its source: facts to
-compare with. How they were computed is told in `kineme.evaluation.published`, as far as it is
+compare with. How they were computed is told in `kineme_reproduction.protocols`, as far as it is
 known: ACA's and HACA's do not follow from their published cuts. These exist for all fourteen
 trials and need no recording: `score_published_cuts` measures them with the same functions and
 puts the published accuracies beside.
@@ -30,14 +30,19 @@ from kineme._util.json import load_json
 from kineme.errors import ReadError
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.frames import one_to_one_accuracy
-from kineme.evaluation.published import strict_and_tolerant
 from kineme.evaluation.recordings import check_method, segment_by
-from kineme.evaluation.score import evaluate_segmentation
+from kineme.evaluation.score import evaluate_segmentation, register
 from kineme.evaluation.truth import TRANSITION, Labelling, Truth
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
 from kineme.segments.segmentation import Segmentation
+from kineme_reproduction import protocols, variance
+from kineme_reproduction.protocols import strict_and_tolerant
 from kineme_reproduction.trials import Trial, read_truths
+
+# From here on every evaluation tells the scores of the papers, too.
+for each in (*variance.SCORES, *protocols.SCORES):
+    register(each, replace=True)
 
 Scores = dict[str, float]
 Method = Callable[[Trial], Segmentation]

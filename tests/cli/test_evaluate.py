@@ -74,7 +74,7 @@ def test_the_truth_against_itself_is_perfect(kineme, tmp_path):
     ran = kineme("evaluate", bundled_truth(), "--against", bundled_truth(), "-o", "out.csv")
     assert ran.returncode == 0, ran.stderr
     (row,) = scores(tmp_path / "out.csv")
-    for name in ("tolerant", "one_to_one_agreed", "rand_index", "border_f1"):
+    for name in ("one_to_one", "one_to_one_agreed", "rand_index", "border_f1"):
         assert float(row[name]) == pytest.approx(1.0), name
 
 
@@ -94,7 +94,6 @@ def test_a_found_table_against_own_intervals_with_counts(kineme, table, tmp_path
     (row,) = scores(tmp_path / "out.csv")
     assert float(row["border_f1"]) > 0.5
     assert "count_error" in row
-    assert float(row["cloud_distance"]) > 0  # the table names its recording, which is there
     assert "counted exactly" in ran.stdout
 
 
@@ -114,7 +113,6 @@ def test_one_label_per_frame_on_both_sides(kineme, tmp_path):
     (row,) = scores(tmp_path / "out.csv")
     assert float(row["one_to_one"]) == pytest.approx(0.95)
     assert float(row["border_f1"]) == 0.0  # half a second is too far
-    assert "--recording" in ran.stdout
 
 
 def test_a_plain_table_of_intervals_is_a_result_too(kineme, tmp_path):
@@ -151,7 +149,7 @@ def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
     assert ran.returncode == 0, ran.stderr
     assert ran.stdout == ""
     row = scores(tmp_path / "out.csv")[0]
-    assert float(row["strict"]) > 0.9
+    assert float(row["border_f1"]) > 0.5
     wrong = kineme("evaluate", "found.json", "--against", annotations, "--trial", "86_01")
     assert wrong.returncode == 1
     assert "speaks of 38.17 s, the result of 47.30 s" in wrong.stderr

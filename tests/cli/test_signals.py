@@ -110,7 +110,6 @@ def test_a_result_of_signals_is_scored_against_labels(kineme, tmp_path, phone) -
     assert kineme("segment", phone, "-q", "-o", "cuts.csv").returncode == 0
     done = kineme("evaluate", "cuts.csv", "--against", "truth.csv", "-o", "scores.json")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "no distances within clusters: the recording has no joints" in done.stdout
     (scores,) = json.loads((tmp_path / "scores.json").read_text())["scores"]
     assert scores["one_to_one"] > 0.9
 

@@ -21,10 +21,10 @@ from kineme.datasets import (
     random_recording,
     synthesize,
 )
-from kineme.datasets.make_bundled import make_bundled
 from kineme.errors import ParameterError
 from kineme.features import pose_features, stack
 from kineme.recordings import Motion
+from make_bundled import make_bundled
 
 FPS = 60.0
 EXERCISES = [name for name in ACTIONS if name != "stand"]

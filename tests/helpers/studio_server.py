@@ -64,6 +64,8 @@ class StudioServer:
         """The end without warning, as of ``kill -9``, if it has not ended yet."""
         if self.process.poll() is None:
             self.end(signal.SIGKILL)
+        for pipe in (self.process.stdout, self.process.stderr):
+            pipe.close()
 
     def end(self, how: int = signal.SIGINT) -> tuple[int, str, str]:
         """End it; exit code and what else it said."""

@@ -1,10 +1,13 @@
-"""Nothing that was done to a table is lost: versions, undo after a restart, edits made once."""
+"""Nothing that was done to a table is lost: versions, undo after a restart, edits made once.
+
+Restarts are a second studio on the same folder, which reads what the first one wrote;
+`test_durability` kills processes.
+"""
 
 from __future__ import annotations
 
 import json
 import random
-import signal
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -45,13 +48,12 @@ def test_a_preview_changes_nothing_and_says_what_would_become_of_the_corrections
     assert 50 in kineme.read_segments(studio.table).cuts("activity")
 
 
-def test_every_table_that_was_replaced_can_be_looked_at_and_restored(start) -> None:
-    studio = start()
+def test_every_table_that_was_replaced_can_be_looked_at_and_restored(make_studio) -> None:
+    studio = make_studio()
     before = named(studio)
     anew = {"preset": "voegele2014", "parameters": {}, "keep": False}
     studio.done(before["revision"], "segment", **anew)
-    studio.end(signal.SIGKILL)
-    again = start()
+    again = make_studio()
     versions = again.get(f"/api/recordings/{again.id}/versions").json()["versions"]
     assert [(v["edit"]["kind"], v["names"]) for v in versions] == [("name_segment", 1)]
     address = f"/api/recordings/{again.id}/versions/{versions[0]['number']}"
@@ -65,8 +67,8 @@ def test_every_table_that_was_replaced_can_be_looked_at_and_restored(start) -> N
     assert again.edit(state["revision"], "restore", version=999).status_code == 400
 
 
-def test_undo_and_redo_outlive_the_server(start) -> None:
-    studio = start()
+def test_undo_and_redo_outlive_the_server(make_studio) -> None:
+    studio = make_studio()
     tables = [studio.recording()["segmentation"]["segments"]]
     revision = 1
     for frame in (50, 70, 90):
@@ -74,8 +76,7 @@ def test_undo_and_redo_outlive_the_server(start) -> None:
         revision = state["revision"]
         tables.append(state["segmentation"]["segments"])
     studio.done(revision, "undo")
-    studio.end(signal.SIGKILL)
-    again = start()
+    again = make_studio()
     message = again.recording()
     assert (message["can_undo"], message["can_redo"]) == (True, True)
     assert message["revision"] == revision + 1
@@ -97,8 +98,8 @@ def test_what_was_taken_back_and_cannot_be_redone_is_kept(studio) -> None:
     assert table["segmentation"] == before["segmentation"]
 
 
-def test_an_edit_that_is_sent_twice_is_made_once(start) -> None:
-    studio = start()
+def test_an_edit_that_is_sent_twice_is_made_once(make_studio) -> None:
+    studio = make_studio()
     sent = {
         "revision": studio.recording()["revision"],
         "edit": {"kind": "split", "level": "activity", "frame": 50},
@@ -108,8 +109,7 @@ def test_an_edit_that_is_sent_twice_is_made_once(start) -> None:
     first = studio.client.post(address, json=sent).json()
     assert studio.client.post(address, json=sent).json()["revision"] == first["revision"]
     table = studio.recording()["segmentation"]
-    studio.end(signal.SIGKILL)
-    again = start()
+    again = make_studio()
     assert again.client.post(address, json=sent).json()["segmentation"] == table
 
 
@@ -190,16 +190,15 @@ def test_a_folder_that_leads_elsewhere_is_not_written_to(studio, folder: Path, t
     assert not studio.table.exists()
 
 
-def test_random_edits_undone_and_redone_give_the_same_tables(start) -> None:
+def test_random_edits_undone_and_redone_give_the_same_tables(make_studio) -> None:
     """A robot of requests; its sister in tests/browser uses the page."""
     chance = random.Random(2)
-    studio = start()
+    studio = make_studio()
     message = studio.recording()
     past, present, revision = [], message["segmentation"], message["revision"]
     for _ in range(25):
         if chance.random() < 0.1:
-            studio.end(signal.SIGKILL)
-            studio = start()
+            studio = make_studio()
             assert studio.recording()["segmentation"] == present
         kind = chance.choice(["split", "move_border", "name_segment", "segment", "undo", "merge"])
         answer = _random_edit(studio, revision, kind, present, chance)
@@ -238,9 +237,3 @@ def _random_edit(
         "undo": {},
     }
     return studio.edit(revision, kind, **rest[kind])
-
-
-@pytest.mark.parametrize("damaged", [b'{"a":' * 100_000, b"[", b"null", b""])
-def test_a_damaged_history_is_an_empty_one(tmp_path: Path, damaged: bytes) -> None:
-    (tmp_path / journal.HISTORY).write_bytes(damaged)
-    assert journal.read_record(tmp_path)[0] == journal.Record()

@@ -379,6 +379,8 @@ def test_a_segmentation_that_is_cancelled_ends_within_its_stage(studio, monkeypa
 def test_a_newer_preview_ends_the_one_before(studio, monkeypatch):
     studio.recording()
     there, wanted = held_at(monkeypatch, "features")
+    ended, cancel = threading.Event(), Run.cancel
+    monkeypatch.setattr(Run, "cancel", lambda run: cancel(run) or ended.set())
     address = f"/api/recordings/{studio.id}/preview"
     asked = {"preset": "kineme", "parameters": {"segment_cost": 0.9 * COST}, "keep": True}
     with ThreadPoolExecutor() as pool:
@@ -386,7 +388,7 @@ def test_a_newer_preview_ends_the_one_before(studio, monkeypatch):
         assert there.wait(60)
         newer = {**asked, "parameters": {"segment_cost": 0.8 * COST}}
         second = pool.submit(studio.client.post, address, json=newer)
-        time.sleep(0.5)
+        assert ended.wait(60)
         wanted.set()
         assert (first.result().status_code, second.result().status_code) == (400, 200)
 

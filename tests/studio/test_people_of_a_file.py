@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -127,33 +126,6 @@ def test_the_side_file_of_people_is_read_once_for_a_list(duet: Studio, monkeypat
     assert len(read) == 1
 
 
-@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
-@pytest.mark.parametrize("said", ["Bob", ""])
-def test_the_table_of_an_older_studio_stays_that_persons(duet: Studio, said: str) -> None:
-    """It knew one person of a file, and who that was."""
-    whose = said or "Anna"
-    older = kineme.segment(kineme.read(duet.path, person=whose))
-    bare = {name: each for name, each in older.provenance["input"].items() if name != "person"}
-    content = json.loads(_saved(older, duet.folder / "duet.segments.json"))
-    content["provenance"]["input"] = bare
-    content["segments"][0]["label"] = "older"
-    (duet.folder / "duet.segments.json").write_text(json.dumps(content))
-    if said:
-        (duet.folder / ".kineme").mkdir()
-        side = duet.folder / ".kineme" / "duet.trc.reading.json"
-        side.write_text(json.dumps({"person": said}))
-    assert labels(duet) == {"older"}
-    assert (duet.recording()["person"], duet.recording()["saved"]) == (whose, "duet.segments.json")
-    choose(duet, everybody=True)
-    same, other = of(duet, whose), of(duet, {"Bob": "Anna", "Anna": "Bob"}[whose])
-    assert same.id == duet.id
-    assert (labels(same), labels(other)) == ({"older"}, set())
-    other.done(other.recording()["revision"], "name_segment", **NAME, label="newer")
-    assert same.recording()["saved"] == "duet.segments.json"
-    assert other.recording()["saved"] == f"duet_{other.recording()['person']}.segments.json"
-    assert not any("left alone" in each for each in other.recording()["warnings"])
-
-
 def test_the_command_line_takes_the_table_of_a_person(duet: Studio) -> None:
     choose(duet, everybody=True)
     for person in ("Anna", "Bob"):
@@ -208,11 +180,6 @@ def test_everybody_can_be_asked_for_at_the_start(duet: Studio) -> None:
     done = CliRunner().invoke(app, asked)
     assert done.exit_code == 1
     assert "--person all is for files" in done.stderr
-
-
-def _saved(table: kineme.Segmentation, path: Path) -> str:
-    kineme.write_segments(table, path)
-    return path.read_text()
 
 
 def test_names_that_files_cannot_hold() -> None:

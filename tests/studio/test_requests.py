@@ -6,7 +6,6 @@ import asyncio
 import copy
 import json
 import math
-import os
 import shutil
 import threading
 import zipfile
@@ -73,16 +72,6 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
     assert state["default_preset"] == state["presets"][0]["name"]
     assert {".bvh", ".c3d", ".npz"} <= set(state["suffixes"])
     assert conforms(messages.State, state)
-
-
-def test_names_that_are_not_unicode_are_listed(studio, folder: Path) -> None:
-    try:
-        shutil.copy(folder / "take.bvh", folder / os.fsdecode(b"G\xe4nge.bvh"))
-    except OSError:
-        pytest.skip("this file system takes Unicode names only")
-    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
-    assert set(files) == {"G?nge.bvh", "take.bvh"}
-    assert studio.get(f"/api/recordings/{files['G?nge.bvh']}").json()["name"] == "G?nge.bvh"
 
 
 def test_what_the_pages_address_names_is_opened_ahead(studio, monkeypatch) -> None:
@@ -359,7 +348,7 @@ NAMES = ["take.bvh", "other.bvh"]
 
 def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None:
     shutil.copy(folder / "take.bvh", folder / "other.bvh")
-    both = threading.Barrier(2, timeout=20)
+    both = threading.Barrier(2, timeout=300)
 
     def read_together(path: Path, _: object) -> str:
         both.wait()

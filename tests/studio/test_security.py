@@ -41,7 +41,7 @@ def address(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[str, int]]:
     opened.close()
 
 
-@pytest.mark.parametrize("begun", [b"", b"GET / HT", HEAD, HEAD + b"X: " + b"a" * 200])
+@pytest.mark.parametrize("begun", [b"", HEAD + b"X: " + b"a" * 200])
 @pytest.mark.parametrize("second", [False, True])
 def test_a_half_sent_request_is_given_up(address, begun: bytes, second: bool) -> None:
     if second and not begun:

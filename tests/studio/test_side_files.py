@@ -9,16 +9,13 @@ import pytest
 
 DEEP = b"[" * 100_000
 SIDE_FILES = {
-    "labels.json": [DEEP, b'["walk", 3]', b"{}", b"[", b"\xff"],
+    "labels.json": [DEEP, b'["walk", 3]', b"\xff"],
     "take.bvh.video.json": [
-        DEEP,
         b'{"offset_s": 1' + b"0" * 400 + b"}",
         b'{"offset_s": NaN}',
-        b'{"offset_s": "x"}',
-        b"[]",
     ],
-    "take.bvh.reading.json": [DEEP, b'{"fps": []}', b'{"fps": -1}', b'{"colour": 1}', b"3"],
-    "take.segments/history.json": [DEEP, b"[]", b'{"kept": [7]}', b'{"revision": 1e999}'],
+    "take.bvh.reading.json": [b'{"fps": -1}', b'{"colour": 1}'],
+    "take.segments/history.json": [b'{"kept": [7]}', b'{"revision": 1e999}'],
 }
 DAMAGED = [(name, content) for name, contents in SIDE_FILES.items() for content in contents]
 

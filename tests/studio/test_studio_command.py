@@ -50,5 +50,5 @@ def test_pages_from_their_sources_may_ask_where_it_is_allowed(start) -> None:
     studio = start("--dev", "--port", str(port))
     assert studio.address == f"{DEVELOPMENT}/"
     headers = {"x-kineme-token": studio.token, "origin": DEVELOPMENT}
-    answer = httpx.get(f"http://127.0.0.1:{port}/api/state", headers=headers)
+    answer = httpx.get(f"http://127.0.0.1:{port}/api/state", headers=headers, timeout=300)
     assert answer.status_code == 200

@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.published import strict_and_tolerant
 from kineme.evaluation.tables import format_score, markdown, score_rows
 from kineme.evaluation.truth import Labelling
 from kineme_reproduction.benchmark import (
@@ -19,6 +18,7 @@ from kineme_reproduction.benchmark import (
     score_published_cuts,
 )
 from kineme_reproduction.figures.reoccurrence import Recording, share_of_poses
+from kineme_reproduction.protocols import strict_and_tolerant
 from kineme_reproduction.trials import FPS, Trial
 
 UNIFORM_FRAMES = (36, 15, 5)

@@ -22,7 +22,6 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from kineme.evaluation.variance import ClusterVariance, feature_variance, point_cloud_variance
 from kineme_reproduction.benchmark import PublishedCuts, Result, published
 from kineme_reproduction.figures.segments import classes_of, units
 from kineme_reproduction.figures.style import (
@@ -35,6 +34,7 @@ from kineme_reproduction.figures.style import (
     save,
     tidy,
 )
+from kineme_reproduction.variance import ClusterVariance, feature_variance, point_cloud_variance
 
 METHODS = ("kineme", "voegele2014", "krueger2017", "aca", "haca")
 """Whose clusters are shown."""

@@ -2,18 +2,15 @@
 
 from kineme.datasets.actions import ACTIONS
 from kineme.datasets.bundled import bundled_recording, bundled_truth
-from kineme.datasets.sequences import Exercise, join_exercises
 from kineme.datasets.synthetic import SyntheticRecording, random_recording, synthesize
 from kineme.datasets.timeline import Action
 
 __all__ = [
     "ACTIONS",
     "Action",
-    "Exercise",
     "SyntheticRecording",
     "bundled_recording",
     "bundled_truth",
-    "join_exercises",
     "random_recording",
     "synthesize",
 ]

@@ -1,7 +1,7 @@
 """Recording that comes with the package.
 
 A synthetic figure walks, squats, circles its arms, jumps, runs and kicks; its
-true segments lie beside it. ``kineme.datasets.make_bundled`` made both.
+true segments lie beside it. ``tests/helpers/make_bundled.py`` made both.
 """
 
 from __future__ import annotations

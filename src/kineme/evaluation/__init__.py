@@ -28,7 +28,6 @@ from kineme.evaluation.frames import (
     one_to_one_accuracy,
     rand_index,
 )
-from kineme.evaluation.published import majority_accuracy, strict_and_tolerant
 from kineme.evaluation.score import (
     Ratio,
     Score,
@@ -39,18 +38,11 @@ from kineme.evaluation.score import (
 )
 from kineme.evaluation.segments import count_errors, edit_score, overlap_f1
 from kineme.evaluation.truth import TRANSITION, Labelling, Truth
-from kineme.evaluation.variance import (
-    ClusterVariance,
-    feature_variance,
-    overall,
-    point_cloud_variance,
-)
 
 __all__ = [
     "TRANSITION",
     "AnnotatorAgreement",
     "BorderScore",
-    "ClusterVariance",
     "Comparison",
     "Labelling",
     "Ratio",
@@ -69,18 +61,13 @@ __all__ = [
     "edit_score",
     "evaluate",
     "evaluate_segmentation",
-    "feature_variance",
     "fleiss_kappa",
     "frames_right",
     "labelling_of",
-    "majority_accuracy",
     "mutual_information",
     "one_to_one_accuracy",
-    "overall",
     "overlap_f1",
-    "point_cloud_variance",
     "rand_index",
     "register",
     "scores",
-    "strict_and_tolerant",
 ]

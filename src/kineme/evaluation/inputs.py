@@ -11,7 +11,6 @@ import warnings
 from dataclasses import replace
 from math import floor, isfinite
 from pathlib import Path
-from typing import Any
 
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, runs
@@ -21,7 +20,6 @@ from kineme.evaluation.score import comparison_of, results_of, value_of
 from kineme.evaluation.truth import UNLABELLED, Truth, check_length
 from kineme.labels.files import read_content
 from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
-from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 
 FPS = 30.0
@@ -128,31 +126,6 @@ def comparison(found: Segmentation) -> tuple[int, float]:
     return floor((found.n_frames - 1) * rate / found.fps + 1e-9) + 1, rate
 
 
-def score(truth: Truth, found: Segmentation, motion: Motion | None = None) -> dict[str, float]:
-    """Every score, of a truth at the rate of comparison; variances, too, with the recording."""
-    data: dict[str, Any] = {}
-    if motion is not None:
-        from kineme.methods.prepare import compute_motion_features
-        from kineme.methods.region_growing.preset import VOEGELE2014
-        from kineme.recordings.operations import resample
-
-        preset = VOEGELE2014.replace(working_fps=truth.fps)
-        data["positions"] = resample(motion, truth.fps).positions
-        data["features"] = compute_motion_features(motion, preset)
-        if len(data["positions"]) != truth.frames:
-            raise ParameterError(
-                f"the recording has {len(data['positions'])} frames at {truth.fps:g} Hz, "
-                f"the result {truth.frames}"
-            )
-    return _scores(comparison_of(truth, found, **data))
-
-
-def recording_of(found: Segmentation) -> Path | None:
-    """Return the file a segmentation was made from, if it is still there and unchanged."""
-    from kineme.formats.files import load
-
-    source = found.provenance.get("input") or {}
-    path = Path(source.get("path") or "")
-    if not path.is_file():
-        return None
-    return path if load(path).digest == source.get("sha256") else None
+def score(truth: Truth, found: Segmentation) -> dict[str, float]:
+    """Return every score, of a truth at the rate of comparison."""
+    return _scores(comparison_of(truth, found))

@@ -95,13 +95,7 @@ SCORES: Registry[Score] = Registry(
     "score",
     "kineme.scores",
     home="kineme.evaluation",
-    builtins=(
-        "frames:SCORES",
-        "segments:SCORES",
-        "borders:SCORES",
-        "variance:SCORES",
-        "published:SCORES",
-    ),
+    builtins=("frames:SCORES", "segments:SCORES", "borders:SCORES"),
 )
 """In the order in which they are shown."""
 
@@ -170,14 +164,10 @@ def evaluate(
 ) -> dict[str, float]:
     """Return all scores by name, in reading order; best is 1 unless the name says otherwise.
 
-    Scores of frames and clusters read ``clusters``; those of borders, and ``strict`` and
-    ``tolerant``, read ``activities``; repetitions and variances read ``primitives``. Names that
-    end in ``ratio`` are found over true. ``count_error``, ``count_exact`` appear where the truth
-    knows counts, ``repetition_f1`` where it has repetitions, ``cloud_distance``,
-    ``cloud_variance`` (metres) with positions, ``feature_distance``, ``feature_variance`` with
-    features: smaller is better, 0 is best, ``count_exact`` and ``repetition_f1`` apart.
-    ``length_mean`` and
-    ``length_variance`` (seconds) describe the clusters and tell nothing of quality.
+    Scores of frames and clusters read ``clusters``; those of borders read ``activities``, those
+    of repetitions ``primitives``. Names that end in ``ratio`` are found over true. ``count_error``
+    and ``count_exact`` appear where the truth knows counts, ``repetition_f1`` where it has
+    repetitions; of these ``count_error`` is best at 0.
 
     Parameters
     ----------
@@ -208,8 +198,8 @@ def evaluate(
     >>> truth = Truth(("walk", "run"), [40], [50], [60], frames=100, fps=30)
     >>> found = Labelling.from_cuts([48], ["0", "1"], frames=100, fps=30)
     >>> result = evaluate(truth, found)
-    >>> result["border_f1"], round(result["strict"], 2)
-    (1.0, 0.79)
+    >>> result["border_f1"], round(result["one_to_one"], 2)
+    (1.0, 0.8)
     """
     compared = Comparison.of(
         truth,

@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import fields, replace
 
 from kineme._util.checks import format_count
-from kineme.errors import KinemeError, SeveralPeopleError
+from kineme.errors import SeveralPeopleError
 from kineme.formats import ReadOptions
 from kineme.studio.folder import Folder
 from kineme.studio.reading import RecordingCache
 from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import keep_reading, options_of, read_options, reading_of
-from kineme.studio.storage.tables import usual_table
 
 
 class Reader:
@@ -23,11 +22,11 @@ class Reader:
     def check_person(self, listed: ListedRecording) -> None:
         """Raise SeveralPeopleError if the file holds several people and none was selected.
 
-        Markers are read without being told; but which are whose people should know. Where a table
-        of them has been saved, or a library was made of them, it is that person.
+        Markers are read without being told; but which are whose people should know. A library was
+        made of one of them.
         """
         person = listed.person or read_options(listed, self._cache.read_options).person
-        if person or self._folder.of_library or usual_table(listed):
+        if person or self._folder.of_library:
             return
         people = self._cache.read(listed).provenance.people
         if len(people) > 1:
@@ -67,15 +66,6 @@ class Reader:
             return choice, known, ""
         if len(people) < 2:
             return choice, (), ""
-        first = options_of(listed.path).person if listed.person else self._first_person(listed)
+        first = options_of(listed.path).person if listed.person else None
         kept = known if {*people} <= {*known} and not everybody else people
         return replace(choice, person=first), kept, found.person or ""
-
-    def _first_person(self, listed: ListedRecording) -> str | None:
-        """Return whose the table of a file is, if one was saved before people were told apart."""
-        if usual_table(listed) is None:
-            return None
-        try:
-            return self._cache.read(listed).provenance.person
-        except KinemeError:
-            return None

@@ -24,32 +24,6 @@ def one_to_one(wanted, given):
     return best / len(wanted)
 
 
-def strict_tolerant(truth, found):
-    """The paper's accuracy with closed spans, one interval at a time."""
-    last = truth.frames - 1
-    intervals, start = [], 0
-    for earliest, latest in zip(truth.earliest, truth.latest):
-        intervals += [(start, earliest, True), (earliest, latest, False)]
-        start = latest
-    intervals.append((start, last, True))
-    owned = [[] for _ in intervals]
-    for a, b in zip(found.borders[:-1], found.borders[1:]):
-        b = min(b, last)
-        shares = [max(0, min(b, e) - max(a, s) + 1) / (b - a + 1) for s, e, _ in intervals]
-        owned[shares.index(max(shares))].append((a, b))
-    covered = lengths = covered_certain = lengths_certain = 0
-    for (s, e, certain), own in zip(intervals, owned):
-        inside = 0
-        if own:
-            inside = max(0, min(e, max(b for _, b in own)) - max(s, min(a for a, _ in own)) + 1)
-        covered += inside
-        lengths += e - s + 1
-        if certain:
-            covered_certain += inside
-            lengths_certain += e - s + 1
-    return covered / lengths, covered_certain / lengths_certain
-
-
 def warped_cost(cost, step):
     """Dynamic time warping by its recursion."""
     total = np.full((cost.shape[0] + 1, cost.shape[1] + 1), np.inf)

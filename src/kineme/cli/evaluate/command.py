@@ -86,14 +86,6 @@ def evaluate(
     constants: Constants = None,
     as_json: Annotated[bool, option(OUTPUT, "Print JSON in place of tables.", "--json")] = False,
     fps: Annotated[float | None, option(RESULT, "Frames per second of .txt files.")] = None,
-    recording: Annotated[
-        Path | None,
-        option(
-            RESULT,
-            "The recording, to tell how alike the segments of a cluster are; by default the "
-            "one that the segment table names.",
-        ),
-    ] = None,
     method: Annotated[
         list[str] | None,
         option(
@@ -181,7 +173,7 @@ def evaluate(
             from kineme.cli.evaluate.result import score_file
 
             silent = quiet or as_json
-            records = score_file(Path(what), against, fps, recording, trial, quiet=silent)
+            records = score_file(Path(what), against, fps, trial, quiet=silent)
         else:
             if against is not None:
                 raise typer.BadParameter(f"{BENCHMARK} brings its own truth: leave out --against")

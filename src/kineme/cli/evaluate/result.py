@@ -5,22 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import typer
-
 from kineme.cli.tables import show_scores
-from kineme.errors import KinemeError, ReadError
+from kineme.errors import ReadError
 from kineme.evaluation.annotations import is_annotations, read_trial
-from kineme.evaluation.inputs import comparison, read_result, read_truth, recording_of, score
-from kineme.formats import read, read_motion
-from kineme.recordings import Motion
-from kineme.segments.segmentation import Segmentation
+from kineme.evaluation.inputs import comparison, read_result, read_truth, score
 
 
 def score_file(
     path: Path,
     labels: Path,
     fps: float | None,
-    recording: Path | None,
     trials: list[str] | None,
     *,
     quiet: bool,
@@ -38,26 +32,7 @@ def score_file(
             )
     else:
         truth = read_truth(labels, found, fps=fps)
-    motion, why = (read_motion(recording), "") if recording else _motion_of(found)
-    scores = score(truth, found, motion)
+    scores = score(truth, found)
     if not quiet:
         show_scores(path.name, {"score": scores})
-        if why:
-            typer.echo(f"There are no distances within clusters: {why}")
     return [{"result": path.name, "truth": labels.name, **scores}]
-
-
-def _motion_of(found: Segmentation) -> tuple[Motion | None, str]:
-    """Return the motion that a result names, or why there is none that its scores could use."""
-    source = recording_of(found)
-    if source is None:
-        return None, "the recording is not at hand (--recording FILE)"
-    try:
-        motion = read(source, fps=found.fps)
-    except KinemeError as error:
-        return None, str(error)
-    if not isinstance(motion, Motion):
-        return None, "the recording has no joints"
-    if motion.n_frames != found.n_frames:
-        return None, f"the result has {found.n_frames} frames, {source.name} {motion.n_frames}"
-    return motion, ""

@@ -30,7 +30,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
 from kineme.features.filters import filter_low
@@ -42,6 +41,7 @@ from kineme.formats.keypoints.video import MOST_FRAMES_MORE, Person, Video, vide
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 from kineme.recordings.arrays import spans_of
+from kineme.recordings.regular import place_rows
 
 KEY = b"kineme.poses"
 """Of the metadata."""
@@ -106,7 +106,7 @@ def write_poses(path: Path, head: Head, rows: Rows) -> None:
         **head,
         "depth": bool(np.isfinite(found["metres"]).any()),
         "frames": len(times),
-        "fps": _rate(times),
+        "fps": round(place_rows(times).fps, 3) if len(times) > 1 else 1.0,
         "duration": float(times[-1] - times[0]),
     }
     for column, (field, k, axis) in _columns(told).items():
@@ -193,15 +193,6 @@ def _columns(head: Head) -> dict[str, tuple[str, int, int | None]]:
             columns |= {f"{name}_{axis}": ("metres", k, i) for i, axis in enumerate("xyz")}
         columns[f"{name}_confidence"] = ("confidence", k, None)
     return columns
-
-
-def _rate(times: Floats) -> float:
-    """Return the frames a second of ordinary steps; lost frames count for none."""
-    if len(times) < 2:
-        return 1.0
-    steps = np.diff(times)
-    ordinary = steps[np.abs(steps - np.median(steps)) <= 0.5 * np.median(steps)]
-    return round(1 / float(ordinary.mean()), 3)
 
 
 def _smooth(motion: Motion) -> Motion:

@@ -1,4 +1,4 @@
-"""Makes the bundled recording anew: ``python -m kineme.datasets.make_bundled``."""
+"""Make the bundled recording anew: ``python tests/helpers/make_bundled.py``."""
 
 from __future__ import annotations
 

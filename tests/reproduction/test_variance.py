@@ -16,12 +16,10 @@ from kineme.evaluation import (
     Labelling,
     Truth,
     evaluate,
-    feature_variance,
-    overall,
-    point_cloud_variance,
 )
 from kineme.features._warping_kernels import cheapest_path
 from kineme.features.point_clouds import cloud_distances
+from kineme_reproduction.variance import feature_variance, overall, point_cloud_variance
 
 
 @given(
@@ -62,12 +60,10 @@ def test_place_and_facing_do_not_matter_but_height_does(walk):
 
 
 def test_the_closed_form_is_the_least_over_all_turns(walk):
-    found = cloud_distances(walk, slice(3, 6), slice(20, 24), half=1)
-    for i in range(3):
-        for j in range(4):
-            assert found[i, j] == pytest.approx(
-                naive.cloud_distance(walk, 3 + i, 20 + j, half=1), abs=1e-3
-            )
+    found = cloud_distances(walk, slice(3, 5), slice(20, 22), half=1)
+    for i, j in ((0, 1), (1, 0)):
+        least = naive.cloud_distance(walk, 3 + i, 20 + j, half=1)
+        assert found[i, j] == pytest.approx(least, abs=1e-3)
 
 
 def test_equal_segments_have_no_variance_and_transitions_are_left_out(walk):

@@ -9,7 +9,7 @@ first one ended. What differs then is made up on both sides. Over the join every
 the one to the other along the sphere while both movements go on: no frame is lost, and nobody
 stops.
 
-The truth is a segmentation like any other (see ``synthetic``). Between two
+The truth is a segmentation like any other. Between two
 repetitions of one action the border is the join's middle; between two actions
 the join is a transition.
 """
@@ -27,7 +27,6 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.datasets.timeline import Row, segments_of
-from kineme.errors import ParameterError
 from kineme.recordings import Motion, Provenance
 from kineme.recordings.kinematics import local_translations
 from kineme.recordings.operations import move, turn
@@ -42,7 +41,6 @@ def join_recordings(
     Motions need one skeleton, one frame rate, and rotations. A join is blended over ``join``
     seconds, at most a third of the shorter motion.
     """
-    check_fit(motions)
     fps = motions[0].fps
     placed = [motions[0]]
     for motion in motions[1:]:
@@ -65,20 +63,6 @@ def join_recordings(
         translations=np.concatenate(translations),
     )
     return motion, np.cumsum([0, *map(len, rotations)]), halves
-
-
-def check_fit(motions: Sequence[Motion]) -> None:
-    """ParameterError where the skeletons, frame rates or rotations of motions do not fit."""
-    first = motions[0]
-    for motion in motions:
-        same = motion.skeleton.names == first.skeleton.names and np.allclose(
-            motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3
-        )
-        if not same or motion.fps != first.fps or motion.rotations is None:
-            raise ParameterError(
-                "exercises are joined if they have one skeleton, one frame rate and rotations; "
-                f"{motion.provenance.path or 'one of them'} does not fit the first"
-            )
 
 
 def _placed_after(before: Motion, motion: Motion) -> Motion:
@@ -129,22 +113,11 @@ class Exercise:
         With rotations.
     repetitions : int, optional
         How often it holds the exercise.
-
-    Examples
-    --------
-    >>> from kineme.datasets import Action, Exercise, synthesize
-    >>> motion = synthesize([Action("squat", 2)], fps=30).motion
-    >>> Exercise("squat", motion, repetitions=2).name
-    'squat'
     """
 
     name: str
     motion: Motion
     repetitions: int = 1
-
-    def __post_init__(self) -> None:
-        if self.repetitions < 1:
-            raise ParameterError(f"repetitions must be at least 1, not {self.repetitions}")
 
 
 def join_exercises(parts: Sequence[Exercise], *, join: float = 0.4) -> SyntheticRecording:
@@ -156,19 +129,6 @@ def join_exercises(parts: Sequence[Exercise], *, join: float = 0.4) -> Synthetic
         Of one skeleton and one frame rate, two at least; neighbours of one name are one activity.
     join : float, optional
         Seconds over which a join is blended; at most a third of the shorter exercise.
-
-    Raises
-    ------
-    ParameterError
-        Exercises that do not fit together, or one without rotations.
-
-    Examples
-    --------
-    >>> from kineme.datasets import Action, Exercise, join_exercises, synthesize
-    >>> motions = {name: synthesize([Action(name, 1)], fps=30).motion for name in ("squat", "jump")}
-    >>> parts = [Exercise(name, motion) for name, motion in motions.items()]
-    >>> join_exercises(parts).truth.activities.label.tolist()
-    ['squat', '', 'jump']
     """
     motion, starts, halves = join_recordings([part.motion for part in parts], join)
     provenance = Provenance(format="sequence").noted(f"{len(parts)} exercises joined")

@@ -25,13 +25,11 @@ from kineme.evaluation import (
     border_score,
     covering,
     cut_ratio,
-    evaluate,
-    majority_accuracy,
     one_to_one_accuracy,
-    strict_and_tolerant,
 )
 from kineme.evaluation.annotations import read_trials
 from kineme_reproduction.benchmark import published
+from kineme_reproduction.protocols import majority_accuracy, strict_and_tolerant
 
 of = Comparison.of
 
@@ -72,51 +70,6 @@ def test_uniform_cuts_pass_every_method_under_the_papers_protocol(truths, step, 
         strict_and_tolerant(of(truths[trial], uniform(truths[trial], step))) for trial in TRIALS
     ]
     assert np.mean(scores, axis=0) == pytest.approx((strict, tolerant), abs=6e-4)
-
-
-@pytest.mark.parametrize(
-    ("method", "strict", "tolerant"), [("aca", 0.880, 0.964), ("haca", 0.881, 0.964)]
-)
-def test_published_cuts_of_aca_and_haca_over_fourteen_trials(
-    truths, stored, method, strict, tolerant
-):
-    scores = [
-        strict_and_tolerant(of(truth, from_one(stored[f"{method}_cuts_30hz"][trial], truth.frames)))
-        for trial, truth in truths.items()
-    ]
-    assert len(scores) == 14
-    assert np.mean(scores, axis=0) == pytest.approx((strict, tolerant), abs=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("method", "everywhere", "agreed"), [("aca", 0.843, 0.954), ("haca", 0.850, 0.962)]
-)
-def test_published_clusters_of_aca_and_haca_one_to_one(truths, stored, method, everywhere, agreed):
-    scores = []
-    for trial, truth in truths.items():
-        cuts, numbers = (stored[f"{method}_{kind}"][trial] for kind in ("cuts_30hz", "cluster_ids"))
-        if len(numbers) == len(cuts) + 1:  # HACA's of three trials do not fit, as published
-            scores.append(right(truth, from_one(cuts, truth.frames, numbers)))
-    assert np.mean(scores, axis=0) == pytest.approx((everywhere, agreed), abs=5e-3)
-
-
-@pytest.mark.parametrize(
-    ("method", "one_to_one", "agreed", "f1", "covered", "cuts"),
-    [("aca", 0.872, 0.964, 0.66, 0.88, 0.97), ("haca", 0.870, 0.962, 0.69, 0.88, 0.97)],
-)
-def test_fair_scores_of_our_runs_of_aca_and_haca(
-    data_dir, truths, method, one_to_one, agreed, f1, covered, cuts
-):
-    rows = []
-    for trial in TRIALS:
-        run = reference(data_dir, "aca_haca", trial)["runs"][0][method]
-        truth = truths[trial]
-        scores = evaluate(truth, from_one(run["cuts_30hz"], truth.frames, run["clusters"]))
-        names = ("one_to_one", "one_to_one_agreed", "border_f1", "covering", "cut_ratio")
-        rows.append([scores[name] for name in names])
-    means = np.mean(rows, axis=0)
-    assert means[:2] == pytest.approx((one_to_one, agreed), abs=1.5e-3)
-    assert means[2:] == pytest.approx((f1, covered, cuts), abs=5e-3)
 
 
 @pytest.mark.parametrize(
