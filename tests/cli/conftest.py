@@ -35,7 +35,7 @@ def kineme_in() -> Kineme:
             encoding="utf-8",
             cwd=folder,
             env={**os.environ, "COLUMNS": "120", "NO_COLOR": "1", **environment},
-            timeout=120,
+            timeout=600,
             check=False,
         )
 

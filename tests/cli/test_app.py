@@ -176,7 +176,7 @@ def test_constants_given_one_by_one_make_the_preset(preset: Preset) -> None:
     assert set(values) == {known.name for known in preset.constants()}
 
 
-@pytest.mark.parametrize("command", ["segment", "cycles", "graph", "library build"])
+@pytest.mark.parametrize("command", ["segment", "library build"])
 @pytest.mark.parametrize(
     ("given", "told"),
     [
@@ -219,44 +219,6 @@ def test_a_constant_as_an_option_is_told_how_it_is_set(kineme, given, told) -> N
     done = kineme("segment", "x.bvh", *given)
     assert done.returncode == 2
     assert told in done.stderr
-
-
-THIRD_PARTY = """
-from dataclasses import dataclass
-
-from kineme.methods import Preset, constant, register
-from kineme_reproduction.baselines.presets import UniformPreset
-
-
-@dataclass(frozen=True, kw_only=True)
-class Toy(UniformPreset):
-    method = "toy"
-    averaging: int = constant("whatever a toy averages over", unit="samples", default=7)
-    level: int = constant("called as an option of the command", default=1)
-
-
-register(Toy(name="toy", help="Cuts as a toy does.", interval=2.0))
-
-from kineme.cli import main
-
-main()
-"""
-
-
-def test_the_preset_of_another_package_is_one_like_any_other(tmp_path: Path) -> None:
-    def toy(*arguments: object) -> str:
-        given = [sys.executable, "-c", THIRD_PARTY, *map(str, arguments)]
-        done = subprocess.run(given, capture_output=True, text=True, check=True, cwd=tmp_path)
-        return done.stdout
-
-    assert "uniform, toy;" in " ".join(toy("segment", "--help").replace("│", "").split())
-    assert "toy          Cuts as a toy does." in toy("presets")
-    assert "averaging\t7\tsamples\t\t7\t\twhatever a toy averages over" in toy("presets", "toy")
-    given = "--preset", "toy", "--set", "averaging=9", "--set", "level=3", "--json"
-    data = json.loads(toy("segment", bundled_recording(), *given))
-    parameters = data["provenance"]["parameters"]
-    assert (parameters["averaging"], parameters["interval"], parameters["level"]) == (9, 2.0, 3)
-    assert len(data["segments"]) == 25
 
 
 def typed(value: object) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import subprocess
 import sys
 import tracemalloc
@@ -133,17 +132,6 @@ def test_several_files_are_told_at_once_how_they_are_named(kineme, target: str, 
     assert named in done.stderr.replace("\\", "/")
 
 
-def test_warnings_are_short_lines(kineme_process, tmp_path: Path) -> None:
-    text = bundled_recording().read_text().replace("Frames: 2898", "Frames: 2900")
-    (tmp_path / "short.bvh").write_text(text)
-    done = kineme_process("segment", "short.bvh", "-q")
-    assert (done.returncode, done.stdout) == (0, "")
-    (line,) = done.stderr.splitlines()
-    assert line.startswith("warning: short.bvh")
-    assert "2900" in line
-    assert "2898" in line
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are others there")
 def test_control_c_ends_quietly_with_130(interrupted, tmp_path: Path) -> None:
     head, _, motion = bundled_recording().read_text().partition("Frame Time:")
@@ -169,11 +157,10 @@ def test_a_named_pipe_is_not_waited_for(kineme_process, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
-@pytest.mark.parametrize("arguments", [["info"], ["segment", "--json"]])
-def test_what_is_printed_to_a_full_disk_is_one_sentence(tmp_path: Path, arguments) -> None:
+def test_what_is_printed_to_a_full_disk_is_one_sentence(tmp_path: Path) -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "kineme", *arguments, bundled_recording()],
+            [sys.executable, "-m", "kineme", "info", bundled_recording()],
             stdout=full,
             stderr=subprocess.PIPE,
             text=True,
@@ -182,20 +169,6 @@ def test_what_is_printed_to_a_full_disk_is_one_sentence(tmp_path: Path, argument
         )
     assert done.returncode == 1
     assert done.stderr == "error: what is printed cannot be written: No space left on device\n"
-
-
-MORE_CHANNELS = "there are more channels (3000) than samples (3)"
-
-
-def test_a_table_the_wrong_way_round_is_warned_of(kineme_process, tmp_path) -> None:
-    values = np.random.default_rng(0).normal(size=(3, 3000))
-    names = ",".join(f"c{k}" for k in range(3000))
-    np.savetxt(tmp_path / "turned.csv", values, "%.3f", ",", header=names, comments="")
-    ran = kineme_process("segment", "turned.csv", "--fps", "30", "-q")
-    assert ran.returncode == 0, ran.stderr
-    assert MORE_CHANNELS in " ".join(ran.stderr.split())
-    with pytest.warns(package.KinemeWarning, match=re.escape(MORE_CHANNELS)):
-        package.segment(package.Signals(values, 30.0))
 
 
 def test_memory_does_not_grow_with_the_square_of_the_columns() -> None:
@@ -211,21 +184,17 @@ def test_memory_does_not_grow_with_the_square_of_the_columns() -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        "cycles -o out.csv", "cycles -o out.mat", "cycles -o out.nc", "cycles -o out.parquet",
-        "cycles -o out.xlsx", "segment --plot out.png", "segment -o out.csv",
-        "segment -o out.parquet", "segment --report out.html", "events -o out.csv", "report",
-        "split -o clips", "info --json",
-    ],
-)  # fmt: skip
-def test_a_name_that_is_not_utf8_costs_no_output(kineme_process, tmp_path, arguments) -> None:
+def test_a_name_that_is_not_utf8_costs_no_output(kineme, kineme_process, tmp_path) -> None:
     name = os.fsdecode(b"take\xff.bvh")
-    (tmp_path / name).write_bytes(Path(bundled_recording()).read_bytes())
-    command, *options = arguments.split()
-    ran = kineme_process(command, name, *options)
-    assert ran.returncode == 0, ran.stderr
-    assert "Traceback" not in ran.stderr
-    written = [option for option in options if option.startswith("out.")]
-    assert all((tmp_path / each).stat().st_size for each in written)
+    package.write(package.read(bundled_recording())[:400], tmp_path / "take.bvh")
+    (tmp_path / "take.bvh").rename(tmp_path / name)
+    printed = kineme_process("segment", name, "-o", "out.parquet", "--report", "out.html")
+    assert (printed.returncode, "Traceback" in printed.stderr) == (0, False), printed.stderr
+    for command in (
+        *(f"cycles --ends -o out.{form}" for form in ("csv", "mat", "nc", "xlsx")),
+        *("segment --plot out.png", "events -o feet.csv", "report", "split -o clips"),
+    ):
+        words = command.split()
+        ran = kineme(words[0], name, *words[1:], "-q")  # what is printed is of the process alone
+        assert ran.returncode == 0, (command, ran.stderr)
+        assert all((tmp_path / each).stat().st_size for each in words if "." in each)

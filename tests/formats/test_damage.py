@@ -125,7 +125,7 @@ def survives(folder: Path, name: str, data: bytes) -> None:
 
 
 @pytest.mark.parametrize("name", SOUND)
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(seed=st.integers(0, 2**32 - 1), meaning=st.booleans())
 def test_damage_to_bytes_and_to_what_they_mean(
     folder: Path, name: str, seed: int, meaning: bool
@@ -135,7 +135,7 @@ def test_damage_to_bytes_and_to_what_they_mean(
     survives(folder, name, data)
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(st.binary(max_size=300), st.sampled_from(SUFFIXES))
 def test_any_bytes(folder: Path, data: bytes, suffix: str) -> None:
     survives(folder, f"any{suffix}", data)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +9,7 @@ import pytest
 from test_capture_tables import nexus
 
 import kineme
-from kineme.errors import KinemeWarning, ReadError
-from kineme.formats.columns import columns_to_motion
+from kineme.errors import KinemeWarning
 from kineme.formats.dialects import DIALECTS, Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.listing import recordings_in
@@ -97,34 +95,6 @@ def test_what_was_sniffed_is_there_to_look_at() -> None:
     assert bare.headless
     assert bare.numbered().names == ["1", "2", "3", "4"]
     np.testing.assert_array_equal(bare.numbered().numbers(), ROWS)
-
-
-@pytest.fixture
-def axis_first() -> Iterator[Dialect]:
-    """A dialect of somebody's: ``X.hip`` in place of ``hip_x``."""
-
-    def read(table, options):
-        columns = dict(zip(table.names, table.numbers().T, strict=True))
-        named = {
-            f"{name[2:]}_{name[0].lower()}" if name[1] == "." else name: column
-            for name, column in columns.items()
-        }
-        return columns_to_motion(table.content, "axis first", named, options)
-
-    dialect = Dialect("axis first", lambda names, _: "X.hip" in names, read, channels=False)
-    DIALECTS.register(dialect)
-    yield dialect
-    DIALECTS.remove(dialect.name)
-
-
-def test_a_dialect_of_somebody_else_is_read(tmp_path: Path, axis_first: Dialect) -> None:
-    path = tmp_path / "a.csv"
-    path.write_text(text("time,X.hip,Y.hip,Z.hip"))
-    motion = kineme.read(path, unit="m", up="y")
-    assert (motion.provenance.format, motion.skeleton.names) == (axis_first.name, ("hip",))
-    np.testing.assert_allclose(motion.positions[:, 0], np.array(ROWS)[:, 1:])
-    with pytest.raises(ReadError, match="is a axis first table of joints, which is a motion"):
-        kineme.read(path, columns=[])
 
 
 def test_a_dialect_that_cannot_tell_its_files_costs_itself_only(tmp_path: Path) -> None:

@@ -15,7 +15,6 @@ from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.formats import (
     Format,
     ReadOptions,
-    read_motion,
     read_quietly,
     register,
     registry,
@@ -156,10 +155,3 @@ def test_options_are_checked_where_they_are_given() -> None:
             ReadOptions(**wrong)
         with pytest.raises(ParameterError, match=said):
             kineme.read("a.bvh", **wrong)
-
-
-def test_a_body_is_needed(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text("time,acc\n0,1\n0.1,2\n", encoding="utf-8")
-    with pytest.raises(ReadError, match="holds signals without a skeleton"):
-        read_motion(tmp_path / "a.csv")
-    assert read_motion(kineme.bundled_recording()).n_frames == 2898

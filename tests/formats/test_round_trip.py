@@ -14,7 +14,7 @@ from hypothesis import given
 import _fbx
 from kineme import bundled_recording, segment
 from kineme.errors import KinemeWarning, WriteError
-from kineme.formats import read, read_motion, supported_formats, write
+from kineme.formats import read, read_motion, write
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import world_rotations
 
@@ -104,10 +104,6 @@ def test_unknown_suffix(tmp_path: Path) -> None:
         WriteError, match=r"no writer of a motion for the suffix '.xyz': use one of .amc, .bvh"
     ):
         write(Motion(skeleton, np.zeros((1, 1, 3)), 30), tmp_path / "a.xyz")
-
-
-def test_formats_are_listed() -> None:
-    assert {"AMC", "BVH"} <= {known.name for known in supported_formats()}
 
 
 def test_one_recording_has_the_same_segments_in_every_format(tmp_path: Path) -> None:

@@ -38,7 +38,7 @@ pytestmark = [
     pytest.mark.skipif(sys.platform != "linux", reason="needs links, pipes and names of any bytes"),
 ]
 
-CASES = 100
+CASES = 40
 HANGS_AFTER_S = 120
 ODD_NAMES = [
     "a b",

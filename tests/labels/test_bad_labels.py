@@ -67,7 +67,7 @@ def test_a_document_type_is_refused_before_it_can_grow(tmp_path) -> None:
 
 
 @pytest.mark.parametrize("name", WRITTEN)
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(
     labels=st.lists(st.sampled_from([*NASTY, ""]), min_size=1, max_size=4),
     seed=st.integers(0, 2**32 - 1),
@@ -80,7 +80,7 @@ def test_a_damaged_file_is_read_or_refused(folder, name, labels, seed) -> None:
 
 
 @pytest.mark.parametrize("name", WRITTEN)
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(
     content=st.binary(max_size=300)
     | st.text(max_size=300).map(lambda t: t.encode(errors="replace"))

@@ -36,7 +36,7 @@ NASTY = [
     "cluster",
     "0.5",
 ]
-RATES = [25.0, 29.97, 30000 / 1001, 59.94, 60.0, 100.0, 119.88, 120.0, 240.0]
+RATES = [25.0, 30000 / 1001, 119.88]
 
 
 def place(folder: Path, name: str, stem: str = "take") -> Path:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -149,34 +147,3 @@ def test_a_format_of_ones_own_is_read_and_written_by_its_suffix(tmp_path: Path) 
             register("toy")
     finally:
         registry.FORMATS.remove("toy")
-
-
-TOY = """
-from kineme.labels import LabelFormat, Labels, Span
-
-def read(path):
-    return Labels([Span(0, 1, path.read_text().strip())])
-
-FORMAT = LabelFormat("toy", "One word for all", (".toy",), "level", read)
-"""
-
-
-def test_another_package_adds_a_format_by_its_entry_point(tmp_path: Path, monkeypatch) -> None:
-    (tmp_path / "toy_labels.py").write_text(TOY)
-    info = tmp_path / "toy_labels-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: toy-labels\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text(
-        "[kineme.label_formats]\ntoy = toy_labels:FORMAT\nabsent = nowhere:FORMAT\n"
-    )
-    (tmp_path / "a.toy").write_text("walk\n")
-    script = (
-        "import sys, warnings; warnings.simplefilter('always'); sys.path.insert(0, sys.argv[1])\n"
-        "import kineme\n"
-        "print(kineme.read_segments(sys.argv[1] + '/a.toy', fps=10).activities.label[0])\n"
-    )
-    ran = subprocess.run(
-        [sys.executable, "-c", script, tmp_path], capture_output=True, text=True, check=True
-    )
-    assert ran.stdout == "walk\n"
-    assert "'absent' of kineme.label_formats is left out" in ran.stderr

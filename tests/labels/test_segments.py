@@ -105,7 +105,7 @@ def test_a_csv_that_went_through_pandas_is_still_read(tmp_path: Path, small: Seg
 
 
 @pytest.mark.parametrize("name", ["boris", "bids", "clips"])
-@pytest.mark.parametrize("label", ["=HYPERLINK(1)", "@SUM(1)", "+1", "-1", "'=x"])
+@pytest.mark.parametrize("label", ["=HYPERLINK(1)", "'=x"])
 def test_no_table_of_labels_holds_a_formula(tmp_path: Path, name: str, label: str) -> None:
     columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [9]}
     table = Segmentation.from_columns(

@@ -209,8 +209,8 @@ def write_moves(path: Path, seed: int) -> None:
 
 def test_clusters_of_channels_do_not_depend_on_names_of_files(tmp_path: Path) -> None:
     found = []
-    for order in ("012345678", "876543210"):
-        called = dict(zip("abcdefghi", order, strict=True))
+    for order in ("012345", "543210"):
+        called = dict(zip("abcdef", order, strict=True))
         home = tmp_path / order
         home.mkdir()
         for name, seed in called.items():

@@ -1,4 +1,7 @@
-"""Every constant of every preset takes an odd value, and gives a result, or says why not."""
+"""Every constant of every preset takes an odd value, and gives a result, or says why not.
+
+The constants of `kineme` are those of `sensors`, which channels are segmented by.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +22,7 @@ def recording() -> kineme.Signals:
 
 
 @pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
-@pytest.mark.parametrize("name", list(PRESETS))
+@pytest.mark.parametrize("name", [name for name in PRESETS if name != "kineme"])
 def test_every_constant_with_odd_values(name: str) -> None:
     preset, signals = PRESETS[name], recording()
     surprises = []
@@ -36,11 +39,11 @@ def test_every_constant_with_odd_values(name: str) -> None:
 
 
 def extremes(taken: list[Preset], name: str) -> list[Preset]:
-    """Of the presets with a number there the least two and the greatest two; all others."""
+    """Of the presets with a number there the least and the greatest one; all others."""
     numbers, others = [], []
     for preset in taken:
         value = getattr(preset, name)
         number = isinstance(value, (int, float)) and not isinstance(value, bool)
         (numbers if number else others).append(preset)
     numbers.sort(key=lambda preset: getattr(preset, name))
-    return others + (numbers if len(numbers) < 5 else numbers[:2] + numbers[-2:])
+    return others + (numbers if len(numbers) < 3 else [numbers[0], numbers[-1]])

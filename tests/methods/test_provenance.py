@@ -8,13 +8,11 @@ from types import NoneType
 from typing import Any, Literal, get_args, get_origin
 
 import pytest
+from presets import OWN
 
 import kineme
 from kineme.methods import PRESETS, Preset
 from kineme.methods.constants import Constant
-
-TOLD: dict[str, dict[str, Any]] = {name: {"n_classes": 3} for name in ("aca", "haca", "gmm")}
-"""What a preset has to be told before it can run."""
 
 
 @pytest.fixture(scope="module")
@@ -23,9 +21,9 @@ def motion() -> kineme.Motion:
     return kineme.read(kineme.bundled_recording())[0:360]
 
 
-@pytest.mark.parametrize("name", PRESETS)
+@pytest.mark.parametrize("name", [*OWN, "sensors"])
 def test_each_field_changed_is_in_the_provenance(name: str, motion: kineme.Motion) -> None:
-    preset = PRESETS[name].replace(**TOLD.get(name, {}))
+    preset = PRESETS[name]
     known = {each.name: each for each in preset.constants()}
     assert {each.name for each in fields(preset)} == {"name", "help", "unit", *known}
     usual = parameters(motion, preset)

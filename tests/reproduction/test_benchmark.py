@@ -66,14 +66,6 @@ def test_the_promised_accuracies_hold(folder):
     assert means["uniform"]["one_to_one"] < 0.1
 
 
-def test_every_method_of_the_list_but_the_slow_ones_tiles_the_trial(trial):
-    quick = {n: m for n, m in METHODS.items() if n not in ("aca", "haca")}
-    for result in run([trial], quick):
-        assert result.found.n_frames == trial.motion.n_frames
-        assert result.scores["seconds"] > 0
-        assert 0 <= result.scores["strict"] <= 1
-
-
 def test_every_call_reports_every_score(results):
     wanted = {
         *("strict", "tolerant", "majority", "majority_agreed"),

@@ -49,7 +49,7 @@ def found(seed: int, seconds: float, preset: str) -> Segmentation:
     st.sampled_from(["kineme", "sensors"]),
     st.lists(st.floats(0.05, 20.0), min_size=1, max_size=4),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_every_border_at_one_detail_is_one_at_any_finer_one(seed, seconds, preset, asked) -> None:
     whole = found(seed, seconds, preset)
     assert whole.hierarchy is not None

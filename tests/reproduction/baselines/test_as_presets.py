@@ -21,7 +21,7 @@ def told(name: str) -> dict[str, int]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_baseline_segments_a_body_and_says_how_it_saw_it(name: str) -> None:
-    motion = random_recording(3).motion
+    motion = random_recording(3).motion[:3000]
     found = kineme.segment(motion, preset=name, **told(name))
     assert found.activities.stop_frame[-1] == motion.n_frames
     assert len(found.activities) > 1
