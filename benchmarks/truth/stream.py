@@ -24,8 +24,8 @@ from kineme.evaluation.score import pool_scores
 from kineme.live import ActivityStarted, Event, Repetition, Stream
 from kineme.recordings import Motion, Signals
 
-EVERY = {"subject_86": 2, "uiprmd": 17, "hugadb": 63}
-"""Sources, and every n-th recording of each: two or three."""
+EVERY = {"subject_86": 1, "uiprmd": 9, "hugadb": 40}
+"""Sources, and every n-th recording of each."""
 NEAR_S = 1.5
 """Starts of one activity differ by this at most from event to event."""
 CHUNK_S = 0.25

@@ -17,6 +17,11 @@ class Event:
     at_s : float
         Second of the stream up to which rows were known when it was told.
     state : {"provisional", "final"}
+
+    Examples
+    --------
+    >>> Event(at_s=2.0, state="provisional").is_final
+    False
     """
 
     at_s: float
@@ -44,7 +49,13 @@ class Event:
 
 @dataclass(frozen=True, kw_only=True)
 class ActivityStarted(Event):
-    """An activity began at a second of the stream; ``label`` names a known cluster."""
+    """An activity began at a second of the stream; ``label`` names a known cluster.
+
+    Examples
+    --------
+    >>> ActivityStarted(at_s=14.0, start_s=9.0, cluster=2).start_s
+    9.0
+    """
 
     start_s: float
     cluster: int
@@ -53,7 +64,13 @@ class ActivityStarted(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ActivityEnded(Event):
-    """An activity ended, after so many repetitions."""
+    """An activity ended, after so many repetitions.
+
+    Examples
+    --------
+    >>> ActivityEnded(at_s=30.0, start_s=9.0, stop_s=25.0, cluster=2, repetitions=8).repetitions
+    8
+    """
 
     start_s: float
     stop_s: float
@@ -64,7 +81,13 @@ class ActivityEnded(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Repetition(Event):
-    """One repetition; ``number`` counts those of its activity from 1."""
+    """One repetition; ``number`` counts those of its activity from 1.
+
+    Examples
+    --------
+    >>> Repetition(at_s=16.0, number=1, start_s=9.0, stop_s=11.0, cluster=2).number
+    1
+    """
 
     number: int
     start_s: float
@@ -74,7 +97,13 @@ class Repetition(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Gap(Event):
-    """Nothing was recorded for a while; a provisional gap goes on."""
+    """Nothing was recorded for a while; a provisional gap goes on.
+
+    Examples
+    --------
+    >>> Gap(at_s=5.0, start_s=3.0, stop_s=5.0).stop_s
+    5.0
+    """
 
     start_s: float
     stop_s: float
@@ -82,6 +111,12 @@ class Gap(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Notice(Event):
-    """Something is wrong with the rows, which the stream bears."""
+    """Something is wrong with the rows; the stream goes on.
+
+    Examples
+    --------
+    >>> Notice(at_s=5.0, text="the clock goes back by 3 s").text
+    'the clock goes back by 3 s'
+    """
 
     text: str

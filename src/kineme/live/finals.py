@@ -21,8 +21,10 @@ MOST_SLIP = 0.5
 """Share of a repetition by which the phase may change in an activity."""
 SHORTEST_S = 0.7
 """Seconds below which what is left of a row that contradicts the open activity is ignored."""
-AGREEING_S = 1.0
-"""Seconds after a border at which two looks must have the same cluster."""
+AGREEING_S = 0.5
+"""Seconds by which two looks may differ in where an activity starts."""
+SAME_END = 0.25
+"""Share of a repetition by which two looks may differ in where it ends."""
 
 
 class Row(NamedTuple):
@@ -39,9 +41,41 @@ class Look(NamedTuple):
     activities: list[Row]
     primitives: list[Row]
 
-    def cluster_at(self, frame: int) -> int | None:
-        """Return the cluster of the activity at a frame; None beyond the rows."""
-        return next((row.cluster for row in self.activities if row.start <= frame < row.stop), None)
+    def has_activity(self, row: Row, near: float) -> bool:
+        """Return whether an activity of this cluster starts within so many frames of a row."""
+        return any(
+            each.cluster == row.cluster and abs(each.start - row.start) <= near
+            for each in self.activities
+        )
+
+    def has_repetition(self, row: Row) -> bool:
+        """Return whether a repetition ends where a row does, give or take a share of it."""
+        near = SAME_END * (row.stop - row.start)
+        return any(
+            each.cluster >= 0 and abs(each.stop - row.stop) <= near for each in self.primitives
+        )
+
+
+class Looks(NamedTuple):
+    """What one look found, and when.
+
+    Attributes
+    ----------
+    look, before : Look
+        The present one, and the one before, which must agree; None if none must.
+    horizon : int
+        The frame before which rows become final.
+    patience : int
+        Frames by which a row may be older than that, and is then final although looks disagree.
+    now : int
+        Frame at which the look was taken.
+    """
+
+    look: Look
+    before: Look | None
+    horizon: int
+    patience: int
+    now: int
 
 
 @dataclass
@@ -82,48 +116,37 @@ class Finals:
     highest: int = -1
     labels: dict[int, str] = field(default_factory=dict)
 
-    def advance(
-        self, look: Look, before: Look | None, horizon: int, patience: int, now: int
-    ) -> list[Event]:
-        """Make final what lies before the horizon; return the events.
-
-        Parameters
-        ----------
-        look, before : Look
-            The present one, and the one before it, which must agree; None if none must.
-        horizon : int
-            Frame.
-        patience : int
-            Frames by which a border may be older than the horizon before it is taken anyway.
-        now : int
-            Frame at which the look was taken.
-        """
+    def advance(self, looks: Looks) -> list[Event]:
+        """Make final what lies before the horizon; return the events."""
         events: list[Event] = []
-        at_s = now / self.fps
-        for row in look.activities:
+        at_s = looks.now / self.fps
+        for row in looks.look.activities:
             begin = max(row.start, self.frontier)
             if row.stop <= begin:
                 continue
-            if begin >= horizon:
+            if begin >= looks.horizon:
                 break
             if row.cluster != self.cluster or not self.frontier:
+                is_late = row.start < self.frontier
                 left = row.stop - begin
-                if row.start < self.frontier and left < SHORTEST_S * self.fps and row.stop < now:
-                    self.frontier = min(row.stop, horizon)
+                if is_late and left < SHORTEST_S * self.fps and row.stop < looks.now:
+                    self.frontier = min(row.stop, looks.horizon)
                     continue
-                inside = begin + round(min(AGREEING_S * self.fps, left / 2))
-                found_late = row.start < self.frontier - AGREEING_S * self.fps
-                agreed = before is None or (
-                    before.cluster_at(inside) == row.cluster and not found_late
-                )
-                if self.frontier and not agreed and begin > horizon - patience:
+                if self.frontier and not self._agree(row, looks):
                     self.frontier = begin
                     break
                 events += self.close(begin, at_s)
                 self._open(begin, row.cluster, at_s, events)
-            self.frontier = min(row.stop, horizon)
-            self._count(look.primitives, row.start, self.frontier, at_s, events)
+            self.frontier = min(row.stop, looks.horizon)
+            self._count(row.start, looks, events)
         return events
+
+    def _agree(self, row: Row, looks: Looks) -> bool:
+        """Return whether two looks have an activity, and it does not contradict what is final."""
+        if looks.before is None or max(row.start, self.frontier) <= looks.horizon - looks.patience:
+            return True
+        near = AGREEING_S * self.fps
+        return row.start >= self.frontier - near and looks.before.has_activity(row, near)
 
     def close(self, stop: int, at_s: float) -> list[Event]:
         """End the open activity at a frame."""
@@ -160,13 +183,13 @@ class Finals:
                 ActivityStarted(at_s=at_s, start_s=start / self.fps, cluster=cluster, label=label)
             )
 
-    def _count(
-        self, primitives: Sequence[Row], first: int, limit: int, at_s: float, events: list[Event]
-    ) -> None:
-        """Make final the repetitions of the open activity that end before a frame."""
-        rows, slip = self.uncounted(primitives, first)
+    def _count(self, first: int, looks: Looks, events: list[Event]) -> None:
+        """Make final the repetitions of the open activity that end before the frontier."""
+        rows, slip = self.uncounted(looks.look.primitives, first)
         for row in rows:
-            if row.stop > limit:
+            is_old = looks.before is None or row.stop <= looks.horizon - looks.patience
+            agreed = is_old or (looks.before and looks.before.has_repetition(row))
+            if row.stop > self.frontier or not agreed:
                 break
             self.slip, slip = self.slip + slip, 0.0
             if self.counted < row.start:
@@ -175,7 +198,7 @@ class Finals:
             self.counted = row.stop
             self.highest = max(self.highest, row.cluster)
             self.n_repetitions += 1
-            events.append(self.repetition(row, self.n_repetitions, at_s))
+            events.append(self.repetition(row, self.n_repetitions, looks.now / self.fps))
 
     def uncounted(self, primitives: Sequence[Row], first: int) -> tuple[list[Row], float]:
         """Return the repetitions of an activity that are not final, and the change of phase.

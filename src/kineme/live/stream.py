@@ -15,7 +15,7 @@ from kineme._util.json import options_from_json, options_to_json
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice
-from kineme.live.finals import Finals, Look, Row
+from kineme.live.finals import Finals, Look, Looks, Row
 from kineme.live.intake import Frames, Hole, Intake, Piece
 from kineme.live.looking import Layout, RecentPast, choose_options
 from kineme.live.state import StreamState, Told, load_state, save_state
@@ -76,7 +76,7 @@ class Stream:
         channels: Sequence[str] | None = None,
         skeleton: Skeleton | None = None,
         delay: float = 5.0,
-        memory: float = 60.0,
+        memory: float = 40.0,
         interval: float = 2.0,
         known: tuple[Motion | Signals, Segmentation] | None = None,
         **options: Any,
@@ -306,8 +306,8 @@ class Stream:
 
     def _advance(self, look: Look, before: Look | None, horizon: int) -> list[Event]:
         over = len(self._state.finals.activities)
-        patience = self._frames(self.delay)
-        events = self._state.finals.advance(look, before, horizon, patience, self._state.now)
+        looks = Looks(look, before, horizon, self._frames(self.delay), self._state.now)
+        events = self._state.finals.advance(looks)
         self._keep_examples(over)
         return events
 
