@@ -148,7 +148,12 @@ def test_rows_that_tell_nothing_are_borne(bad):
 def test_rows_that_do_not_fit_are_refused_and_the_stream_goes_on():
     stream = make_stream()
     stream.push([[1.0, 2.0]])
-    for rows, times in (([[1.0]], None), ([["a", "b"]], None), ([[1.0, 2.0]], [0.0])):
+    for rows, times in (
+        ([[1.0]], None),
+        (np.ones((2, 3)), None),
+        ([["a", "b"]], None),
+        ([[1.0, 2.0]], [0.0]),
+    ):
         with pytest.raises(ParameterError):
             stream.push(rows, times)
     stream.push([1.0, 2.0])

@@ -10,7 +10,7 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
-from queue import Empty, SimpleQueue
+from queue import Empty, Queue
 from threading import Thread
 from time import monotonic, sleep, time
 from typing import Any, TypeVar
@@ -27,6 +27,8 @@ from kineme.recordings.times import UNITS_OF_TIME, as_seconds, date_seconds, is_
 T = TypeVar("T")
 WAIT_S = 0.2
 """Seconds after which a source says that nothing came."""
+AHEAD = 1000
+"""Lines that are read ahead, at most."""
 PIECE_S = 0.1
 """Seconds of a recording that are replayed at once."""
 TIMED_ROWS = 50
@@ -97,7 +99,7 @@ def read_lines(lines: Iterable[str], columns: Sequence[str] = ()) -> Source:
     object of numbers by channel, or a list of them. ``columns`` are the channels to take, by
     patterns. Lines that are no such row are left out with a remark.
     """
-    queue: SimpleQueue[str | None] = SimpleQueue()
+    queue: Queue[str | None] = Queue(AHEAD)
 
     def fill() -> None:
         for line in lines:
@@ -122,15 +124,16 @@ def read_lines(lines: Iterable[str], columns: Sequence[str] = ()) -> Source:
     return Source(0.0, parser.channels, rows())
 
 
-def _drain(queue: SimpleQueue[T]) -> list[T]:
+def _drain(queue: Queue[T]) -> list[T]:
     """Return all that is in a queue; wait a little if nothing is."""
     found: list[T] = []
     try:
         found.append(queue.get(timeout=WAIT_S))
-        while True:
+        while len(found) < AHEAD:
             found.append(queue.get_nowait())
     except Empty:
-        return found
+        pass
+    return found
 
 
 class _Parser:
@@ -265,7 +268,7 @@ def receive_osc(port: int, host: str = "127.0.0.1") -> Source:
     with require_extra("python-osc", "osc"):
         from pythonosc.dispatcher import Dispatcher
         from pythonosc.osc_server import BlockingOSCUDPServer
-    queue: SimpleQueue[tuple[float, dict[str, float]]] = SimpleQueue()
+    queue: Queue[tuple[float, dict[str, float]]] = Queue()
     row: dict[str, float] = {}
 
     def take(address: str, *values: Any) -> None:

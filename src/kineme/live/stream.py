@@ -25,6 +25,8 @@ from kineme.recordings.arrays import as_rate
 from kineme.recordings.times import as_seconds
 from kineme.segments.segmentation import Segmentation
 
+PIECE = 1000
+"""Rows that are taken in at once, of many."""
 PART_COUNTED = 0.75
 """Share of the usual length from which the repetition that goes on is announced."""
 
@@ -141,11 +143,7 @@ class Stream:
         """
         if self._state.is_finished:
             raise ParameterError("the stream was finished: make another one")
-        rows = as_floats(values, "rows")
-        n_values = self.layout.n_values
-        if rows.size % n_values or rows.shape[-1:] not in ((n_values,), (3,)):
-            raise ParameterError(f"rows have {n_values} values each, not shape {rows.shape}")
-        rows = np.where(np.isfinite(rows), rows, np.nan).reshape(-1, n_values)
+        rows = self._as_rows(values)
         seconds = None
         if times is not None:
             seconds = _as_numbers(times)
@@ -156,7 +154,23 @@ class Stream:
         if self._state.is_timed not in (None, seconds is not None):
             raise ParameterError("rows of a stream have times, or none has")
         self._state.is_timed = seconds is not None
-        return self._absorb(self._state.intake.add(rows, seconds))
+        events: list[Event] = []
+        for first in range(0, len(rows), PIECE):
+            piece = slice(first, first + PIECE)
+            part = None if seconds is None else seconds[piece]
+            events += self._absorb(self._state.intake.add(rows[piece], part))
+        return events
+
+    def _as_rows(self, values: ArrayLike) -> Floats:
+        """Return rows (rows, values), NaN for what is not finite."""
+        rows, n_values = as_floats(values, "rows"), self.layout.n_values
+        joints = self.layout.skeleton and (self.layout.skeleton.n_joints, 3)
+        if not rows.size:
+            return np.empty((0, n_values))
+        fits = rows.shape[-1:] == (n_values,) and rows.ndim <= 2
+        if not (fits or (rows.ndim == 1 and n_values == 1) or rows.shape[-2:] == joints):
+            raise ParameterError(f"rows have {n_values} values each, not shape {rows.shape}")
+        return np.where(np.isfinite(rows), rows, np.nan).reshape(-1, n_values)
 
     def finish(self) -> list[Event]:
         """End the stream; return the last events, all of them final."""
