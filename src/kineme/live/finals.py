@@ -237,13 +237,12 @@ class Finals:
         slip = over / length
         if abs(self.slip + slip) < MOST_SLIP:
             return [rows[0]._replace(start=self.counted), *rows[1:]], slip
-        for i, row in enumerate(rows):
-            touches = i + 1 < len(rows) and rows[i + 1].start == row.stop
-            stop = row.stop + over if touches else row.stop
-            rows[i] = Row(row.start + over, stop, row.cluster)
-            if not touches:
-                break
-        return rows, 0.0
+        apart = (i for i in range(1, len(rows)) if rows[i].start != rows[i - 1].stop)
+        n = next(apart, len(rows))
+        end = rows[n - 1].stop  # which stays, be the last one ever so short
+        moved = [Row(row.start + over, min(row.stop + over, end), row.cluster) for row in rows[:n]]
+        moved[-1] = moved[-1]._replace(stop=end)
+        return [row for row in moved if row.start < row.stop] + rows[n:], 0.0
 
     def repetition(self, row: Row, number: int, at_s: float, state: State = "final") -> Repetition:
         """Return the event of a repetition."""

@@ -135,7 +135,8 @@ class RecentPast:
         unseen = [local for local, number in given.items() if number > finals.highest]
         if unseen and self.examples:
             given |= self._recognise(found, unseen, set(given.values()))
-        named = np.array([given.get(local, -1) for local in range(int(table.cluster.max()) + 1)])
+        numbers = range(int(table.cluster.max()) + 1)
+        named = np.array([given.get(local, -1) for local in numbers], np.int64)
         rows = np.column_stack(
             [
                 table.start_frame + self.start,
