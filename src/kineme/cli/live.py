@@ -257,10 +257,11 @@ class View:
         elif isinstance(event, Repetition) and not event.is_final:
             self.count = event.number
             self.stops = [*self.stops[-4:], event.stop_s]
-        elif isinstance(event, ActivityEnded) and event.is_final:
-            self.over = [*self.over[-SHOWN + 1 :], event]
         elif isinstance(event, ActivityEnded):
-            self.name, self.count, self.stops = "–", 0, []
+            if event.is_final:
+                self.over = [*self.over[-SHOWN + 1 :], event]
+            if not event.is_final or event.stop_s >= event.at_s:  # or the recording has ended
+                self.name, self.count, self.stops = "–", 0, []
 
     @property
     def tempo(self) -> float:
