@@ -68,6 +68,10 @@ ROOMS = {
         "and what their methods find in arrays: `kineme`, `region_growing`",
         "features recordings segments transfer",
     ),
+    "live": Room(
+        "`Stream`: recordings segmented while they are made; journals, and where rows come from",
+        "methods recordings segments transfer",
+    ),
     "labels": Room(
         "segment tables from files and back: one registry", "formats recordings segments"
     ),

@@ -30,6 +30,9 @@ from . import (
     library as library,
 )
 from . import (
+    live as live,
+)
+from . import (
     methods as methods,
 )
 from . import (
@@ -124,6 +127,9 @@ from .labels import (
 )
 from .library import (
     Library as Library,
+)
+from .live import (
+    Stream as Stream,
 )
 from .methods import (
     PRESETS as PRESETS,

@@ -11,6 +11,7 @@ from kineme.cli.help import make_lazy_group
 
 COMMANDS = (
     "segment",
+    "live",
     "pose",
     "presets",
     "cycles",

@@ -1,0 +1,283 @@
+"""``kineme live``: rows in while they are recorded, activities and counts out."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from json import dumps
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
+from kineme.cli.messages import one_line, say_error, say_skipped
+from kineme.cli.options.declare import add_options
+from kineme.cli.options.method import SEGMENTING
+from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.targets import check_writable
+from kineme.errors import KinemeError
+from kineme.formats import read
+from kineme.formats.options import ReadOptions
+from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
+from kineme.methods.segmenter import SegmentOptions
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from kineme.live.sources import Source
+
+Tell = Callable[[list[Event]], None]
+SHOWN = 6
+"""Activities that are over, of which the terminal shows the last."""
+
+
+@add_options(READING | SEGMENTING)
+def live(
+    read_options: ReadOptions,
+    segment_options: SegmentOptions,
+    replay: Annotated[
+        Path | None, option(INPUT, "Replay this recording in place of standard input.")
+    ] = None,
+    speed: Annotated[
+        float, option(INPUT, "So many times as fast as it was; 0: without any wait.")
+    ] = 1.0,
+    lsl: Annotated[
+        str | None,
+        option(INPUT, "Take a stream of the Lab Streaming Layer, by name or type.", metavar="NAME"),
+    ] = None,
+    osc: Annotated[
+        int | None,
+        option(INPUT, "Take OSC messages, such as VMC, at this UDP port.", metavar="PORT"),
+    ] = None,
+    osc_host: Annotated[
+        str, option(INPUT, "The address at which they are taken, 0.0.0.0 for any.")
+    ] = "127.0.0.1",
+    delay: Annotated[
+        float, option(METHOD, "Seconds after which what was found is final.", min=0.1)
+    ] = 5.0,
+    interval: Annotated[
+        float, option(METHOD, "Seconds from one look at the recent past to the next.", min=0.1)
+    ] = 2.0,
+    output: Annotated[
+        Path | None,
+        option(OUTPUT, f"Write the segments at the end: {TABLES}.", "--output", "-o"),
+    ] = None,
+    record: Annotated[
+        Path | None,
+        option(OUTPUT, "Keep the rows: NAME.journal.csv grows, NAME.parquet is there at the end."),
+    ] = None,
+    recover: Annotated[
+        Path | None,
+        option(OUTPUT, "Make a Parquet file of a journal that a killed run left, and end."),
+    ] = None,
+    lsl_out: Annotated[
+        str | None,
+        option(OUTPUT, "Send events as markers of an LSL stream, as JSON.", metavar="NAME"),
+    ] = None,
+    json: Annotated[bool, option(OUTPUT, "Print JSON, one line per event.", "--json")] = False,
+    quiet: Quiet = False,
+) -> None:
+    """Segment and count while a recording is made.
+
+    Rows come as lines of CSV or JSON on standard input, unless another source is given. What is
+    found at once is provisional, and final after --delay. Ctrl+C ends the recording.
+
+    For example: sensor | kineme live --fps 100 --record take
+    """
+    from kineme.live.journal import Journal, recover_journal
+
+    sources = {"--replay": replay, "--lsl": lsl, "--osc": osc}
+    given = [name for name, value in sources.items() if value is not None]
+    if len(given) > 1:
+        raise typer.BadParameter("one source at a time", param_hint=" / ".join(given))
+    try:
+        if recover is not None:
+            typer.echo(f"wrote {recover_journal(recover)}")
+            return
+        check_writable(output)
+        source = _open(replay, speed, lsl, (osc, osc_host), read_options)
+        stream = _stream_of(source, segment_options, delay, interval)
+        kept = None if record is None else Journal(record, source.channels, source.fps)
+        with _printer(json=json, quiet=quiet) as show:
+            tell = show if lsl_out is None else _also_to_lsl(show, lsl_out)
+            try:
+                for rows in source.rows:
+                    for remark in rows.remarks:
+                        say_skipped(remark)
+                    if kept is not None:
+                        kept.write(rows.values, rows.seconds)
+                    tell(stream.push(rows.values, rows.seconds))
+            except KeyboardInterrupt:
+                pass
+            finally:
+                tell(stream.finish())
+                written = None if kept is None else kept.close()
+        if output is not None:
+            from kineme.labels import write_segments
+
+            write_segments(stream.segmentation, output)
+        if not (json or quiet):
+            for path in filter(None, (written, output)):
+                typer.echo(f"wrote {path}")
+    except KinemeError as error:
+        say_error(one_line(error))
+        raise typer.Exit(1) from error
+
+
+def _open(
+    replayed: Path | None,
+    speed: float,
+    lsl: str | None,
+    osc: tuple[int | None, str],
+    options: ReadOptions,
+) -> Source:
+    """Return the source that was chosen, with its rate."""
+    from dataclasses import replace
+
+    from kineme.live import sources
+
+    if replayed is not None:
+        return sources.replay(read(replayed, **vars(options)), speed)
+    if lsl is not None:
+        source = sources.receive_lsl(lsl)
+    elif osc[0] is not None:
+        source = sources.receive_osc(osc[0], osc[1])
+    else:
+        source = sources.read_lines(sys.stdin, options.columns or ())
+    if options.fps is not None:
+        return replace(source, fps=options.fps)
+    return source if source.fps else sources.measure_rate(source)
+
+
+def _stream_of(source: Source, options: SegmentOptions, delay: float, interval: float) -> Any:
+    from kineme.live.stream import Stream, as_keywords
+
+    return Stream(
+        fps=source.fps,
+        channels=None if source.skeleton else source.channels,
+        skeleton=source.skeleton,
+        delay=delay,
+        interval=interval,
+        **as_keywords(options),
+    )
+
+
+def _also_to_lsl(show: Tell, name: str) -> Tell:
+    from kineme.live.sources import open_lsl_outlet
+
+    send = open_lsl_outlet(name)
+
+    def tell(events: list[Event]) -> None:
+        for event in events:
+            send(dumps(event.to_json()))
+        show(events)
+
+    return tell
+
+
+@contextmanager
+def _printer(*, json: bool, quiet: bool) -> Iterator[Tell]:
+    """Show events as lines of JSON, as a view that changes in a terminal, or as lines of text."""
+    if json or quiet or not sys.stdout.isatty():
+        yield _print_json if json else partial(_print_lines, quiet=quiet)
+        return
+    from rich.live import Live
+
+    from kineme.cli.terminal import Console
+
+    view = View()
+    with Live(view.table(), console=Console(), refresh_per_second=8) as screen:
+
+        def update(events: list[Event]) -> None:
+            for event in events:
+                view.add(event)
+                if isinstance(event, Notice):
+                    screen.console.print(event.text)
+            if events:
+                screen.update(view.table())
+
+        yield update
+
+
+def _print_json(events: list[Event]) -> None:
+    for event in events:
+        sys.stdout.write(dumps(event.to_json()) + "\n")
+    sys.stdout.flush()
+
+
+def _print_lines(events: list[Event], *, quiet: bool) -> None:
+    for event in events:
+        if isinstance(event, Notice):
+            say_skipped(event.text)
+        elif event.is_final and not quiet:
+            sys.stdout.write(describe(event) + "\n")
+    sys.stdout.flush()
+
+
+def describe(event: Event) -> str:
+    """Return a final event as a line of text.
+
+    Examples
+    --------
+    >>> describe(Repetition(at_s=9.0, number=3, start_s=2.0, stop_s=3.5, cluster=0))
+    '    3.50 s  cluster 0: 3'
+    """
+    if isinstance(event, ActivityStarted):
+        return f"{event.start_s:8.2f} s  {_name(event)} begins"
+    if isinstance(event, ActivityEnded):
+        return f"{event.stop_s:8.2f} s  {_name(event)} ends, {event.repetitions} repetitions"
+    if isinstance(event, Repetition):
+        return f"{event.stop_s:8.2f} s  cluster {event.cluster}: {event.number}"
+    if isinstance(event, Gap):
+        return f"{event.start_s:8.2f} s  gap of {event.stop_s - event.start_s:.2f} s"
+    return ""
+
+
+def _name(event: ActivityStarted | ActivityEnded) -> str:
+    return event.label or f"cluster {event.cluster}"
+
+
+@dataclass
+class View:
+    """What the terminal shows: what goes on, and what was before."""
+
+    name: str = "–"
+    count: int = 0
+    stops: list[float] = field(default_factory=list)
+    over: list[ActivityEnded] = field(default_factory=list)
+
+    def add(self, event: Event) -> None:
+        """Take an event in."""
+        if isinstance(event, ActivityStarted) and not event.is_final:
+            self.name, self.count, self.stops = _name(event), 0, []
+        elif isinstance(event, Repetition) and not event.is_final:
+            self.count = event.number
+            self.stops = [*self.stops[-4:], event.stop_s]
+        elif isinstance(event, ActivityEnded):
+            if event.is_final:
+                self.over = [*self.over[-SHOWN + 1 :], event]
+            if not event.is_final or event.stop_s >= event.at_s:  # or the recording has ended
+                self.name, self.count, self.stops = "–", 0, []
+
+    @property
+    def tempo(self) -> float:
+        """Return the last repetitions in a minute; 0 where there are too few."""
+        if len(self.stops) < 2 or self.stops[-1] <= self.stops[0]:
+            return 0.0
+        return 60 * (len(self.stops) - 1) / (self.stops[-1] - self.stops[0])
+
+    def table(self) -> Table:
+        """Return what is shown."""
+        from kineme.cli.tables import new_table
+
+        table = new_table("activity", "from s", "to s", "repetitions", "a minute")
+        for event in self.over:
+            row = _name(event), f"{event.start_s:.1f}", f"{event.stop_s:.1f}"
+            table.add_row(*row, str(event.repetitions), "", style="dim")
+        tempo = f"{self.tempo:.0f}" if self.tempo else ""
+        table.add_row(self.name, "", "", str(self.count), tempo, style="bold")
+        return table

@@ -1,0 +1,319 @@
+"""Rows at any times to frames at one rate, as they come.
+
+What `kineme.recordings.regular` does with all rows of a file is done here with those of the last
+half second. Rows of one time are averaged, and packets of rows that share a time are spread. Holes
+of up to 0.2 s are filled in straight lines, longer ones are gaps. A clock that is set back goes on
+after a gap of one frame.
+
+The frames depend on the rows alone, not on how many are added at a time: they are made in blocks,
+and a block waits for the rows of the 0.2 s after it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import ceil, floor, log10
+
+import numpy as np
+
+from kineme._util.arrays import Floats, Masks
+from kineme.recordings.clock import tells_dates
+from kineme.recordings.regular import LONGEST_S, UNEVEN, Timing
+from kineme.recordings.times import UNITS_OF_TIME
+
+BLOCK_S = 0.1
+"""Seconds of frames that are made at once."""
+SUDDEN_S = 2.0
+"""Seconds from which on the next row must confirm a step of the clock."""
+COUNTED_S = 2.0
+"""Seconds over which rows are counted, to see whether they come at the rate that was named."""
+OTHER_RATE = 1.5
+"""Ratio of two rates that are not the same."""
+FULL_PACKET = 0.75, 1.5
+"""Frames for each row of a packet: rows that have less are duplicates, with more some are lost."""
+SHIFTS_S = (-86400.0, -3600.0, 3600.0)
+"""Steps of local clocks, at midnight and where summer time begins and ends, that are undone."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """Consecutive frames, (frames, channels), and in which of them nothing is known."""
+
+    values: Floats
+    missing: Masks
+
+
+@dataclass(frozen=True)
+class Hole:
+    """So many frames without any row."""
+
+    n_frames: int
+
+
+Piece = Frames | Hole | str
+"""What comes out of an intake. A text says what is wrong with the rows."""
+
+
+@dataclass
+class Intake:
+    """Rows that are not frames yet, and the clock by which they were taken.
+
+    Attributes
+    ----------
+    fps : float
+        Frames per second.
+    n_channels : int
+    n_rows : int
+        Rows without a time so far.
+    per_second : float
+        Of the unit of the times; 0 while it is not known.
+    ahead_s : float
+        Seconds by which the clock is ahead of the stream.
+    last_s : float
+        What the clock showed last; NaN before the first row.
+    emitted, run_start : int
+        The next frame, and the first one after the last hole.
+    counted, counted_rows, other_rate
+        Frames and rows since the rate was looked at, and whether it was another one.
+    in_packets : bool
+        Whether the last rows of one time were a packet.
+    said : list of str
+        What was said of the rows, which is said once.
+    at, rows : (rows,) and (rows, channels) arrays
+        The frame and the values of each row, those of the past that are still needed among them.
+    held_times, held_rows
+        Rows whose time is not understood before the next one.
+    filler : (channels,) array
+        The values of the last frame.
+    """
+
+    fps: float
+    n_channels: int
+    n_rows: int = 0
+    per_second: float = 0.0
+    ahead_s: float = 0.0
+    last_s: float = np.nan
+    emitted: int = 0
+    run_start: int = 0
+    counted: int = 0
+    counted_rows: int = 0
+    other_rate: bool = False
+    in_packets: bool = False
+    said: list[str] = field(default_factory=list)
+    at: Floats = field(default_factory=lambda: np.empty(0))
+    rows: Floats = field(default_factory=lambda: np.empty((0, 0)))
+    held_times: Floats = field(default_factory=lambda: np.empty(0))
+    held_rows: Floats = field(default_factory=lambda: np.empty((0, 0)))
+    filler: Floats = field(default_factory=lambda: np.empty(0))
+
+    def __post_init__(self) -> None:
+        if not self.filler.size:
+            self.filler = np.zeros(self.n_channels)
+            self.rows = self.held_rows = np.empty((0, self.n_channels))
+
+    def add(self, rows: Floats, times: Floats | None = None) -> list[Piece]:
+        """Return the frames that are complete with these rows.
+
+        Parameters
+        ----------
+        rows : (rows, channels) array
+            NaN where there is nothing.
+        times : (rows,) array, optional
+            In any unit since any beginning.
+        """
+        pieces: list[Piece] = []
+        if times is None:
+            self._append(self.n_rows + np.arange(len(rows), dtype=np.float64), rows)
+            self.n_rows += len(rows)
+        else:
+            rows = np.concatenate([self.held_rows, rows])
+            times = np.concatenate([self.held_times, times])
+            self._place(rows, times, pieces)
+        self._emit(pieces)
+        return pieces
+
+    def finish(self) -> list[Piece]:
+        """Return the frames of all rows that are left."""
+        pieces: list[Piece] = []
+        if len(self.held_times):
+            self.per_second = self.per_second or 1.0
+            # as if the next row confirmed what is held, if it is a single one
+            times = np.append(self.held_times, self.held_times[-1])
+            nothing = np.full((1, self.n_channels), np.nan)
+            self._place(np.concatenate([self.held_rows, nothing]), times, pieces)
+        if self.in_packets:
+            self._spread_packet(float(self.at[-1]) + np.inf)
+        self._emit(pieces, finished=True)
+        return pieces
+
+    def _place(self, rows: Floats, times: Floats, pieces: list[Piece]) -> None:
+        """Find the frame of each row; rows whose time is understood later only are held."""
+        self.held_rows, self.held_times = rows[:0], times[:0]
+        known = np.isfinite(times)
+        if not known.all():
+            self._say(pieces, "rows without a time are left out")
+            rows, times = rows[known], times[known]
+        if not self.per_second:
+            later = times[times != times[:1]]
+            if not len(later):
+                self.held_rows, self.held_times = rows, times
+                return
+            self.per_second = _guess_unit(float(times[0]), float(later[0]), self.fps)
+        start = 0
+        while start < len(times):
+            seconds = times[start:] / self.per_second - self.ahead_s
+            if np.isnan(self.last_s):  # the first row is at frame 0
+                self.last_s, self.ahead_s = 0.0, float(seconds[0])
+                self._append(np.zeros(1), rows[start : start + 1])
+                start += 1
+                continue
+            steps = np.diff(seconds, prepend=self.last_s)
+            odd = (steps * self.fps <= UNEVEN) | (steps > SUDDEN_S)
+            count = int(odd.argmax()) if odd.any() else len(seconds)
+            if not count:
+                count = self._place_odd(seconds, rows[start], pieces)
+                if count < 0:
+                    self.held_rows, self.held_times = rows[start:], times[start:]
+                    return
+            else:
+                self._append(seconds[:count] * self.fps, rows[start : start + count])
+                self.last_s = float(seconds[count - 1])
+            start += count
+
+    def _place_odd(self, seconds: Floats, row: Floats, pieces: list[Piece]) -> int:
+        """Place a row whose clock stands still, goes back or leaps.
+
+        Returns 1 if that is done, 0 if the clock was corrected first, -1 if the next row is needed.
+        """
+        step = float(seconds[0]) - self.last_s
+        if abs(step) * self.fps <= UNEVEN:
+            self._append(self.at[-1:], row[None])
+            return 1
+        if -LONGEST_S <= step < 0:
+            self._say(pieces, "rows that are older than the one before are left out")
+            return 1
+        if len(seconds) == 1:
+            return -1
+        if abs(seconds[1] - seconds[0]) >= abs(seconds[1] - self.last_s):
+            self._say(pieces, "single rows with a time that nothing else has are left out")
+            return 1
+        if self._correct_clock(step, pieces):
+            return 0
+        self._append(seconds[:1] * self.fps, row[None])
+        self.last_s = float(seconds[0])
+        return 1
+
+    def _correct_clock(self, step: float, pieces: list[Piece]) -> bool:
+        """Undo a step of the clock if that was set; return whether it was."""
+        near = max(LONGEST_S, 3 / self.fps)
+        for shift in SHIFTS_S:
+            if abs(step - shift) <= near and (shift < 0 or tells_dates(self.ahead_s)):
+                self._say(pieces, "the clock changes by an hour or a day, which is undone")
+                self.ahead_s += shift
+                return True
+        if step < 0:
+            pieces.append(f"the clock goes back by {-step:.4g} s: the stream goes on after a gap")
+            # far enough from the last row for a gap
+            self.ahead_s += step - (LONGEST_S + 2 / self.fps)
+        return step < 0
+
+    def _append(self, at: Floats, rows: Floats) -> None:
+        """Keep rows that have a frame; spread the packet before them."""
+        if len(self.at) and at[0] > self.at[-1]:
+            self._spread_packet(float(at[0]))
+        self.at = np.append(self.at, at)
+        self.rows = np.concatenate([self.rows, rows])
+
+    def _spread_packet(self, following: float) -> None:
+        """Spread the last rows, if they share a frame and fill the time up to the following one."""
+        first = int(np.searchsorted(self.at, self.at[-1]))
+        size = len(self.at) - first
+        each = (following - float(self.at[-1])) / size
+        if size > 1:
+            self.in_packets = each >= FULL_PACKET[0]
+            if self.in_packets:
+                self.at[first:] += np.arange(size) * (each if each <= FULL_PACKET[1] else 1.0)
+
+    def _emit(self, pieces: list[Piece], *, finished: bool = False) -> None:
+        """Make the frames that no later row can change."""
+        after = ceil(LONGEST_S * self.fps) + 2
+        block = max(1, round(BLOCK_S * self.fps))
+        while len(self.at):
+            holes = np.flatnonzero(np.diff(self.at) - 1 > LONGEST_S * self.fps + 1e-9)
+            stop = self.emitted + block
+            if len(holes) or finished:
+                last = self.at[holes[0]] if len(holes) else self.at[-1]
+                end = floor(float(last) + 0.5) + 1
+                if self.emitted < end:
+                    stop = min(stop, end)
+                    pieces.append(self._make(stop, min(stop + after, end), after, pieces))
+                elif len(holes):
+                    self._leap(int(holes[0]) + 1, pieces)
+                else:
+                    return
+            elif self.at[-1] >= stop + after:
+                pieces.append(self._make(stop, stop + after, after, pieces))
+            else:
+                return
+
+    def _leap(self, row: int, pieces: list[Piece]) -> None:
+        """Go on with a row after a hole."""
+        self.at, self.rows = self.at[row:], self.rows[row:]
+        begin = ceil(float(self.at[0]) - 0.5)
+        if begin > self.emitted:
+            pieces.append(Hole(begin - self.emitted))
+        self.emitted = self.run_start = max(begin, self.emitted)
+        self.counted = self.counted_rows = 0
+
+    def _make(self, stop: int, end: int, before: int, pieces: list[Piece]) -> Frames:
+        """Return the frames up to ``stop``, by the rows up to ``end`` and those just before."""
+        base = max(self.emitted - before, self.run_start)
+        first, last = np.searchsorted(self.at, [base - 0.5, end])
+        at, rows = self.at[first:last] - base, self.rows[first:last]
+        near = np.rint(at)
+        at = np.where(np.abs(at - near) <= UNEVEN, near, at)
+        found = Timing(self.fps, np.arange(len(at)), at, end - base).resample(rows)
+        made = slice(self.emitted - base, stop - base)
+        values = found.values[made].copy()
+        missing: Masks = np.zeros(len(values), np.bool_)
+        if found.missing is not None:
+            missing = np.asarray(found.missing[made].any(axis=1), np.bool_)
+            for i, row in enumerate(values):  # a channel without any value keeps its last one
+                row[:] = np.where(np.isfinite(row), row, values[i - 1] if i else self.filler)
+        self.filler = values[-1]
+        inside = (self.at >= self.emitted - 0.5) & (self.at < stop - 0.5)
+        self._compare_rate(stop - self.emitted, int(inside.sum()), pieces)
+        self.emitted = stop
+        kept = max(0, int(np.searchsorted(self.at, stop - before)) - 1)
+        self.at, self.rows = self.at[kept:], self.rows[kept:]
+        return Frames(values, missing)
+
+    def _compare_rate(self, n_frames: int, n_rows: int, pieces: list[Piece]) -> None:
+        """Say when rows begin to come at another rate than the one that was named."""
+        self.counted += n_frames
+        self.counted_rows += n_rows
+        if self.counted < COUNTED_S * self.fps:
+            return
+        rate = self.counted_rows / self.counted * self.fps
+        other = not 1 / OTHER_RATE < rate / self.fps < OTHER_RATE
+        if other and not self.other_rate:
+            pieces.append(f"rows come at about {rate:.3g} Hz instead of {self.fps:g} Hz")
+        self.counted, self.counted_rows, self.other_rate = 0, 0, other
+
+    def _say(self, pieces: list[Piece], text: str) -> None:
+        if text not in self.said:
+            self.said.append(text)
+            pieces.append(text)
+
+
+def _guess_unit(first: float, second: float, fps: float) -> float:
+    """Return how many of a unit make a second, if two rows at these times are about a frame apart.
+
+    Examples
+    --------
+    >>> _guess_unit(81_000_000_000, 81_020_000_000, 50.0)
+    1000000000.0
+    """
+    frames = abs(second - first) * fps
+    per_second = sorted(set(UNITS_OF_TIME.values()))
+    return min(per_second, key=lambda unit: abs(log10(frames / unit)))

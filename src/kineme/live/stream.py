@@ -1,0 +1,419 @@
+"""Streams: rows in, events out, while a recording is made."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from os import PathLike
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kineme._util.arrays import Floats, Masks
+from kineme._util.checks import as_floats, as_texts, check_type, is_number
+from kineme._util.json import options_from_json, options_to_json
+from kineme._version import __version__
+from kineme.errors import ParameterError
+from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice
+from kineme.live.finals import Finals, Look, Looks, Row
+from kineme.live.intake import Frames, Hole, Intake, Piece
+from kineme.live.looking import Layout, RecentPast, choose_options
+from kineme.live.state import StreamState, Told, load_state, save_state
+from kineme.methods.segmenter import SegmentOptions
+from kineme.recordings import Motion, Signals, Skeleton
+from kineme.recordings.arrays import as_rate
+from kineme.recordings.times import as_seconds
+from kineme.segments.segmentation import Segmentation
+
+PIECE = 1000
+"""Rows that are taken in at once, of many."""
+PART_COUNTED = 0.75
+"""Share of the usual length from which the repetition that goes on is announced."""
+
+
+class Stream:
+    """Segments rows while they come.
+
+    Parameters
+    ----------
+    fps : float
+        Frames per second of the stream. Rows with times are brought to this rate.
+    channels : sequence of str, optional
+        Names of the channels of sensors.
+    skeleton : Skeleton, optional
+        Of a body; rows are then the positions of its joints in metres, y up.
+    delay : float
+        Seconds after which what was found is final. A short one is sooner sure, and errs more.
+    memory : float
+        Seconds of the recent past that are looked at.
+    interval : float
+        Seconds from one look to the next.
+    known : (recording, segments), optional
+        An earlier result of the same channels or joints. Its clusters keep their numbers and labels
+        where they are recognised.
+    **options
+        As `kineme.segment` takes them: ``preset``, ``effectors``, ``emg``, constants of the preset.
+
+    Raises
+    ------
+    ParameterError
+        Neither channels nor a skeleton, or both; a value that an option does not take.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import kineme
+    >>> stream = kineme.Stream(fps=50, channels=["x", "y"])
+    >>> angle = np.linspace(0, 30 * np.pi, 1500)
+    >>> events = stream.push(np.column_stack([np.sin(angle), np.cos(angle)]))
+    >>> events += stream.finish()
+    >>> events[-1].repetitions
+    15
+    """
+
+    def __init__(
+        self,
+        *,
+        fps: float,
+        channels: Sequence[str] | None = None,
+        skeleton: Skeleton | None = None,
+        delay: float = 5.0,
+        memory: float = 40.0,
+        interval: float = 2.0,
+        known: tuple[Motion | Signals, Segmentation] | None = None,
+        **options: Any,
+    ) -> None:
+        if (channels is None) == (skeleton is None):
+            raise ParameterError("a stream has channels=[names], or a skeleton=")
+        names = () if channels is None else as_texts(channels, "names of channels")
+        if channels is not None and not names:
+            raise ParameterError("a stream has at least one channel")
+        if skeleton is not None:
+            check_type(skeleton, Skeleton, "Stream", "motion.skeleton is one")
+        for name, seconds in (("delay", delay), ("memory", memory), ("interval", interval)):
+            if not (is_number(seconds) and seconds > 0):
+                raise ParameterError(f"{name} must be a number above 0, not {seconds!r:.60}")
+        if memory < 2 * (delay + interval):
+            raise ParameterError(
+                f"memory is {memory:g} s: give twice delay and interval, "
+                f"{2 * (delay + interval):g} s, or more"
+            )
+        layout = Layout(as_rate(fps), names, skeleton)
+        chosen = SegmentOptions.of(**options)
+        if chosen.features is not None:
+            raise ParameterError("a stream takes no features: push them as channels")
+        looked = choose_options(chosen, signals=skeleton is None)
+        self.fps, self.delay, self.memory, self.interval = layout.fps, delay, memory, interval
+        self.layout, self.options = layout, chosen
+        self._state = StreamState(
+            Intake(self.fps, layout.n_values),
+            Finals(self.fps),
+            RecentPast(layout, looked),
+            next_look=self._frames(interval),
+        )
+        if known is not None:
+            self._remember(*known)
+
+    def __repr__(self) -> str:
+        what = f"{self.layout.n_values} channels"
+        if self.layout.skeleton is not None:
+            what = f"{self.layout.skeleton.n_joints} joints"
+        return f"<Stream of {what} at {self.fps:g} Hz, second {self._state.now / self.fps:.1f}>"
+
+    def push(self, values: ArrayLike, times: ArrayLike | None = None) -> list[Event]:
+        """Add rows; return what is to be told.
+
+        Parameters
+        ----------
+        values : (channels,), (rows, channels) or (rows, joints, 3) array_like
+            NaN where there is nothing.
+        times : (rows,) array_like, optional
+            When each row was taken: numbers in any unit since any beginning, dates, or texts.
+            Without, rows are frames.
+
+        Returns
+        -------
+        list of Event
+            The same ones however many rows are pushed at a time.
+
+        Raises
+        ------
+        ParameterError
+            Rows of another shape, or times that are none; the stream goes on without them.
+        """
+        if self._state.is_finished:
+            raise ParameterError("the stream was finished: make another one")
+        rows = self._as_rows(values)
+        seconds = None
+        if times is not None:
+            seconds = _as_numbers(times)
+            if len(seconds) != len(rows):
+                raise ParameterError(f"there are {len(rows)} rows and {len(seconds)} times")
+        if not len(rows):
+            return []
+        if self._state.is_timed not in (None, seconds is not None):
+            raise ParameterError("rows of a stream have times, or none has")
+        self._state.is_timed = seconds is not None
+        events: list[Event] = []
+        for first in range(0, len(rows), PIECE):
+            piece = slice(first, first + PIECE)
+            part = None if seconds is None else seconds[piece]
+            events += self._absorb(self._state.intake.add(rows[piece], part))
+        return events
+
+    def _as_rows(self, values: ArrayLike) -> Floats:
+        """Return rows (rows, values), NaN for what is not finite."""
+        rows, n_values = as_floats(values, "rows"), self.layout.n_values
+        joints = self.layout.skeleton and (self.layout.skeleton.n_joints, 3)
+        if not rows.size:
+            return np.empty((0, n_values))
+        fits = rows.shape[-1:] == (n_values,) and rows.ndim <= 2
+        if not (fits or (rows.ndim == 1 and n_values == 1) or rows.shape[-2:] == joints):
+            raise ParameterError(f"rows have {n_values} values each, not shape {rows.shape}")
+        return np.where(np.isfinite(rows), rows, np.nan).reshape(-1, n_values)
+
+    def finish(self) -> list[Event]:
+        """End the stream; return the last events, all of them final."""
+        if self._state.is_finished:
+            return []
+        events = self._absorb(self._state.intake.finish())
+        self._state.is_finished = True
+        self._end_gap(self._state.now, events)
+        return events + self._settle()
+
+    @property
+    def segmentation(self) -> Segmentation:
+        """Return the table of what is final; the activity that goes on ends where it does.
+
+        Raises ParameterError while nothing is final.
+        """
+        finals = self._state.finals
+        if not finals.frontier:
+            raise ParameterError("nothing of the stream is final yet")
+        preset = self._state.past.options.resolved(signals=self.layout.skeleton is None)
+        provenance = {
+            "kineme": __version__,
+            "preset": preset.name,
+            "method": preset.method,
+            "parameters": {"unit": preset.unit, **preset.parameters()},
+            "notes": [
+                f"segmented as a stream, final after {self.delay:g} s",
+                *self._state.intake.said,
+            ],
+        }
+        return Segmentation.from_columns(
+            finals.columns(), n_frames=finals.frontier, fps=self.fps, provenance=provenance
+        )
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write all that the stream needs to go on, as one file.
+
+        Raises WriteError if it cannot be written.
+        """
+        skeleton = self.layout.skeleton
+        body = skeleton and {
+            "names": skeleton.names,
+            "parents": skeleton.parents,
+            "offsets": skeleton.offsets.tolist(),
+        }
+        settings = {
+            "fps": self.fps,
+            "channels": self.layout.channels if skeleton is None else None,
+            "skeleton": body,
+            "delay": self.delay,
+            "memory": self.memory,
+            "interval": self.interval,
+            "options": options_to_json(self.options),
+        }
+        save_state(self._state, settings, path)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Self:
+        """Return the stream in a file, which goes on as if it had never stopped.
+
+        Raises ReadError if the file is none of a stream.
+        """
+        settings, fill = load_state(path)
+        options = options_from_json(SegmentOptions, settings.pop("options"))
+        body = settings.pop("skeleton")
+        stream = cls(**settings, skeleton=body and Skeleton(**body), **as_keywords(options))
+        fill(stream._state)
+        return stream
+
+    def _frames(self, seconds: float) -> int:
+        return max(1, round(seconds * self.fps))
+
+    def _absorb(self, pieces: Sequence[Piece]) -> list[Event]:
+        """Take frames and holes in, and look whenever it is time to."""
+        events: list[Event] = []
+        for piece in pieces:
+            if isinstance(piece, str):
+                events.append(Notice(at_s=self._state.now / self.fps, text=piece))
+            elif isinstance(piece, Frames):
+                self._take(piece.values, piece.missing, events)
+            elif piece.n_frames <= self._frames(self.memory):
+                last = np.repeat(self._state.intake.filler[None], piece.n_frames, axis=0)
+                self._take(last, np.ones(piece.n_frames, np.bool_), events)
+            else:
+                self._skip(piece, events)
+        return events
+
+    def _take(self, values: Floats, missing: Masks, events: list[Event]) -> None:
+        start = 0
+        while start < len(values):
+            stop = min(len(values), start + self._state.next_look - self._state.now)
+            self._state.past.append(values[start:stop], missing[start:stop])
+            self._watch_gaps(missing[start:stop], events)
+            self._state.now += stop - start
+            start = stop
+            if self._state.now >= self._state.next_look:
+                events += self._look()
+                self._state.next_look = self._state.now + self._frames(self.interval)
+
+    def _skip(self, hole: Hole, events: list[Event]) -> None:
+        """Leave a hole behind that is longer than the recent past."""
+        events += self._settle()
+        self._watch_gaps(np.ones(1, np.bool_), events)
+        self._state.now += hole.n_frames
+        self._state.finals.frontier = self._state.now
+        self._state.past.drop_before(self._state.now)
+        self._state.past.start, self._state.before = self._state.now, None
+        self._state.next_look = self._state.now + self._frames(self.interval)
+
+    def _watch_gaps(self, missing: Masks, events: list[Event]) -> None:
+        """Tell when gaps begin, and when they are over."""
+        edges = np.flatnonzero(np.diff(missing, prepend=self._state.gap is not None))
+        for edge in edges.tolist():
+            if missing[edge]:
+                self._state.gap = self._state.now + edge
+                second = self._state.gap / self.fps
+                events.append(Gap(at_s=second, state="provisional", start_s=second, stop_s=second))
+            else:
+                self._end_gap(self._state.now + edge, events)
+
+    def _end_gap(self, stop: int, events: list[Event]) -> None:
+        if self._state.gap is not None:
+            stop_s = stop / self.fps
+            events.append(Gap(at_s=stop_s, start_s=self._state.gap / self.fps, stop_s=stop_s))
+            self._state.gap = None
+
+    def _look(self) -> list[Event]:
+        """Look at the recent past; return what became final, and what is new."""
+        look = self._state.past.look(self._state.finals)
+        horizon = self._state.now - self._frames(self.delay)
+        events = self._advance(look, self._state.before, horizon)
+        self._announce(look, events)
+        self._state.before = look
+        self._state.past.drop_before(self._state.now - self._frames(self.memory))
+        return events
+
+    def _settle(self) -> list[Event]:
+        """Make final all that there is."""
+        events: list[Event] = []
+        if self._state.now > self._state.finals.frontier:
+            events = self._advance(self._state.past.look(self._state.finals), None, self._state.now)
+        over = len(self._state.finals.activities)
+        events += self._state.finals.close(self._state.now, self._state.now / self.fps)
+        self._keep_examples(over)
+        self._state.told = Told()
+        return events
+
+    def _advance(self, look: Look, before: Look | None, horizon: int) -> list[Event]:
+        over = len(self._state.finals.activities)
+        looks = Looks(look, before, horizon, self._frames(self.delay), self._state.now)
+        events = self._state.finals.advance(looks)
+        self._keep_examples(over)
+        return events
+
+    def _keep_examples(self, first: int) -> None:
+        for row in self._state.finals.activities[first:]:
+            if row.cluster >= 0:
+                self._state.past.keep_example(row)
+
+    def _announce(self, look: Look, events: list[Event]) -> None:
+        """Tell what goes on, as far as it was not told."""
+        finals, told, current = self._state.finals, self._state.told, look.activities[-1]
+        at_s, label = self._state.now / self.fps, finals.labels.get(current.cluster, "")
+        begin_s = current.start / self.fps
+        if current.cluster != told.cluster:
+            if told.cluster >= 0:
+                ended = ActivityEnded(
+                    at_s=at_s,
+                    state="provisional",
+                    start_s=told.start / self.fps,
+                    stop_s=begin_s,
+                    cluster=told.cluster,
+                    repetitions=told.n_repetitions,
+                    label=finals.labels.get(told.cluster, ""),
+                )
+                events.append(ended)
+            told = self._state.told = Told(current.start, current.cluster)
+            if current.cluster >= 0:
+                started = ActivityStarted(
+                    at_s=at_s,
+                    state="provisional",
+                    start_s=begin_s,
+                    cluster=current.cluster,
+                    label=label,
+                )
+                events.append(started)
+        if current.cluster < 0:
+            return
+        is_open = finals.cluster == current.cluster and current.start < finals.frontier
+        n_final = finals.n_repetitions if is_open else 0
+        coming, _ = finals.uncounted(look.primitives, current.start)
+        coming = _drop_incomplete(coming, self._state.now)
+        if len(coming) + n_final < 2:  # a single one may be the activity itself
+            return
+        for number, row in enumerate(coming, n_final + 1):
+            if number > told.n_repetitions:
+                events.append(finals.repetition(row, number, at_s, state="provisional"))
+        told.n_repetitions = max(told.n_repetitions, n_final + len(coming))
+
+    def _remember(self, recording: Motion | Signals, segments: Segmentation) -> None:
+        """Take examples and labels of the clusters of an earlier result."""
+        check_type(segments, Segmentation, "known", "kineme.segment(recording) gives one")
+        skeleton = self.layout.skeleton
+        values = recording.values if isinstance(recording, Signals) else recording.positions
+        own = self.layout.channels if skeleton is None else skeleton.names
+        names = recording.names if isinstance(recording, Signals) else recording.skeleton.names
+        if tuple(names) != tuple(own) or recording.fps != self.fps:
+            raise ParameterError(
+                "the recording of known has other channels, joints or rate than the stream: "
+                "bring it to those"
+            )
+        earlier = RecentPast(self.layout, self._state.past.options)
+        earlier.append(values.reshape(len(values), -1), np.zeros(len(values), np.bool_))
+        for row in segments.activities:
+            if row.cluster >= 0:
+                earlier.keep_example(Row(row.start_frame, row.stop_frame, row.cluster))
+                if row.label:
+                    self._state.finals.labels[row.cluster] = row.label
+        self._state.past.examples = earlier.examples
+        self._state.finals.highest = max(earlier.examples, default=-1)
+
+
+def as_keywords(options: SegmentOptions) -> dict[str, Any]:
+    """Return options as a stream takes them."""
+    own = {name: value for name, value in vars(options).items() if name != "constants"}
+    return {**own, **options.constants}
+
+
+def _as_numbers(times: ArrayLike) -> Floats:
+    """Return times as numbers: dates and texts in seconds, numbers in whatever unit they have."""
+    given = np.atleast_1d(np.asarray(times))
+    try:
+        if given.dtype.kind in "iuf":
+            return given.astype(np.float64)
+        return np.asarray(as_seconds(given)[0], np.float64)
+    except (ValueError, TypeError) as error:
+        raise ParameterError(f"the times are none: {error}") from None
+
+
+def _drop_incomplete(rows: list[Row], now: int) -> list[Row]:
+    """Return repetitions without the one that goes on, unless it lasts about as long as others."""
+    if not rows or rows[-1].stop < now:
+        return rows
+    lengths = [float(row.stop - row.start) for row in rows[:-1]]
+    usual = float(np.median(lengths or [np.inf]))
+    return rows if rows[-1].stop - rows[-1].start >= PART_COUNTED * usual else rows[:-1]

@@ -1,0 +1,84 @@
+"""``kineme live``: from lines to events, tables and recordings."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner, Result
+
+import kineme
+from kineme.cli.app import app
+from streams import FPS, two_exercises
+
+
+def run(*options: str, text: str = "") -> Result:
+    return CliRunner().invoke(app, ["live", *options], input=text)
+
+
+@pytest.fixture(scope="module")
+def lines():
+    rows = two_exercises(8.0)[: int(16 * FPS)]
+    seconds = np.arange(len(rows)) / FPS
+    return "time_s,x,y\n" + "".join(
+        f"{s:.3f},{x:.4f},{y:.4f}\n" for s, (x, y) in zip(seconds, rows, strict=True)
+    )
+
+
+def test_lines_become_events_a_table_and_a_recording(lines, tmp_path):
+    table, take = tmp_path / "segments.csv", tmp_path / "take"
+    done = run("--json", "--output", str(table), "--record", str(take), text=lines)
+    assert done.exit_code == 0, done.stderr
+    events = [json.loads(line) for line in done.stdout.splitlines()]
+    final = [e for e in events if e["event"] == "ActivityStarted" and e["state"] == "final"]
+    rows = kineme.read_segments(table).activities
+    assert [e["start_s"] for e in final] == [round(row.start_s, 4) for row in rows]
+    assert kineme.read(take.with_suffix(".parquet")).n_frames == 16 * FPS
+
+
+def test_a_killed_run_is_recovered(lines, tmp_path):
+    with subprocess.Popen(
+        [
+            sys.executable,
+            "-m",
+            "kineme",
+            "live",
+            "--quiet",
+            "--fps",
+            str(FPS),
+            "--record",
+            str(tmp_path / "take"),
+        ],
+        stdin=subprocess.PIPE,
+        text=True,
+    ) as process:
+        process.stdin.write(lines)
+        process.stdin.flush()
+        journal = tmp_path / "take.journal.csv"
+        while not journal.exists() or len(journal.read_text().splitlines()) < 16 * FPS + 1:
+            assert process.poll() is None
+        os.kill(process.pid, signal.SIGKILL)
+    assert run("--recover", str(journal)).exit_code == 0
+    assert kineme.read(tmp_path / "take.parquet").n_frames == 16 * FPS
+
+
+@pytest.mark.parametrize(
+    ("options", "text", "code", "advice"),
+    [
+        ([], "", 1, "no lines came"),
+        ([], "x\n1\n", 1, "give --fps"),
+        (["--fps", "0"], "x\n1\n", 2, "above 0"),
+        (["--recover", "nowhere.journal.csv"], "", 1, "nowhere"),
+        (["--replay", "a.csv", "--osc", "9000"], "", 2, "one source"),
+    ],
+)
+def test_what_makes_no_sense_is_said_in_a_sentence(options, text, code, advice):
+    done = run(*options, text=text)
+    assert done.exit_code == code
+    assert advice in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,107 @@
+"""Rows from lines of text, LSL and OSC, each with the real thing."""
+
+from __future__ import annotations
+
+import socket
+from itertools import chain
+from threading import Thread
+from time import sleep
+
+import numpy as np
+import pytest
+
+from kineme.errors import ParameterError
+from kineme.live.sources import (
+    measure_rate,
+    open_lsl_outlet,
+    read_lines,
+    receive_lsl,
+    receive_osc,
+    replay,
+)
+from kineme.recordings import Signals
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["time_ms,x,y\n", "0,1,2\n", "\n", "20,3,\n", "40,5\n", "sixty,5,6\n"],
+        ['{"time_ms": 0, "x": 1, "y": 2}', '{"time_ms": 20, "x": 3, "z": 1}', "[1]", "{"],
+    ],
+)
+def test_lines_are_rows_with_times(lines):
+    source = read_lines(lines)
+    assert source.channels == ("x", "y")
+    rows = list(source.rows)
+    values = np.concatenate([each.values for each in rows])
+    np.testing.assert_array_equal(values, [[1, 2], [3, np.nan]])
+    np.testing.assert_allclose(np.concatenate([each.seconds for each in rows]), [0, 0.02])
+    assert "2 lines" in " ".join(chain.from_iterable(each.remarks for each in rows))
+
+
+def test_lines_without_names_and_chosen_columns():
+    assert read_lines(["1.5,2\n", "3,4\n"]).channels == ("1", "2")
+    source = read_lines(["acc_x,acc_y,pulse\n", "1,2,3\n"], ["acc_*"])
+    assert source.channels == ("acc_x", "acc_y")
+    with pytest.raises(ParameterError, match="--fps"):
+        measure_rate(source)
+
+
+def test_the_rate_of_lines_is_that_of_their_times():
+    lines = [f"{i / 40},{i}\n" for i in range(60)]
+    source = measure_rate(read_lines(["t,x\n", *lines]))
+    assert source.fps == pytest.approx(40)
+    assert sum(len(each.values) for each in source.rows) == 60
+
+
+def test_gaps_of_a_recording_are_replayed_as_nothing():
+    source = replay(Signals(np.ones((50, 1)), 10.0, gaps=[(10, 20)]), speed=0)
+    values = np.concatenate([each.values for each in source.rows])
+    assert np.isnan(values[:, 0]).nonzero()[0].tolist() == list(range(10, 20))
+
+
+def test_lsl_in_and_out():
+    pylsl = pytest.importorskip("pylsl")
+    info = pylsl.StreamInfo("kineme-test", "IMU", 2, 100, "double64", "kineme-test")
+    channels = info.desc().append_child("channels")
+    for name in ("x", "y"):
+        channels.append_child("channel").append_child_value("label", name)
+    outlet = pylsl.StreamOutlet(info)
+    source = receive_lsl("kineme-test")
+    assert (source.fps, source.channels) == (100.0, ("x", "y"))
+    next(source.rows)  # opens the connection
+    outlet.wait_for_consumers(5)
+    outlet.push_chunk([[1.0, 2.0], [3.0, 4.0]])
+    got = next(each for each in source.rows if len(each.values))
+    np.testing.assert_array_equal(got.values, [[1, 2], [3, 4]][: len(got.values)])
+    send = open_lsl_outlet("kineme-events")
+    inlet = pylsl.StreamInlet(pylsl.resolve_byprop("name", "kineme-events", timeout=5)[0])
+    inlet.open_stream(5)
+    send("hello")
+    assert inlet.pull_sample(timeout=5)[0] == ["hello"]
+
+
+def test_osc_and_vmc():
+    client = pytest.importorskip("pythonosc.udp_client")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+
+    def send() -> None:
+        sleep(0.3)
+        with client.SimpleUDPClient("127.0.0.1", port) as sender:
+            for i in range(20):
+                for bone in ("Hips", "Head"):
+                    pose = [bone, 0.0, 1.0, 0.0, float(i), 0.0, 0.0, 1.0]
+                    sender.send_message("/VMC/Ext/Bone/Pos", pose)
+                sender.send_message("/VMC/Ext/T", 0.1 * i)
+                sleep(0.01)
+
+    thread = Thread(target=send)
+    thread.start()
+    source = receive_osc(port)
+    assert source.channels == tuple(f"Pos_{b}_{i}" for b in ("Hips", "Head") for i in range(1, 5))
+    got = next(each for each in source.rows if len(each.values))
+    assert got.values[0, 0] == got.values[0, 4] >= 1
+    source.rows.close()
+    thread.join()

@@ -1,0 +1,186 @@
+"""A stream tells the same events however rows come, and never takes back what is final."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.errors import ParameterError, ReadError
+from kineme.live import ActivityEnded, ActivityStarted, Gap, Notice, Repetition, Stream
+from streams import FPS, make_stream, push_pieces, two_exercises
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return two_exercises()
+
+
+@pytest.fixture(scope="module")
+def told(rows):
+    """A stream that has ended, and its events."""
+    stream = make_stream()
+    return stream, list(push_pieces(stream, rows, [10]))
+
+
+def test_activities_are_found_counted_and_recognised(told):
+    stream, events = told
+    ended = [e for e in events if isinstance(e, ActivityEnded) and e.is_final]
+    assert [e.cluster for e in ended] == [0, 1, 0]
+    assert np.abs(np.diff([e.stop_s for e in ended]) - 12).max() < 1
+    # slow ones of 2 s, fast ones of 1.26 s
+    assert np.abs(np.array([e.repetitions for e in ended]) - [6, 9.5, 6]).max() <= 1
+    assert stream.segmentation.n_frames == len(two_exercises())
+
+
+def test_events_do_not_depend_on_the_pieces(rows, told):
+    assert list(push_pieces(make_stream(), rows, [1, 250, 3])) == told[1]
+
+
+def spans(table):
+    return [(row.start_frame, row.stop_frame, row.cluster) for row in table]
+
+
+def test_what_is_final_never_changes(rows, told):
+    stream, known = make_stream(), []
+    for start in range(0, len(rows), 25):
+        stream.push(rows[start : start + 25])
+        if start > 10 * FPS:
+            table = stream.segmentation
+            # the last rows of both levels go on
+            known.append([spans(table.activities)[:-1], spans(table.primitives)[:-1]])
+    stream.finish()
+    table = stream.segmentation
+    last = spans(table.activities), spans(table.primitives)
+    for levels in known:
+        for level, final in zip(levels, last, strict=True):
+            assert final[: len(level)] == level
+
+
+def test_final_events_are_the_table(told):
+    stream, events = told
+    table = stream.segmentation
+    final = [e for e in events if e.is_final]
+    starts = [(e.start_s, e.cluster) for e in final if isinstance(e, ActivityStarted)]
+    assert starts == [(r.start_s, r.cluster) for r in table.activities if r.kind == "activity"]
+    units = [(e.start_s, e.stop_s, e.cluster) for e in final if isinstance(e, Repetition)]
+    assert units == [(r.start_s, r.stop_s, r.cluster) for r in table.primitives if r.cluster >= 0]
+
+
+def test_provisional_events_come_first_and_final_ones_after_the_delay(told):
+    stream, events = told
+    second = [e for e in events if isinstance(e, ActivityStarted) and e.cluster == 1]
+    assert [e.state for e in second] == ["provisional", "final"]
+    assert second[0].at_s - 12 < 4
+    assert stream.delay <= second[1].at_s - second[1].start_s <= 2 * stream.delay + stream.interval
+
+
+def test_a_stream_goes_on_after_it_was_saved(rows, told, tmp_path):
+    stream = make_stream()
+    events = stream.push(rows[:407])
+    stream.save(tmp_path / "stream.npz")
+    again = Stream.load(tmp_path / "stream.npz")
+    assert events + list(push_pieces(again, rows[407:], [10])) == told[1]
+    assert again.segmentation == told[0].segmentation
+
+
+def test_a_file_that_is_no_stream_is_refused(tmp_path):
+    (tmp_path / "other.npz").write_bytes(b"nothing")
+    with pytest.raises(ReadError, match="no stream"):
+        Stream.load(tmp_path / "other.npz")
+
+
+def test_memory_is_bounded(rows):
+    stream = make_stream(interval=10.0, delay=5.0, memory=30.0)
+    sizes = []
+    for _ in range(3):
+        stream.push(rows)
+        past = stream._state.past
+        sizes.append(len(past.values) + sum(len(block) for block, _ in past._blocks))
+    assert max(sizes) <= (30 + 10) * FPS
+    assert sum(map(len, stream._state.past.examples.values())) <= 12 * 8 * FPS
+
+
+def test_a_body_is_segmented_by_its_joints():
+    motion = kineme.read(kineme.bundled_recording())[:900]
+    stream = Stream(fps=motion.fps, skeleton=motion.skeleton)
+    events = list(push_pieces(stream, motion.positions, [60]))
+    starts = [e.start_s for e in events if isinstance(e, ActivityStarted) and e.is_final]
+    expected = [r.start_s for r in kineme.segment(motion).activities if r.kind == "activity"]
+    assert len(starts) == len(expected)
+    np.testing.assert_allclose(starts, expected, atol=1.0)
+
+
+def test_clusters_of_an_earlier_result_keep_their_numbers_and_labels(rows):
+    earlier = kineme.Signals(rows, FPS, ["x", "y"])
+    spans = {"start_frame": [0, 300, 600], "stop_frame": [300, 600, 900], "cluster": [7, 3, 7]}
+    kinds = {
+        "level": ["activity"] * 3,
+        "kind": ["activity"] * 3,
+        "label": ["a", "b", "a"],
+    }
+    table = kineme.Segmentation.from_columns({**spans, **kinds}, n_frames=900, fps=FPS)
+    stream = make_stream(known=(earlier, table))
+    events = list(push_pieces(stream, two_exercises(seed=1)[250:], [50]))
+    labels = [e.label for e in events if isinstance(e, ActivityEnded) and e.is_final]
+    assert labels[-2:] == ["b", "a"]
+
+
+def test_a_long_hole_is_a_gap_and_does_not_fill_the_memory(rows):
+    stream = make_stream()
+    times = np.concatenate([np.arange(400), 86400 * FPS + np.arange(400)]) / FPS
+    events = list(push_pieces(stream, np.concatenate([rows[:400], rows[:400]]), [50], times))
+    gaps = [e for e in events if isinstance(e, Gap) and e.is_final]
+    assert len(gaps) == 1
+    assert gaps[0].stop_s - gaps[0].start_s == pytest.approx(86400 - 16, abs=0.1)
+    ended = [e.cluster for e in events if isinstance(e, ActivityEnded) and e.is_final]
+    assert ended == [0, 1, 0, 1]
+    assert stream.segmentation.n_frames == pytest.approx(86400 * FPS + 400, abs=1)
+
+
+@pytest.mark.parametrize("bad", [np.full((300, 2), np.nan), np.zeros((300, 2)), np.ones((1, 2))])
+def test_rows_that_tell_nothing_are_borne(bad):
+    stream = make_stream()
+    list(push_pieces(stream, bad, [100]))
+    assert stream.segmentation.n_frames == len(bad)
+
+
+def test_rows_that_do_not_fit_are_refused_and_the_stream_goes_on():
+    stream = make_stream()
+    stream.push([[1.0, 2.0]])
+    for rows, times in (
+        ([[1.0]], None),
+        (np.ones((2, 3)), None),
+        ([["a", "b"]], None),
+        ([[1.0, 2.0]], [0.0]),
+    ):
+        with pytest.raises(ParameterError):
+            stream.push(rows, times)
+    stream.push([1.0, 2.0])
+    stream.finish()
+    assert stream.segmentation.n_frames == 2
+
+
+def test_a_clock_that_is_set_back_is_told(rows):
+    times = np.arange(len(rows)) / FPS
+    times[450:] -= 7
+    events = list(push_pieces(make_stream(), rows, [50], times))
+    assert any(isinstance(e, Notice) and "goes back" in e.text for e in events)
+    assert any(isinstance(e, Gap) for e in events)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"fps": 0},
+        {"channels": None},
+        {"channels": []},
+        {"delay": 0},
+        {"memory": 5.0},
+        {"preset": "nothing"},
+        {"nothing": 1},
+    ],
+)
+def test_options_that_make_no_sense_are_refused(options):
+    with pytest.raises(ParameterError):
+        make_stream(**options)
