@@ -10,13 +10,22 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.clips import (
+    Close,
+    ForTarget,
+    MotionMatching,
+    Name,
+    RootMotion,
+    Sheet,
+    ToFormat,
+    ToFps,
+)
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import EVERYTHING, READING, Quiet, options_by_name
 from kineme.cli.options.targets import make_folder_of
 from kineme.cli.segment import read_and_segment
-from kineme.clips import RootMotionMode, TargetName
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.table import Level
@@ -48,56 +57,18 @@ def split(
     best: Annotated[
         int | None, option(OUTPUT, "Of loops: so many of each cluster.", "--best", min=1)
     ] = None,
-    root_motion: Annotated[
-        RootMotionMode | None,
-        option(
-            OUTPUT,
-            "keep, extract (to a root bone), in-place.",
-            metavar="HOW",
-            show_default="keep",
-        ),
-    ] = None,
+    root_motion: RootMotion = None,
     straight: Annotated[bool, option(OUTPUT, "Take out each clip's turn.", "--straight")] = False,
     mirror: Annotated[
         bool, option(OUTPUT, "Exchange left and right in each clip.", "--mirror")
     ] = False,
-    close: Annotated[
-        bool, option(OUTPUT, "Repeat the first frame of loops at their end.", "--close")
-    ] = False,
-    to_format: Annotated[
-        str | None,
-        option(
-            OUTPUT, "Such as glb; by default bvh, or csv of points.", "--format", metavar="SUFFIX"
-        ),
-    ] = None,
-    to_fps: Annotated[
-        float | None,
-        option(OUTPUT, "Frames per second of the clips, such as 30.", "--to-fps", metavar="HZ"),
-    ] = None,
-    name: Annotated[
-        str | None,
-        option(
-            OUTPUT,
-            "Names of clips, such as {take}_{label}_{n:02}; also {name}, {cluster}, {level}, "
-            "{direction}, {loop}.",
-            metavar="TEMPLATE",
-        ),
-    ] = None,
-    target: Annotated[
-        TargetName | None,
-        option(
-            OUTPUT,
-            "Format, root bone and names for unreal, unity, blender or godot.",
-            "--for",
-            metavar="PROGRAM",
-        ),
-    ] = None,
-    sheet: Annotated[
-        Path | None, option(OUTPUT, "Picture of all clips as stick figures.", metavar="PNG")
-    ] = None,
-    motion_matching: Annotated[
-        Path | None, option(OUTPUT, "Database for motion matching, .npz or .bin.", metavar="FILE")
-    ] = None,
+    close: Close = False,
+    to_format: ToFormat = None,
+    to_fps: ToFps = None,
+    name: Name = None,
+    target: ForTarget = None,
+    sheet: Sheet = None,
+    motion_matching: MotionMatching = None,
     segments: SegmentTable = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
