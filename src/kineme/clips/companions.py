@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
-from kineme.clips.motion_matching import Database, check_database
+from kineme.clips.motion_matching import SUFFIXES, Database
 from kineme.clips.options import ClipOptions
 from kineme.clips.shaping import ShapedClip
+from kineme.errors import WriteError
 from kineme.recordings import Motion
 from kineme.segments.table import Segment
 
+PICTURES = (".png", ".pdf", ".svg")
 SHOWN = 24
 """Frames of a clip that its strip is drawn from."""
 
@@ -22,8 +25,10 @@ class Companions:
 
     def __init__(self, given: ClipOptions) -> None:
         self.sheet, self.matching = given.get("sheet"), given.get("motion_matching")
-        if self.matching is not None:
-            check_database(self.matching)
+        # Before any work is done, so that nothing is left half written.
+        for path, suffixes in ((self.sheet, PICTURES), (self.matching, SUFFIXES)):
+            if path is not None:
+                check_target(Path(path), suffixes)
         self.strips: list[tuple[str, Motion, int]] = []
         self.database = Database()
 
@@ -41,7 +46,7 @@ class Companions:
             if self.sheet is not None:
                 title = "   ".join(filter(None, [name, ", ".join(clip.tags)]))
                 self.strips.append((title, _thin(clip.motion), clip.segment.cluster))
-            ranges.append((name, rows[clip.index], clip.tags, clip.carry is not None))
+            ranges.append((name, rows[clip.index], clip.tags))
             yield clip
         if self.matching is not None:
             self.database.add(motion, ranges)
@@ -54,6 +59,14 @@ class Companions:
             from kineme.plot.sheets import Strip, write_sheet  # matplotlib takes long to import
 
             write_sheet([Strip(*each) for each in self.strips], self.sheet)
+
+
+def check_target(path: Path, suffixes: Sequence[str]) -> None:
+    """WriteError where a file has none of these suffixes, or no folder to lie in."""
+    if path.suffix.lower() not in suffixes:
+        raise WriteError(path, f"the suffix must be one of {', '.join(suffixes)}")
+    if not path.parent.is_dir():
+        raise WriteError(path, f"there is no folder {path.parent}")
 
 
 def _thin(motion: Motion) -> Motion:

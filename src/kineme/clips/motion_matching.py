@@ -28,7 +28,7 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.files import atomic_write
 from kineme.clips.shaping import planted_feet
-from kineme.errors import EndEffectorError, MotionError, ParameterError, WriteError
+from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import end_effectors, heading
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
@@ -51,14 +51,8 @@ GROUPS = (
 """Name, size and weight of the parts of a feature."""
 SUFFIXES = (".npz", ".bin")
 
-Range = tuple[str, Segment, Sequence[str], bool]
-"""Name of a clip, its frames in the recording, its tags, and whether it is a loop."""
-
-
-def check_database(path: str | PathLike[str]) -> None:
-    """WriteError where no database is written with the suffix of a path."""
-    if Path(path).suffix.lower() not in SUFFIXES:
-        raise WriteError(path, f"the suffix must be one of {', '.join(SUFFIXES)}")
+Range = tuple[str, Segment, Sequence[str]]
+"""Name of a clip, its segment, and its tags."""
 
 
 class Database:
@@ -91,7 +85,7 @@ class Database:
         described = _describe(resample(motion, RATE), bones)
         ratio, n = RATE / motion.fps, len(described["features"])
         at = self.ranges[-1][3] if self.ranges else 0
-        for name, row, tags, _ in ranges:
+        for name, row, tags in ranges:
             start = min(round(row.start_frame * ratio), n - 1)
             stop = max(start + 1, min(round(row.stop_frame * ratio), n))
             self.parts.append({key: part[start:stop] for key, part in described.items()})
@@ -119,17 +113,16 @@ class Database:
                 return
             offset, scale = _normalization(found["features"])
             names_of = [f"{name}_{i}" for name, size, _ in GROUPS for i in range(size)]
-            np.savez_compressed(
-                file,
-                **found,
-                features_offset=offset,
-                features_scale=scale,
-                feature_names=np.array(names_of),
-                bone_names=np.array(bone_names),
-                range_names=np.array(names),
-                range_tags=np.array([", ".join(each) for each in tags]),
-                fps=np.array(RATE),
-            )
+            found |= {
+                "features_offset": offset,
+                "features_scale": scale,
+                "feature_names": np.array(names_of),
+                "bone_names": np.array(bone_names),
+                "range_names": np.array(names),
+                "range_tags": np.array([", ".join(each) for each in tags]),
+                "fps": np.array(RATE),
+            }
+            np.savez_compressed(file, allow_pickle=False, **found)
 
 
 LAYOUT = (
@@ -216,4 +209,6 @@ def _angular_velocities(rotations: Floats) -> Floats:
         return np.zeros((*rotations.shape[:2], 3))
     steps = rot.logarithm(rot.multiply(rotations[1:], rot.conjugate(rotations[:-1]))) * RATE
     # The mean of the steps before and after a frame; at the ends the only one.
-    return (np.concatenate([steps[:1], steps]) + np.concatenate([steps, steps[-1:]])) / 2
+    before, after = np.concatenate([steps[:1], steps]), np.concatenate([steps, steps[-1:]])
+    mean: Floats = (before + after) / 2
+    return mean

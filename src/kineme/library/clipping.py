@@ -12,13 +12,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Literal, NamedTuple, Unpack
+from typing import Literal, NamedTuple, Unpack, get_args
 
 import numpy as np
 
 from kineme._util.arrays import Floats, interpolate_frames
-from kineme._util.checks import is_number, is_one_of, warn
-from kineme.clips.options import ClipOptions
+from kineme._util.checks import is_one_of, warn
+from kineme.clips.options import ClipOptions, choose
 from kineme.clips.quality import PHASES, LoopQuality
 from kineme.clips.shaping import RankedLoop, loop_qualities, planted_feet
 from kineme.clips.tags import DIRECTIONS, travel_of
@@ -30,7 +30,8 @@ from kineme.recordings import Motion
 from kineme.recordings.operations import cut
 from kineme.segments.table import COLUMNS, Segment
 
-Per = Literal["cluster", "recording"]
+Per = Literal["cluster", "direction", "recording"]
+"""Of what the best loops are chosen: of a cluster, of each direction or recording in it."""
 NEAR_M = 0.03
 """Metres, root mean square of five points, below which two loops are the same movement."""
 NEAR_SHARE = 0.1
@@ -101,25 +102,24 @@ def coverage_of(tables: OpenTables) -> list[Coverage]:
                 sum(stops),
             )
         )
-    order = {direction: place for place, direction in enumerate(DIRECTIONS)}
-    return sorted(covered, key=lambda each: (each.cluster, order[each.direction]))
+    directions: list[str] = [*DIRECTIONS]
+    return sorted(covered, key=lambda each: (each.cluster, directions.index(each.direction)))
 
 
 def write_best_loops(
     tables: OpenTables,
     folder: str | PathLike[str],
     *,
-    best: int,
     per: Per = "cluster",
     **options: Unpack[ClipOptions],
 ) -> list[Path]:
     """Write the best loops of each cluster, of all recordings or of each; see `Library.loops`."""
     from kineme.clips.split import Source, write_clips
 
-    if not (is_number(best) and best == int(best) and best >= 1):
-        raise ParameterError(f"best is {best!r:.60}: give a number of loops, 1 at least")
-    if not is_one_of(per, ("cluster", "recording")):
-        raise ParameterError(f"per is {per!r:.60}: choose from cluster, recording")
+    options["loops"] = True
+    best = choose(options).shape.best
+    if not is_one_of(per, get_args(Per)):
+        raise ParameterError(f"per is {per!r:.60}: choose from {', '.join(get_args(Per))}")
     groups: defaultdict[tuple[int, str], list[_Candidate]] = defaultdict(list)
     repeated = _repeated(tables)
     for motion, rows in _bodies(tables):
@@ -133,10 +133,11 @@ def write_best_loops(
         ]
         name = motion.provenance.path or ""
         for each in _candidates(motion, rows, wanted, name):
-            groups[each.cluster, name if per == "recording" else ""].append(each)
+            part = {"cluster": "", "recording": name, "direction": each.direction}[per]
+            groups[each.cluster, part].append(each)
     chosen: defaultdict[str, list[RankedLoop]] = defaultdict(list)
     for candidates in groups.values():
-        for rank, each in enumerate(_best(candidates, int(best)), 1):
+        for rank, each in enumerate(_best(candidates, best), 1):
             chosen[each.recording].append(RankedLoop(each.index, rank, each.quality))
     if not chosen:
         raise ParameterError("no recording of this library has a loop")
@@ -146,7 +147,7 @@ def write_best_loops(
             if loops := chosen.get(motion.provenance.path or ""):
                 yield motion, rows, loops
 
-    return write_clips(sources(), folder, together=per == "cluster", **{**options, "loops": True})
+    return write_clips(sources(), folder, together=per != "recording", **options)
 
 
 @dataclass(frozen=True)
@@ -156,6 +157,7 @@ class _Candidate:
     recording: str
     index: int
     cluster: int
+    direction: str
     quality: LoopQuality
     seconds: float
     poses: Floats | None
@@ -170,14 +172,14 @@ class _Candidate:
             np.sqrt(((np.roll(self.poses, k, axis=0) - other.poses) ** 2).sum(axis=-1).mean())
             for k in range(PHASES)
         )
-        return min(apart) < NEAR_M
+        return bool(min(apart) < NEAR_M)
 
 
 def _candidates(
     motion: Motion, rows: Sequence[Segment], wanted: Sequence[int], recording: str
 ) -> Iterator[_Candidate]:
     """Yield the rows of a recording that can become loops."""
-    own = [rows[index] for index in wanted]
+    own, travel = [rows[index] for index in wanted], travel_of(motion)
     qualities = loop_qualities(motion, own, planted_feet(motion)) if own else {}
     for place, quality in qualities.items():
         row = own[place]
@@ -189,10 +191,13 @@ def _candidates(
             sampled = interpolate_frames(poses, at)
         except KinemeError:  # of another body than that of people: nothing tells duplicates
             sampled = None
-        yield _Candidate(recording, wanted[place], row.cluster, quality, row.duration_s, sampled)
+        tags = travel.tags(row.start_frame, row.stop_frame) if travel else ("",)
+        yield _Candidate(
+            recording, wanted[place], row.cluster, tags[0], quality, row.duration_s, sampled
+        )
 
 
-def _best(candidates: Sequence[_Candidate], most: int) -> list[_Candidate]:
+def _best(candidates: Sequence[_Candidate], most: int | None) -> list[_Candidate]:
     """Return the best candidates, none of them nearly a duplicate of a better one."""
     kept: list[_Candidate] = []
     for each in sorted(candidates, key=lambda each: each.quality.cost):

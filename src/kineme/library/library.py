@@ -212,7 +212,6 @@ class Library:
         self,
         folder: AnyPath,
         *,
-        best: int,
         per: Per = "cluster",
         **options: Unpack[ClipOptions],
     ) -> list[Path]:
@@ -222,12 +221,10 @@ class Library:
         ----------
         folder : path-like
             New or empty; it gets manifests, too.
-        best : int
-            Loops of each cluster, at most.
-        per : {"cluster", "recording"}
-            Of all recordings together, or of each.
+        per : {"cluster", "direction", "recording"}
+            Of a cluster in all recordings, or of each direction of travel or recording in it.
         **options
-            As for `kineme.clips.split.split`.
+            As for `kineme.clips.split.split`, such as ``best=3``, the loops of each at most.
 
         Raises
         ------
@@ -238,7 +235,7 @@ class Library:
         """
         from kineme.library.clipping import write_best_loops
 
-        return write_best_loops(self._tables, folder, best=best, per=per, **options)
+        return write_best_loops(self._tables, folder, per=per, **options)
 
     def query(self, sql: str) -> Any:
         """Return the answer, a pyarrow.Table, to a question in SQL over the tables of the library.

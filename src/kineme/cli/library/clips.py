@@ -37,8 +37,8 @@ def split(
     ] = None,
     best: Annotated[int, option(OUTPUT, "Loops of each cluster, at most.", min=1)] = 3,
     per: Annotated[
-        Literal["cluster", "recording"],
-        option(OUTPUT, "Best of all recordings (cluster), or of each (recording)."),
+        Literal["cluster", "direction", "recording"],
+        option(OUTPUT, "Best of each cluster, or of each direction or recording in it."),
     ] = "cluster",
     root_motion: RootMotion = None,
     close: Close = False,
