@@ -199,17 +199,14 @@ def write_clips(
                 _refuse_poses(chosen)
                 entries += _write_rows(run, recording, rows)
                 continue
-            motion = mirrored(recording) if chosen.shape.mirror else recording
-            made = companions.follow(
-                motion, rows, shape_clips(motion, rows, chosen.shape, *ranked), run.clip_name
-            )
+            made = _make_clips(run, recording, rows, companions, *ranked)
             if write_all is not None:
                 file = unlike(run.stem, run.first, files)
                 files.add(file.casefold())
                 path = draft / f"{file}.{chosen.suffix}"
                 entries += _write_animations(run, made, path, write_all)
             else:
-                suffix = chosen.suffix or ("csv" if motion.rotations is None else "bvh")
+                suffix = chosen.suffix or ("csv" if recording.rotations is None else "bvh")
                 entries += _write_files(run, made, suffix)
         write_manifests(
             entries,
@@ -250,23 +247,35 @@ def _write_one_file(
             raise ParameterError(f"signals are no animations of {target.name}: give a folder")
         run = _Run(recording, number, target.parent, chosen, names, of_takes=len(sources) > 1)
         number += len(rows)
-        motion = mirrored(recording) if chosen.shape.mirror else recording
-        shaped = shape_clips(motion, rows, chosen.shape, *ranked)
-        for each in companions.follow(motion, rows, shaped, run.clip_name):
+        for each in _make_clips(run, recording, rows, companions, *ranked):
             clip = run.shaped_clip(each, target.name)
             entries.append(replace(clip, animation=clip.name))
             animations[clip.name] = each.motion
     if not animations:
         raise ParameterError(f"there is no clip to write to {target.name}")
-    if found.copy_animations is not None and found.name == first.provenance.format:
-        found.copy_animations(animations, source, target)
-    elif found.write_animations is not None:
-        found.write_animations(animations, target)
     with atomic_write(lists[0]) as table, atomic_write(lists[1]) as list_of_all:
         loops = chosen.shape.loops
         write_manifests(entries, table, list_of_all, loops=loops, animations=True)
+        if found.copy_animations is not None and found.name == first.provenance.format:
+            found.copy_animations(animations, source, target)
+        elif found.write_animations is not None:
+            found.write_animations(animations, target)
     companions.write()
     return [target] * len(entries)
+
+
+def _make_clips(
+    run: _Run,
+    recording: Motion,
+    rows: Sequence[Segment],
+    companions: Companions,
+    ranked: Sequence[RankedLoop] | None = None,
+) -> Iterator[ShapedClip]:
+    """Yield the clips of a recording, which companions are told of."""
+    shape = run.chosen.shape
+    motion = mirrored(recording) if shape.mirror else recording
+    made = shape_clips(motion, rows, shape, ranked)
+    return companions.follow(motion, rows, made, run.clip_name)
 
 
 def _refuse_poses(chosen: Chosen) -> None:
