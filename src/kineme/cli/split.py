@@ -44,24 +44,22 @@ def split(
         Path,
         option(
             OUTPUT,
-            "Folder, or .glb of all clips; of several recordings with {name} in it.",
+            "Folder, or .glb of all clips; of several with {name}.",
             "--output",
             "-o",
         ),
     ],
-    level: Annotated[Level, option(OUTPUT, "Activities, or primitives.")] = "activity",
-    cluster: Annotated[int | None, option(OUTPUT, "Write those of this cluster only.")] = None,
-    loop: Annotated[
-        bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
-    ] = False,
+    level: Annotated[
+        Level, option(OUTPUT, "activity or primitive.", "--level", metavar="LEVEL")
+    ] = "activity",
+    cluster: Annotated[int | None, option(OUTPUT, "Write this cluster only.")] = None,
+    loop: Annotated[bool, option(OUTPUT, "Blend the ends: each clip loops.", "--loop")] = False,
     best: Annotated[
-        int | None, option(OUTPUT, "Of loops: so many of each cluster.", "--best", min=1)
+        int | None, option(OUTPUT, "Loops of each cluster.", "--best", metavar="NUMBER")
     ] = None,
     root_motion: RootMotion = None,
     straight: Annotated[bool, option(OUTPUT, "Take out each clip's turn.", "--straight")] = False,
-    mirror: Annotated[
-        bool, option(OUTPUT, "Exchange left and right in each clip.", "--mirror")
-    ] = False,
+    mirror: Annotated[bool, option(OUTPUT, "Exchange left and right.", "--mirror")] = False,
     close: Close = False,
     to_format: ToFormat = None,
     to_fps: ToFps = None,

@@ -126,7 +126,8 @@ def _looks(motion: Motion, rotations: Floats, ends: EndEffectors) -> Floats:
     places, turns = rig_of(skeleton).rest()
     # Where the arms part, at rest: head and chest face the same way there.
     to_left = places[left] - places[right]
-    axis = rot.rotate(rot.conjugate(turns[ends.head]), to_left / np.linalg.norm(to_left))
+    to_left /= max(float(np.linalg.norm(to_left)), 1e-12)
+    axis = rot.rotate(rot.conjugate(turns[ends.head]), to_left)
     turned = rot.rotate(world_rotations(skeleton, rotations)[:, ends.head], axis)
     cos, sin = find_facing(turned, _LEAST)
     return np.arctan2(-sin, cos)[:, 0]

@@ -10,23 +10,22 @@ from kineme.clips import RootMotionMode, TargetName
 
 RootMotion = Annotated[
     RootMotionMode | None,
-    option(OUTPUT, "keep, extract (to a root bone), in-place.", metavar="HOW", show_default="keep"),
+    option(OUTPUT, "keep, extract (root bone), in-place.", metavar="HOW", show_default="keep"),
 ]
-Close = Annotated[bool, option(OUTPUT, "Repeat the first frame of loops at their end.", "--close")]
+Close = Annotated[bool, option(OUTPUT, "Repeat the first frame at the end.", "--close")]
 ToFormat = Annotated[
     str | None,
-    option(OUTPUT, "Such as glb; by default bvh, or csv of points.", "--format", metavar="SUFFIX"),
+    option(OUTPUT, "Such as glb; bvh or csv by default.", "--format", metavar="SUFFIX"),
 ]
 ToFps = Annotated[
     float | None,
-    option(OUTPUT, "Frames per second of the clips, such as 30.", "--to-fps", metavar="HZ"),
+    option(OUTPUT, "Frame rate of clips, such as 30.", "--to-fps", metavar="HZ"),
 ]
 Name = Annotated[
     str | None,
     option(
         OUTPUT,
-        "Names of clips, such as {take}_{label}_{n:02}; also {name}, {cluster}, {level}, "
-        "{direction}, {loop}.",
+        "Such as {label}_{n:02}; also {name}, {take}, {direction} and others.",
         "--name",
         metavar="TEMPLATE",
     ),
@@ -35,19 +34,17 @@ ForTarget = Annotated[
     TargetName | None,
     option(
         OUTPUT,
-        "Format, root bone and names for unreal, unity, blender or godot.",
+        "unreal, unity, blender or godot.",
         "--for",
         metavar="PROGRAM",
     ),
 ]
-Sheet = Annotated[
-    Path | None, option(OUTPUT, "Picture of all clips as stick figures.", "--sheet", metavar="PNG")
-]
+Sheet = Annotated[Path | None, option(OUTPUT, "Picture of all clips.", "--sheet", metavar="PNG")]
 MotionMatching = Annotated[
     Path | None,
     option(
         OUTPUT,
-        "Database for motion matching, .npz or .bin.",
+        "Database to write, .npz or .bin.",
         "--motion-matching",
         metavar="FILE",
     ),

@@ -99,13 +99,14 @@ def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
 def _same(one: Skeleton, other: Skeleton) -> bool:
     if one.names != other.names or one.parents != other.parents:
         return False
-    if one.rig is None or other.rig is None:
+    if one.rig is None or other.rig is None or not one.rig.numbers:
         return np.allclose(one.offsets, other.offsets, atol=RIGID)
-    # Offsets of joints that slide depend on the take; the nodes of the file at rest do not.
+    # Offsets of joints that slide depend on the take; the nodes of one file at rest do not.
     rest, others = (
         np.hstack([rig.translations, rig.rotations, rig.scales]) for rig in (one.rig, other.rig)
     )
-    return rest.shape == others.shape and np.allclose(rest, others, atol=RIGID)
+    same = one.rig.numbers == other.rig.numbers
+    return same and np.allclose(rest, others, atol=RIGID)
 
 
 class Animator:
