@@ -8,7 +8,7 @@ entry for each clip, and one for each recording with the ranges that were cut fr
 
     {"schema": "kineme.motion_matching/1",
      "clips": [{"sequence": "take_0000_walk", "file": "take.glb", "range_s": [0, 1.1],
-                "loop": true, "mirrored": false, "tags": ["walk"],
+                "loop": true, "mirrored": false, "tags": ["walk", "forwards"],
                 "feet": {"left": [[0, 0.2]]}}],
      "recordings": [{"source": "take.bvh", "ranges": [{"range_s": [2.7, 3.8], "tags": ["walk"]}]}]}
 
@@ -68,10 +68,10 @@ def sequence(clip: dict[str, Any]) -> dict[str, Any]:
 
 
 def tags(clip: dict[str, Any]) -> list[str]:
-    """What a clip is called: its label, else its cluster."""
+    """What a clip is called, its label or else its cluster, and where it goes."""
     if clip["kind"] == "transition":
-        return ["transition"]
-    return [clip["label"] or f"cluster {clip['cluster']}"]
+        return ["transition", *clip["tags"]]
+    return [clip["label"] or f"cluster {clip['cluster']}", *clip["tags"]]
 
 
 if __name__ == "__main__":

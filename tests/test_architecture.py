@@ -79,10 +79,6 @@ ROOMS = {
         "`cycles()`: each repetition measured, mean curves, foot contacts",
         "features labels recordings segments",
     ),
-    "clips": Room(
-        "a file per segment, loops that close, ranked; manifests of them",
-        "cycles features formats labels recordings segments",
-    ),
     "interop": Room(
         "segments and recordings as other libraries have them",
         "formats labels methods recordings segments",
@@ -92,6 +88,11 @@ ROOMS = {
         "features formats methods recordings segments transfer",
     ),
     "plot": Room("pictures, each on given axes", "cycles features recordings segments synthesis"),
+    "clips": Room(
+        "a file per segment, loops that close, ranked; manifests, contact sheets and databases for "
+        "motion matching",
+        "cycles features formats labels plot recordings segments",
+    ),
     "library": Room(
         "collections of recordings, segmented once, with clusters in common, searched by example",
         "clips features formats labels methods plot recordings segments transfer",

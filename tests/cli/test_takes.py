@@ -17,9 +17,13 @@ def test_each_take_has_its_table_and_its_clips(kineme, tmp_path: Path) -> None:
     assert tables == ["two_jump.csv", "two_walk.csv"]
     stops = [package.read_segments(tmp_path / "tables" / name).n_frames for name in tables]
     assert stops == [300, 240]
-    done = kineme("split", "two.fbx", "--take", "all", "-o", "clips.glb", "-q")
+    tables = ("--take", "all", "--segments", "tables", "-q")
+    done = kineme("split", "two.fbx", *tables, "-o", "clips.glb")
     assert (done.returncode, done.stderr) == (0, "")
     assert sorted(path.name for path in tmp_path.glob("clips*")) == [
-        "clips_jump.glb",
-        "clips_walk.glb",
+        "clips.glb",
+        "clips.manifest.csv",
+        "clips.manifest.json",
     ]
+    takes = {name.split("_")[0] for name in package.formats.takes_in(tmp_path / "clips.glb")}
+    assert takes == {"walk", "jump"}

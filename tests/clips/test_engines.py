@@ -106,7 +106,7 @@ def test_the_list_for_motion_matching_has_every_clip(folder: Path, tmp_path: Pat
     for each, clip in zip(told["clips"], clips, strict=True):
         assert each["range_s"] == [0, clip["round_s"]]
         assert each["loop"]
-        assert each["tags"] == [clip["label"]]
+        assert each["tags"] == [clip["label"], *clip["tags"]]
     (recording,) = told["recordings"]
     starts = [each["range_s"][0] for each in recording["ranges"]]
     assert starts == sorted(clip["start_s"] for clip in clips)

@@ -2,23 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.clips import (
+    Close,
+    ForTarget,
+    MotionMatching,
+    Name,
+    RootMotion,
+    Sheet,
+    ToFormat,
+    ToFps,
+)
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options.reading import EVERYTHING, READING, Quiet, options_by_name
 from kineme.cli.options.targets import make_folder_of
 from kineme.cli.segment import read_and_segment
-from kineme.clips import RootMotionMode
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.table import Level
+
+if TYPE_CHECKING:
+    from kineme.recordings import Motion, Signals
+    from kineme.segments.segmentation import Segmentation
 
 
 @add_options(READING | SEGMENTING)
@@ -30,36 +44,29 @@ def split(
         Path,
         option(
             OUTPUT,
-            "Folder, or .glb of all clips; of several recordings with {name} in it.",
+            "Folder, or .glb of all clips; of several with {name}.",
             "--output",
             "-o",
         ),
     ],
-    level: Annotated[Level, option(OUTPUT, "Activities, or primitives.")] = "activity",
-    cluster: Annotated[int | None, option(OUTPUT, "Write those of this cluster only.")] = None,
-    loop: Annotated[
-        bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
-    ] = False,
+    level: Annotated[
+        Level, option(OUTPUT, "activity or primitive.", "--level", metavar="LEVEL")
+    ] = "activity",
+    cluster: Annotated[int | None, option(OUTPUT, "Write this cluster only.")] = None,
+    loop: Annotated[bool, option(OUTPUT, "Blend the ends: each clip loops.", "--loop")] = False,
     best: Annotated[
-        int | None, option(OUTPUT, "Of loops: so many of each cluster.", "--best", min=1)
+        int | None, option(OUTPUT, "Loops of each cluster.", "--best", metavar="NUMBER")
     ] = None,
-    root_motion: Annotated[
-        RootMotionMode,
-        option(OUTPUT, "keep, extract (to a root bone), in-place.", metavar="HOW"),
-    ] = "keep",
+    root_motion: RootMotion = None,
     straight: Annotated[bool, option(OUTPUT, "Take out each clip's turn.", "--straight")] = False,
-    mirror: Annotated[
-        bool, option(OUTPUT, "Exchange left and right in each clip.", "--mirror")
-    ] = False,
-    close: Annotated[
-        bool, option(OUTPUT, "Repeat the first frame of loops at their end.", "--close")
-    ] = False,
-    to_format: Annotated[
-        str | None,
-        option(
-            OUTPUT, "Such as glb; by default bvh, or csv of points.", "--format", metavar="SUFFIX"
-        ),
-    ] = None,
+    mirror: Annotated[bool, option(OUTPUT, "Exchange left and right.", "--mirror")] = False,
+    close: Close = False,
+    to_format: ToFormat = None,
+    to_fps: ToFps = None,
+    name: Name = None,
+    target: ForTarget = None,
+    sheet: Sheet = None,
+    motion_matching: MotionMatching = None,
     segments: SegmentTable = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
@@ -73,15 +80,21 @@ def split(
     batch.tables("--segments", segments)  # whether there are any
 
     def work(path: Path, options: ReadOptions, table: Path | None, folder: Path) -> None:
+        write([find(path, options, table)], folder)
+
+    def find(
+        path: Path, options: ReadOptions, table: Path | None
+    ) -> tuple[Motion | Signals, Segmentation]:
         with batch.progress(path) as stage:
-            recording, cuts = read_and_segment(path, options, table, segment_options, stage)
-        from kineme.clips.split import split as write_clips
+            return read_and_segment(path, options, table, segment_options, stage)
+
+    def write(found: Sequence[tuple[Motion | Signals, Segmentation]], folder: Path) -> None:
+        from kineme.clips.split import split_all
 
         if not batch.single:
             make_folder_of(folder)
-        clips = write_clips(
-            recording,
-            cuts,
+        clips = split_all(
+            found,
             folder,
             level=level,
             cluster=cluster,
@@ -92,12 +105,32 @@ def split(
             straight=straight,
             mirror=mirror,
             close=close,
+            fps=to_fps,
+            name=name,
+            target=target,
+            sheet=sheet,
+            motion_matching=motion_matching,
         )
         if not quiet:
             loop_table = loop and folder.is_dir()
             where = "; manifest.csv tells how good each loop is (cost, less is better)" * loop_table
             typer.echo(f"{format_count(len(clips), 'clip')} in {folder}{where}")
 
+    for option_name, place in (("--sheet", sheet), ("--motion-matching", motion_matching)):
+        if place is not None and len(batch.paths) > 1:
+            raise typer.BadParameter("is of one recording only", param_hint=option_name)
     for path, folder in zip(batch.paths, folders, strict=True):
+        if read_options.take == EVERYTHING and folder.suffix and not folder.is_dir():
+            # Takes of one file are animations of one file.
+            with batch.caught(path):
+                tables = ("--segments", segments)
+                write(
+                    [
+                        find(path, options, batch.table(path, *tables, options.take or ""))
+                        for _, options in options_by_name(path, read_options)
+                    ],
+                    folder,
+                )
+            continue
         batch.each_person(path, read_options, work, folder, tables=("--segments", segments))
     batch.exit()

@@ -4,3 +4,6 @@ from typing import Literal
 
 RootMotionMode = Literal["keep", "extract", "in-place"]
 """What becomes of the root motion of clips: see `kineme.clips.root_motion`."""
+
+TargetName = Literal["unreal", "unity", "blender", "godot"]
+"""Programs that clips are made for: see `kineme.clips.options.TARGETS`."""

@@ -32,7 +32,7 @@ MANIFEST, MANIFEST_JSON = "manifest.csv", "manifest.json"
 SPANS = ("start_frame", "stop_frame", "start_s", "stop_s", "level", "kind", "cluster", "label")
 RANKED = ("rank", "cost")
 CARRY = ("turn_deg", "x_m", "z_m")
-ANIMATION = "animation"
+ANIMATION, TAGGED = "animation", "tags"
 DIGITS = 6
 """After the point, in JSON."""
 
@@ -55,16 +55,31 @@ class Clip:
     planted: Mapping[str, Sequence[tuple[int, int]]] | None = None
     poses: Mapping[str, Mapping[str, Any]] | None = None
     changes: tuple[str, ...] = ()
+    tags: tuple[str, ...] = ()
 
 
-def write_manifests(clips: Sequence[Clip], folder: Path, *, loops: bool, animations: bool) -> None:
-    """Leave both lists in a folder."""
-    _write_csv(clips, folder / MANIFEST, loops=loops, animations=animations)
+def manifests_beside(file: Path) -> tuple[Path, Path]:
+    """Return the places of both lists of clips that are in one file."""
+    stem = file.with_suffix("").name
+    return file.with_name(f"{stem}.{MANIFEST}"), file.with_name(f"{stem}.{MANIFEST_JSON}")
+
+
+def write_manifests(
+    clips: Sequence[Clip],
+    table: Path,
+    list_of_all: Path,
+    *,
+    loops: bool,
+    animations: bool,
+    together: bool = False,
+) -> None:
+    """Leave both lists; clusters are those of all recordings ``together``, or of each alone."""
+    _write_csv(clips, table, loops=loops, animations=animations)
     # Stable: clips of equal order stay in the order of time.
-    loops_first = sorted(clips, key=_order)
+    loops_first = sorted(clips, key=lambda clip: _order(clip, together=together))
     head = f'{{\n"schema": "{SCHEMA}",\n"kineme": "{__version__}",\n"clips": ['
     body = ",".join(f"\n{_as_text(clip)}" for clip in loops_first)
-    (folder / MANIFEST_JSON).write_text(f"{head}{body}\n]\n}}\n", encoding="utf-8", newline="\n")
+    list_of_all.write_text(f"{head}{body}\n]\n}}\n", encoding="utf-8", newline="\n")
 
 
 def _as_text(clip: Clip) -> str:
@@ -76,15 +91,23 @@ def _as_text(clip: Clip) -> str:
     return "{\n" + ",\n".join(lines) + "\n}"
 
 
-def _order(clip: Clip) -> tuple[bool, str, int, str, int]:
+def _order(clip: Clip, *, together: bool) -> tuple[bool, str, int, str, int]:
     """Loops of a cluster together, the best first; then the others as they are."""
     if clip.rank is None:
         return True, "", 0, "", 0
-    return False, clip.source, clip.segment.cluster, clip.segment.label, clip.rank
+    return (
+        False,
+        "" if together else clip.source,
+        clip.segment.cluster,
+        clip.segment.label,
+        clip.rank,
+    )
 
 
 def _as_json(clip: Clip) -> dict[str, Any]:
     row, carry = clip.segment, clip.carry
+    # A round ends one frame after its last pose, which a closed loop has twice.
+    round_s = (clip.n_frames - ("close" in clip.changes)) / clip.fps
     content = {
         "name": clip.name,
         "file": clip.file,
@@ -101,7 +124,7 @@ def _as_json(clip: Clip) -> dict[str, Any]:
         "cluster": row.cluster,
         "label": row.label,
         "loop": carry is not None,
-        "round_s": None if carry is None else (row.stop_frame - row.start_frame) / clip.fps,
+        "round_s": None if carry is None else round_s,
         "rank": clip.rank,
         "quality": None if clip.quality is None else _quality(clip.quality),
         "carry": None if carry is None else dict(zip(CARRY, _cells(carry), strict=True)),
@@ -109,6 +132,7 @@ def _as_json(clip: Clip) -> dict[str, Any]:
         "planted": None if clip.planted is None else dict(clip.planted),
         "poses": clip.poses,
         "changes": clip.changes,
+        "tags": clip.tags,
     }
     return {name: _round_numbers(value) for name, value in content.items()}
 
@@ -147,10 +171,11 @@ def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bo
         table = csv.writer(file, lineterminator="\n")
         # Columns of ranks and carries only where there are loops.
         more = [*((*RANKED, *CARRY) if loops else ()), *((ANIMATION,) if animations else ())]
-        table.writerow(["file", "source", *SPANS, *more])
+        table.writerow(["file", "source", *SPANS, TAGGED, *more])
         for clip in clips:
             cells: list[object] = [clip.file, clip.source]
             cells += [getattr(clip.segment, name) for name in SPANS]
+            cells.append(", ".join(clip.tags))
             if loops:
                 cells += ["", ""] if clip.quality is None else [clip.rank, clip.quality.cost]
                 cells += ["", "", ""] if clip.carry is None else _cells(clip.carry)

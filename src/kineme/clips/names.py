@@ -8,6 +8,8 @@ A word of the text that would look like a number, of four digits or more, has an
 So the last ``_NUMBER_`` of a name is its number, and no two names of a run are the same,
 whatever the case of their letters.
 
+A template such as ``{take}_{label}_{n:02}`` says otherwise; then names that clash are an error.
+
 The name of a clip survives import in Blender, Unreal, Unity, Godot and three.js: ASCII letters,
 digits and ``_``, the first a letter, 63 characters at most. That of a file keeps other letters.
 """
@@ -16,8 +18,11 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Container
+from collections.abc import Container, Mapping
 from itertools import chain, count
+from string import Formatter
+
+from kineme.errors import ParameterError
 
 LONGEST = 63
 """Characters of a name: what Blender keeps."""
@@ -25,6 +30,8 @@ LONGEST_TEXT = 24
 """Of these, for the label."""
 LONGEST_IN_FILE = 80
 """Bytes of a recording's name or of a label in that of a file."""
+FIELDS = ("name", "take", "label", "n", "cluster", "level", "direction", "loop")
+"""What stands in braces in a template; ``n`` and ``cluster`` are numbers, the others texts."""
 
 
 def safe_name(stem: str, number: int, text: str) -> str:
@@ -74,15 +81,49 @@ def unlike(stem: str, first: int, others: Container[str]) -> str:
     return next(name for name in names if name.casefold() not in others)
 
 
-def plain(text: str) -> str:
-    """Letters, digits and ``_`` and ``-``; short enough for any file system."""
+def check_template(template: str) -> None:
+    """ParameterError where a template has other fields than `FIELDS`, or cannot be filled in."""
+    try:
+        fields = [field for _, field, _, _ in Formatter().parse(template) if field is not None]
+        unknown = [field for field in fields if field not in FIELDS]
+        if not unknown:
+            fill_template(template, dict.fromkeys(FIELDS, "") | {"n": 0, "cluster": 0})
+    except (ValueError, AttributeError, TypeError) as error:
+        raise ParameterError(
+            f"name is {template!r:.60}, which cannot be filled in: {error}"
+        ) from error
+    if unknown or not fields:
+        names = ", ".join(f"{{{field}}}" for field in FIELDS)
+        raise ParameterError(f"name is {template!r:.60}: give a text with some of {names} in it")
+
+
+def fill_template(template: str, fields: Mapping[str, object]) -> tuple[str, str]:
+    """Return the name of a clip and that of its file, without suffix, as a template has them.
+
+    Examples
+    --------
+    >>> fill_template("{take}@{label}_{n:02}", {"take": "Äpfel", "label": "walk", "n": 3})
+    ('Apfel_walk_03', 'Äpfel@walk_03')
+    """
+    filled = template.format_map(fields)
+    # A field that is empty leaves no gap, such as that of loops.
+    file = re.sub(r"_{2,}", "_", _plain_letters(filled, "@")).strip("_")
+    name = _ascii(filled)
+    if not name[:1].isalpha():
+        name = f"clip_{name}".rstrip("_")
+    return name[:LONGEST].rstrip("_"), plain(file, "@") or "clip"
+
+
+def plain(text: str, more: str = "") -> str:
+    """Letters, digits, ``_``, ``-`` and ``more``; short enough for any file system."""
     # Cut to bytes; half a letter at the end is dropped when decoding.
-    kept = _plain_letters(text).encode(errors="replace")[:LONGEST_IN_FILE]
+    kept = _plain_letters(text, more).encode(errors="replace")[:LONGEST_IN_FILE]
     return kept.decode(errors="ignore")
 
 
-def _plain_letters(text: str) -> str:
-    return "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in text)
+def _plain_letters(text: str, more: str = "") -> str:
+    kept = f"-_{more}"
+    return "".join(letter if letter.isalnum() or letter in kept else "_" for letter in text)
 
 
 def _protect_numbers(text: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, get_args
 
 import numpy as np
@@ -21,13 +21,14 @@ from kineme.clips.root_motion import (
     root_motion,
     straighten,
 )
+from kineme.clips.tags import Tag, Travel, travel_of
 from kineme.cycles.contacts import stands_from_positions
 from kineme.cycles.landmarks import find_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import PARTS, body_frame, end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.arrays import spans_of
-from kineme.recordings.operations import cut
+from kineme.recordings.operations import cut, resample
 from kineme.segments.table import Segment
 
 Feet = Mapping[str, tuple[tuple[int, ...], Masks]]
@@ -52,6 +53,8 @@ class Shape:
         Left and right exchanged.
     close : bool
         The first frame of a loop again after its last.
+    fps : float, optional
+        Frames per second; those of the recording by default.
     """
 
     loops: bool = False
@@ -60,6 +63,7 @@ class Shape:
     straight: bool = False
     mirror: bool = False
     close: bool = False
+    fps: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("loops", "straight", "mirror", "close"):
@@ -75,6 +79,8 @@ class Shape:
                 raise ParameterError("best is of loops only: ask for loops (--loop), too")
         if self.close and not self.loops:
             raise ParameterError("only loops are closed: ask for loops (--loop), too")
+        if self.fps is not None and not (is_number(self.fps) and self.fps > 0):
+            raise ParameterError(f"fps is {self.fps!r:.60}: give frames per second, above 0")
 
     @property
     def changes(self) -> tuple[str, ...]:
@@ -102,21 +108,7 @@ class ShapedClip:
     quality: LoopQuality | None = None
     rank: int | None = None
     poses: Mapping[str, Mapping[str, Any]] | None = field(default=None, repr=False)
-
-
-def shape_clips(motion: Motion, rows: Sequence[Segment], shape: Shape) -> Iterator[ShapedClip]:
-    """Return the segments as clips one by one, in their order.
-
-    Of loops those that were asked for.
-    """
-    feet = planted_feet(motion)
-    qualities = loop_qualities(motion, rows, feet) if shape.loops else {}
-    # Ranks are among all candidates of the cluster, also where only the best are written.
-    places = _places(rows, qualities)
-    for index, row in enumerate(rows):
-        rank = places.get(index)
-        if shape.best is None or (rank is not None and rank <= shape.best):
-            yield _shape_clip(motion, index, row, shape, feet, qualities.get(index), rank)
+    tags: tuple[Tag, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -126,7 +118,56 @@ class RankedLoop:
     index: int
     rank: int
     quality: LoopQuality
-    speed_m_s: float
+    speed_m_s: float = 0.0
+
+
+def shape_clips(
+    motion: Motion,
+    rows: Sequence[Segment],
+    shape: Shape,
+    loops: Sequence[RankedLoop] | None = None,
+) -> Iterator[ShapedClip]:
+    """Return the segments as clips one by one, in their order.
+
+    Of loops those that were asked for; with ``loops`` these alone, which were ranked before.
+    """
+    motion, spans = _at_rate(motion, rows, shape.fps)
+    feet, travel = planted_feet(motion), travel_of(motion)
+    if loops is None:
+        qualities = loop_qualities(motion, spans, feet) if shape.loops else {}
+        # Ranks are among all candidates of the cluster, also where only the best are written.
+        places = _places(spans, qualities)
+    else:
+        qualities = {each.index: each.quality for each in loops}
+        places = {each.index: each.rank for each in loops}
+    for index, (row, span) in enumerate(zip(rows, spans, strict=True)):
+        rank = places.get(index)
+        wanted = shape.best is None or (rank is not None and rank <= shape.best)
+        if wanted and (loops is None or rank is not None):
+            made = _shape_clip(motion, index, span, shape, feet, qualities.get(index), rank)
+            yield replace(made, segment=row, tags=_tags(travel, span))
+
+
+def _at_rate(
+    motion: Motion, rows: Sequence[Segment], fps: float | None
+) -> tuple[Motion, Sequence[Segment]]:
+    """Return the motion at a rate, and the segments in its frames, each one frame at least.
+
+    Borders go to the nearest whole frame, so that loops go round in whole frames.
+    """
+    if fps is None or fps == motion.fps:
+        return motion, rows
+    ratio, motion = fps / motion.fps, resample(motion, fps)
+    spans = []
+    for row in rows:
+        start = min(round(row.start_frame * ratio), motion.n_frames - 1)
+        stop = max(start + 1, min(round(row.stop_frame * ratio), motion.n_frames))
+        spans.append(replace(row, start_frame=start, stop_frame=stop))
+    return motion, spans
+
+
+def _tags(travel: Travel | None, row: Segment) -> tuple[Tag, ...]:
+    return () if travel is None else travel.tags(row.start_frame, row.stop_frame)
 
 
 def ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:

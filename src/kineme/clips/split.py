@@ -4,7 +4,8 @@ A clip of a motion is a BVH, or of another format that is asked for; a CSV of jo
 where it has no rotations (see `kineme.formats.tables`). Of a format that holds several motions,
 such as GLB, there is one file for each recording, with its clips as animations; given the path of
 such a file instead of a folder, all clips go there, into a copy of the file that they came from
-where that is of the same format. A clip of signals
+where that is of the same format, and the lists beside it, as ``clips.manifest.csv`` for
+``clips.glb``. A clip of signals
 is rows of their own file (see `kineme.formats.channels.writing`). Files are called
 ``RECORDING_NUMBER_TEXT`` (see `kineme.clips.names`), with the text of `kineme.labels.spans`.
 
@@ -16,6 +17,7 @@ it (see `kineme.clips.manifest`):
 ``start_frame``, ...         ``stop_frame``, ``start_s``, ``stop_s``: where in it
 ``level``, ``kind``          as in the segment table
 ``cluster``, ``label``       as in the segment table
+``tags``                     direction, turn, start and stop (see `kineme.clips.tags`)
 ``rank``, ``cost``           of loops only: its place in its cluster, 1 the best, and
                              what it was placed by (see `kineme.clips.quality`)
 ``turn_deg``, ``x_m``,       of loops only: what carries one round to the next, a
@@ -32,23 +34,36 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, Unpack, get_args
 
 from kineme._util.checks import is_number, is_one_of
-from kineme._util.files import atomic_folder
-from kineme.clips import RootMotionMode
-from kineme.clips.manifest import Clip, write_manifests
-from kineme.clips.names import file_name, safe_name, unlike
-from kineme.clips.shaping import Shape, ShapedClip, shape_clips
-from kineme.errors import MotionError, ParameterError
+from kineme._util.files import atomic_folder, atomic_write
+from kineme.clips.companions import Companions
+from kineme.clips.manifest import (
+    MANIFEST,
+    MANIFEST_JSON,
+    Clip,
+    manifests_beside,
+    write_manifests,
+)
+from kineme.clips.names import file_name, fill_template, safe_name, unlike
+from kineme.clips.options import Chosen, ClipOptions, choose
+from kineme.clips.shaping import RankedLoop, ShapedClip, shape_clips
+from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.features import mirror as mirrored
 from kineme.formats import write
 from kineme.formats.channels.writing import rows_of
-from kineme.formats.registry import Format, supported_formats, writer_of
+from kineme.formats.registry import Format, writer_of
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
+
+Source = (
+    tuple[Motion | Signals, Sequence[Segment]]
+    | tuple[Motion | Signals, Sequence[Segment], Sequence[RankedLoop]]
+)
+"""A recording, its segments, and those of them that become loops, where they are ranked already."""
 
 
 def split(
@@ -58,13 +73,7 @@ def split(
     *,
     level: Level = "activity",
     cluster: int | None = None,
-    loops: bool = False,
-    format: str | None = None,  # noqa: A002 (as in read_segments)
-    best: int | None = None,
-    root_motion: RootMotionMode = "keep",
-    straight: bool = False,
-    mirror: bool = False,
-    close: bool = False,
+    **options: Unpack[ClipOptions],
 ) -> list[Path]:
     """Write each segment as a clip of its own; for each clip the path of its file.
 
@@ -97,6 +106,16 @@ def split(
         Exchange left and right.
     close : bool, optional
         Repeat the first frame of each loop at its end, as engines want it.
+    fps : float, optional
+        Frames per second of the clips, whose borders go to whole frames; of motions only.
+    name : str, optional
+        Template of names, such as ``{take}_{label}_{n:02}`` (see `kineme.clips.names.FIELDS`).
+    target : {"unreal", "unity", "blender", "godot"}, optional
+        Format, root motion, closing and names as that program wants them, unless given.
+    sheet : str or PathLike, optional
+        A picture to write: a strip of small figures for each clip.
+    motion_matching : str or PathLike, optional
+        A database to write, ``.npz`` or ``.bin`` (see `kineme.clips.motion_matching`).
 
     Raises
     ------
@@ -104,7 +123,7 @@ def split(
         The segments are of another recording.
     ParameterError
         No segment is of that level and cluster, loops or a format of signals, no format of
-        that suffix, or the best of what is no loop.
+        that suffix, the best of what is no loop, or names that clash.
     WriteError
         The folder is not empty, or cannot be written.
 
@@ -118,113 +137,150 @@ def split(
     >>> [path.name for path in split(motion, truth, "clips")[:2]]
     ['exercises_0000_walk.bvh', 'exercises_0001_transition.bvh']
     """
-    if segmentation.n_frames != recording.n_frames:
-        raise MotionError(
-            f"the segments are of a recording of {segmentation.n_frames} frames, "
-            f"this one has {recording.n_frames}"
-        )
+    return split_all([(recording, segmentation)], folder, level=level, cluster=cluster, **options)
+
+
+def split_all(
+    found: Sequence[tuple[Motion | Signals, Segmentation]],
+    folder: str | PathLike[str],
+    *,
+    level: Level = "activity",
+    cluster: int | None = None,
+    **options: Unpack[ClipOptions],
+) -> list[Path]:
+    """Write the segments of several recordings as `split` does, such as of all takes of a file."""
     if not is_one_of(level, get_args(Level)):
         raise ParameterError(f"level must be {' or '.join(get_args(Level))}, not {level!r:.60}")
     if cluster is not None and not is_number(cluster):
         raise ParameterError(f"a cluster is a number, not {cluster!r:.60}")
-    rows = [row for row in segmentation.level(level) if cluster in (None, row.cluster)]
-    if not rows:
-        found = sorted({row.cluster for row in segmentation.level(level)} - {-1})
-        raise ParameterError(f"no {level} is in cluster {cluster}; there are {found}")
-    return write_clips(
-        [(recording, rows)],
-        folder,
-        loops=loops,
-        format=format,
-        best=best,
-        root_motion=root_motion,
-        straight=straight,
-        mirror=mirror,
-        close=close,
-    )
+    clips: list[Source] = []
+    for recording, segmentation in found:
+        if segmentation.n_frames != recording.n_frames:
+            raise MotionError(
+                f"the segments are of a recording of {segmentation.n_frames} frames, "
+                f"this one has {recording.n_frames}"
+            )
+        rows = [row for row in segmentation.level(level) if cluster in (None, row.cluster)]
+        clips.append((recording, rows))
+    if not any(rows for _, rows, *_ in clips):
+        there = {row.cluster for _, segmentation in found for row in segmentation.level(level)}
+        raise ParameterError(
+            f"no {level} is in cluster {cluster}; there are {sorted(there - {-1})}"
+        )
+    return write_clips(clips, folder, **options)
 
 
 def write_clips(
-    clips: Iterable[tuple[Motion | Signals, Sequence[Segment]]],
+    clips: Iterable[Source],
     folder: str | PathLike[str],
     *,
-    loops: bool = False,
-    format: str | None = None,  # noqa: A002
-    best: int | None = None,
-    root_motion: RootMotionMode = "keep",
-    straight: bool = False,
-    mirror: bool = False,
-    close: bool = False,
+    together: bool = False,
+    **options: Unpack[ClipOptions],
 ) -> list[Path]:
     """Write segments of several recordings as clips in one folder; for each clip its file.
 
     They are gone through once, so that one recording at a time needs memory. The rest is as for
-    `split`; loops are ranked among those of their recording.
+    `split`. Loops are ranked among those of their recording, unless they are ranked ``together``.
     """
-    target, chosen = Path(folder), _format(format)
-    shape = Shape(loops, best, root_motion, straight, mirror, close)
+    target, chosen = Path(folder), choose(options)
     one_file = writer_of(target.suffix.lower()) if target.suffix else None
     if one_file is not None and one_file.write_animations is not None and not target.is_dir():
-        return _write_one_file(clips, target, one_file, shape, format)
+        return _write_one_file(clips, target, one_file, chosen)
     entries: list[Clip] = []
-    several = chosen is not None and chosen.write_animations is not None
+    write_all = None if chosen.format is None else chosen.format.write_animations
+    companions = Companions(chosen.given)
     with atomic_folder(target) as draft:
-        first, files = 0, set[str]()
+        first, files, names = 0, set[str](), set[str]()
         # Numbers go on over the recordings, so that names stay unique in the folder.
-        for recording, rows in clips:
-            run = _Run(recording, first, draft, shape.changes)
+        for recording, rows, *ranked in clips:
+            run = _Run(recording, first, draft, chosen, names)
             first += len(rows)
             if isinstance(recording, Signals):
-                _refuse_poses(shape, format)
+                _refuse_poses(chosen)
                 entries += _write_rows(run, recording, rows)
                 continue
-            motion = mirrored(recording) if mirror else recording
-            made = shape_clips(motion, rows, shape)
-            if chosen is not None and chosen.write_animations is not None:
+            made = _make_clips(run, recording, rows, companions, *ranked)
+            if write_all is not None:
                 file = unlike(run.stem, run.first, files)
                 files.add(file.casefold())
-                path = draft / f"{file}.{format}"
-                entries += _write_animations(run, made, path, chosen.write_animations)
+                path = draft / f"{file}.{chosen.suffix}"
+                entries += _write_animations(run, made, path, write_all)
             else:
-                suffix = format or ("csv" if motion.rotations is None else "bvh")
+                suffix = chosen.suffix or ("csv" if recording.rotations is None else "bvh")
                 entries += _write_files(run, made, suffix)
-        write_manifests(entries, draft, loops=loops, animations=several)
+        write_manifests(
+            entries,
+            draft / MANIFEST,
+            draft / MANIFEST_JSON,
+            loops=chosen.shape.loops,
+            animations=write_all is not None,
+            together=together,
+        )
+        companions.write()
     return [target / clip.file for clip in entries]
 
 
 def _write_one_file(
-    clips: Iterable[tuple[Motion | Signals, Sequence[Segment]]],
-    target: Path,
-    chosen: Format,
-    shape: Shape,
-    suffix: str | None,
+    clips: Iterable[Source], target: Path, found: Format, chosen: Chosen
 ) -> list[Path]:
-    """Leave all clips of a recording in one file, a copy of its own where it is of that format."""
-    if suffix is not None and f".{suffix}" != target.suffix.lower():
-        raise ParameterError(f"format is {suffix!r:.60}, but the file is {target.name!r:.60}")
-    (recording, rows), *others = clips
-    if others:
+    """Leave all clips in one file, a copy of their own where it is of that format.
+
+    They are of one recording, or of takes in one file.
+    """
+    given = chosen.given.get("format")
+    if given is not None and f".{given}" != target.suffix.lower():
+        raise ParameterError(f"format is {given!r:.60}, but the file is {target.name!r:.60}")
+    sources = list(clips)
+    first = sources[0][0]
+    if len({recording.provenance.path for recording, *_ in sources}) > 1:
         raise ParameterError(f"{target.name} holds clips of one recording: give a folder")
-    if isinstance(recording, Signals):
-        raise ParameterError(f"signals are no animations of {target.name}: give a folder")
-    run = _Run(recording, 0, target.parent, shape.changes)
-    source = Path(run.source)
-    if run.source and source.exists() and target.exists() and source.samefile(target):
+    source, lists = Path(first.provenance.path or ""), manifests_beside(target)
+    if source.name and source.exists() and target.exists() and source.samefile(target):
         raise ParameterError(f"{target} would take the place of its recording: give another name")
-    motion = mirrored(recording) if shape.mirror else recording
-    made = list(shape_clips(motion, rows, shape))
-    animations = {run.shaped_clip(each, target.name).name: each.motion for each in made}
+    if target.exists() and not lists[1].exists():
+        raise WriteError(target, "is there already, without a manifest: give another name")
+    number, names = 0, set[str]()
+    entries, animations = list[Clip](), dict[str, Motion]()
+    companions = Companions(chosen.given)
+    for recording, rows, *ranked in sources:
+        if isinstance(recording, Signals):
+            raise ParameterError(f"signals are no animations of {target.name}: give a folder")
+        run = _Run(recording, number, target.parent, chosen, names, of_takes=len(sources) > 1)
+        number += len(rows)
+        for each in _make_clips(run, recording, rows, companions, *ranked):
+            clip = run.shaped_clip(each, target.name)
+            entries.append(replace(clip, animation=clip.name))
+            animations[clip.name] = each.motion
     if not animations:
         raise ParameterError(f"there is no clip to write to {target.name}")
-    if chosen.copy_animations is not None and chosen.name == recording.provenance.format:
-        chosen.copy_animations(animations, source, target)
-    elif chosen.write_animations is not None:
-        chosen.write_animations(animations, target)
-    return [target] * len(made)
+    with atomic_write(lists[0]) as table, atomic_write(lists[1]) as list_of_all:
+        loops = chosen.shape.loops
+        write_manifests(entries, table, list_of_all, loops=loops, animations=True)
+        if found.copy_animations is not None and found.name == first.provenance.format:
+            found.copy_animations(animations, source, target)
+        elif found.write_animations is not None:
+            found.write_animations(animations, target)
+    companions.write()
+    return [target] * len(entries)
 
 
-def _refuse_poses(shape: Shape, format: str | None) -> None:  # noqa: A002
+def _make_clips(
+    run: _Run,
+    recording: Motion,
+    rows: Sequence[Segment],
+    companions: Companions,
+    ranked: Sequence[RankedLoop] | None = None,
+) -> Iterator[ShapedClip]:
+    """Yield the clips of a recording, which companions are told of."""
+    shape = run.chosen.shape
+    motion = mirrored(recording) if shape.mirror else recording
+    made = shape_clips(motion, rows, shape, ranked)
+    return companions.follow(motion, rows, made, run.clip_name)
+
+
+def _refuse_poses(chosen: Chosen) -> None:
     """ParameterError where signals are to be treated as bodies."""
+    shape = chosen.shape
     if shape.loops:
         raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
     if shape.changes:
@@ -232,56 +288,87 @@ def _refuse_poses(shape: Shape, format: str | None) -> None:  # noqa: A002
             "signals have no pose: leave out root_motion, straight and mirror "
             "(--root-motion, --straight, --mirror)"
         )
-    if format is not None:
-        raise ParameterError("signals are rows of their file: leave out format")
-
-
-def _format(suffix: str | None) -> Format | None:
-    """Return the format of a suffix; ParameterError where no motions are written in it."""
-    if suffix is None:
-        return None
-    found = writer_of(f".{suffix}")
-    if found is None:
-        suffixes = sorted(s for each in supported_formats() if each.write for s in each.suffixes)
-        names = ", ".join(name.removeprefix(".") for name in suffixes)
-        raise ParameterError(f"format is {suffix!r:.60}: motions are written as {names}")
-    return found
+    if chosen.suffix is not None or shape.fps is not None:
+        raise ParameterError("signals are rows of their file: leave out format, target and fps")
+    if chosen.given.get("sheet") is not None or chosen.given.get("motion_matching") is not None:
+        raise ParameterError("signals have no pose: leave out sheet and motion_matching")
 
 
 @dataclass(frozen=True)
 class _Run:
-    """Clips of one recording, numbered from ``first`` in their folder."""
+    """Clips of one recording, numbered from ``first`` in their folder.
+
+    ``names`` are those that are taken, in small letters. Clips of takes are called after these.
+    """
 
     recording: Motion | Signals
     first: int
     folder: Path
-    changes: tuple[str, ...]
+    chosen: Chosen
+    names: set[str]
+    of_takes: bool = False
 
     @property
     def stem(self) -> str:
-        return Path(self.source or "recording").stem
+        return self.take if self.of_takes else Path(self.source or "recording").stem
 
-    def file(self, index: int, segment: Segment, suffix: str) -> str:
-        """Return the name of the file of one clip, the segment of that place among those given."""
-        return f"{file_name(self.stem, self.first + index, text_of(segment))}{suffix}"
+    @property
+    def take(self) -> str:
+        return self.recording.provenance.take or Path(self.source or "recording").stem
 
-    def clip(self, index: int, segment: Segment, file: str, **fields: Any) -> Clip:
-        """Return what the lists say of it; the other fields are those of `Clip`."""
+    def named(
+        self, index: int, segment: Segment, tags: Sequence[str] = (), *, loop: bool = False
+    ) -> tuple[str, str]:
+        """Return the name of a clip and that of its file, of a segment among those given."""
+        number, text = self.first + index, text_of(segment)
+        template = self.chosen.name
+        if template is None:
+            return safe_name(self.stem, number, text), file_name(self.stem, number, text)
+        fields = {
+            "name": Path(self.source or "recording").stem,
+            "take": self.take,
+            "label": text,
+            "n": number,
+            "cluster": segment.cluster,
+            "level": segment.level,
+            "direction": tags[0] if tags else "",
+            "loop": "loop" if loop else "",
+        }
+        return fill_template(template, fields)
+
+    def clip_name(self, made: ShapedClip) -> str:
+        """Return the name of a clip."""
+        return self.named(made.index, made.segment, made.tags, loop=made.carry is not None)[0]
+
+    def clip(
+        self, index: int, segment: Segment, suffix: str, file: str | None = None, **fields: Any
+    ) -> Clip:
+        """Return what the lists say of it; the other fields are those of `Clip`.
+
+        It has a file of its own where none is given. ParameterError where its name is taken.
+        """
+        tags, is_loop = fields.get("tags", ()), fields.get("carry") is not None
+        name, own = self.named(index, segment, tags, loop=is_loop)
+        for key in {name.casefold(), f"{own.casefold()}{suffix}"} if self.chosen.name else ():
+            if key in self.names:
+                raise ParameterError(f"two clips would be called {name}: put {{n}} in their name")
+            self.names.add(key)
         return Clip(
-            name=safe_name(self.stem, self.first + index, text_of(segment)),
-            file=file,
+            name=name,
+            file=file or f"{own}{suffix}",
             source=self.source.encode(errors="backslashreplace").decode(),
             segment=segment,
-            fps=self.recording.fps,
             **fields,
         )
 
-    def shaped_clip(self, made: ShapedClip, file: str) -> Clip:
+    def shaped_clip(self, made: ShapedClip, file: str | None = None, suffix: str = "") -> Clip:
         """Return the same of a motion that was made of it."""
         return self.clip(
             made.index,
             made.segment,
+            suffix,
             file,
+            fps=made.motion.fps,
             n_frames=made.motion.n_frames,
             carry=made.carry,
             quality=made.quality,
@@ -289,7 +376,8 @@ class _Run:
             root=made.root,
             planted=made.planted,
             poses=made.poses,
-            changes=self.changes,
+            changes=self.chosen.shape.changes,
+            tags=made.tags,
         )
 
     @property
@@ -302,17 +390,18 @@ def _write_rows(run: _Run, signals: Signals, rows: Sequence[Segment]) -> Iterato
     shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
     file_rows = rows_of(signals, shortest=shortest)
     for index, row in enumerate(rows):
-        file = run.file(index, row, file_rows.suffix)
-        file_rows.write(run.folder / file, row.start_frame, row.stop_frame)
-        yield run.clip(index, row, file, n_frames=row.stop_frame - row.start_frame)
+        n_frames = row.stop_frame - row.start_frame
+        clip = run.clip(index, row, file_rows.suffix, n_frames=n_frames, fps=signals.fps)
+        file_rows.write(run.folder / clip.file, row.start_frame, row.stop_frame)
+        yield clip
 
 
 def _write_files(run: _Run, made: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
     """Leave each clip in a file of its own."""
     for each in made:
-        file = run.file(each.index, each.segment, f".{suffix}")
-        write(each.motion, run.folder / file)
-        yield run.shaped_clip(each, file)
+        clip = run.shaped_clip(each, suffix=f".{suffix}")
+        write(each.motion, run.folder / clip.file)
+        yield clip
 
 
 def _write_animations(

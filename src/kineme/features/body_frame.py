@@ -93,7 +93,8 @@ def heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[i
 
 def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats]:
     """Return the pelvis, and cosine and sine (frames, 1) of the turns that face the body to +z."""
-    pelvis, left_hip, right_hip = _pelvis(motion.skeleton, effectors)
+    ankles = effectors.left_ankle, effectors.right_ankle
+    pelvis, left_hip, right_hip = find_parting(motion.skeleton, *ankles)
     if motion.rotations is None:
         to_left = motion.positions[:, left_hip] - motion.positions[:, right_hip]
         # A line shorter than the threshold stays shorter than a unit vector and counts as upright.
@@ -103,21 +104,26 @@ def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats
     return pelvis, *find_facing(to_left, _UPRIGHT)
 
 
-def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]:
-    """Joint where the legs part, and the left and right joint where they first lie apart."""
-    left = skeleton.ancestry(effectors.left_ankle)
-    right = skeleton.ancestry(effectors.right_ankle)
-    # Both chains begin at the root and are equal down to the joint where the legs part.
+def find_parting(
+    skeleton: Skeleton, left_end: int, right_end: int, limbs: str = "legs"
+) -> tuple[int, int, int]:
+    """Return the joint where limbs part, and the left and right joint where they first lie apart.
+
+    Legs part at the pelvis, arms at the chest. MotionError where nothing joins them.
+    """
+    left, right = skeleton.ancestry(left_end), skeleton.ancestry(right_end)
+    # Both chains begin at the root and are equal down to the joint where the limbs part.
     shared = sum(1 for a, b in zip(left, right, strict=False) if a == b)
     if shared == 0:
-        raise MotionError("the legs hang on different roots, so there is no pelvis")
+        raise MotionError(f"the {limbs} hang on different roots: nothing joins them")
     pelvis = left[shared - 1]
     # Some skeletons have several joints at the same place before the legs are apart.
     for left_hip, right_hip in zip(left[shared:], right[shared:], strict=False):
         if np.linalg.norm(_measure_hip_axis(skeleton, pelvis, left_hip, right_hip)) > 0:
             return pelvis, left_hip, right_hip
     raise MotionError(
-        f"left and right leg coincide below {skeleton.names[pelvis]!r}, so nothing tells the facing"
+        f"left and right {limbs} coincide below {skeleton.names[pelvis]!r}, so nothing tells the "
+        "facing"
     )
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from kineme._util.checks import format_count, require_extra
 from kineme._util.files import atomic_write
@@ -17,13 +17,13 @@ from kineme.library.searching import Hit
 from kineme.library.storage.layout import EXTRA, arrow
 from kineme.library.storage.tables import DESCRIBED
 from kineme.recordings import Motion, Signals
-from kineme.segments.colors import cluster_color
 from kineme.segments.table import Segment
+
+if TYPE_CHECKING:
+    from kineme.plot.sheets import Strip
 
 CLUSTERS = "clusters"
 """The table that is made of the others when it is asked for."""
-WIDE, TALL = 7.0, 1.4
-"""Inches of a strip."""
 AT_ONCE = 12
 """Strips in the picture of all clusters."""
 ALL = "clusters.png"
@@ -121,6 +121,8 @@ def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
 
     Clusters whose recording is gone have none.
     """
+    from kineme.plot.sheets import write_sheet
+
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -135,40 +137,26 @@ def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
         recording = recording.seconds(cluster.start_s, cluster.stop_s)
         drawn.append((cluster, recording))
         path = folder / f"{_file_name(cluster)}.png"
-        _write([(cluster, recording)], path)
+        write_sheet([_strip(cluster, recording)], path)
         written.append(path)
     if drawn:
-        _write(drawn[:AT_ONCE], folder / ALL)
+        write_sheet([_strip(*each) for each in drawn[:AT_ONCE]], folder / ALL)
         written.insert(0, folder / ALL)
     return written
 
 
-def _write(strips: list[tuple[Cluster, Motion | Signals]], path: Path) -> None:
-    """Strips below each other, each under what it is."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
+def _strip(cluster: Cluster, recording: Motion | Signals) -> Strip:
+    """Return a span of a recording under what a line says of its cluster."""
+    from kineme.plot.sheets import Strip
 
-    from kineme.plot import plot_strip
-
-    figure = Figure(figsize=(WIDE, TALL * len(strips)), layout="constrained")
-    FigureCanvasAgg(figure)
-    rows = figure.subplots(len(strips), squeeze=False)[:, 0]
-    for axes, (cluster, recording) in zip(rows, strips, strict=True):
-        plot_strip(recording, color=cluster_color(cluster.cluster), ax=axes)
-        axes.set_title(_title(cluster), loc="left", fontsize=8)
-    with atomic_write(path) as draft:
-        figure.savefig(draft, dpi=120)
-
-
-def _title(cluster: Cluster) -> str:
-    """Return a cluster in a line."""
     named = f"{cluster.cluster} {cluster.label}".strip()
     times = cluster.repetitions or cluster.activities
     n = cluster.recordings
-    return (
+    title = (
         f"{named}   {times} × {cluster.typical_s:.2f} s in {format_count(n, 'recording')}; "
         f"here {cluster.example}"
     )
+    return Strip(title, recording, cluster.cluster)
 
 
 def _file_name(cluster: Cluster) -> str:

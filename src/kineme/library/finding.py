@@ -8,8 +8,9 @@ from os import PathLike
 import numpy as np
 
 from kineme._util.arrays import Float32s
-from kineme._util.checks import is_number, warn
+from kineme._util.checks import is_number, is_one_of, warn
 from kineme._util.files import AnyPath
+from kineme.clips.tags import TAGS, Tag, Travel, travel_of
 from kineme.errors import ParameterError, ReadError
 from kineme.features.canonical import mirrored_features
 from kineme.library.descriptions import Description, describe
@@ -79,6 +80,26 @@ def hits_like(
     rows = list(found)
     chosen = best(list(found.values()), top=top, most=max_per_recording)
     return [_hit(tables, rows[i], *span) for i, span in chosen]
+
+
+def hits_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | None) -> list[Hit]:
+    """Return the hits whose clips have a tag, the nearest ``top``; ParameterError for no tag."""
+    if not is_one_of(tag, TAGS):
+        raise ParameterError(f"tag is {tag!r:.60}: choose from {', '.join(TAGS)}")
+    found: list[Hit] = []
+    travels: dict[str, Travel | None] = {}
+    for hit in hits:
+        if top is not None and len(found) >= top:
+            break
+        if hit.recording not in travels:
+            motion = tables.read(hit.recording)
+            travels[hit.recording] = travel_of(motion) if isinstance(motion, Motion) else None
+        travel = travels[hit.recording]
+        if travel is not None:
+            start = min(round(hit.start_s * travel.fps), len(travel.looks) - 1)
+            stop = max(start + 1, round(hit.stop_s * travel.fps))
+            found += [hit] if tag in travel.tags(start, stop) else []
+    return found
 
 
 def _all_parts(tables: OpenTables, vocabulary: str) -> Parts:

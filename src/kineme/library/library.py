@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from contextlib import nullcontext
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self, Unpack
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.library.executors import connect
 from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
-from kineme.library.finding import as_examples, hits_like, typical_examples
+from kineme.library.finding import as_examples, hits_like, hits_tagged, typical_examples
 from kineme.library.open_library import Cluster, OpenTables, clusters_of, numbers_of
 from kineme.library.searching import Example, Hit
 from kineme.library.storage.layout import arrow, as_column
@@ -23,6 +23,11 @@ from kineme.library.storage.places import place, reaching
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import THRESHOLD
+
+if TYPE_CHECKING:
+    from kineme.clips.options import ClipOptions
+    from kineme.clips.tags import Tag
+    from kineme.library.clipping import Coverage, Per
 
 
 class Library:
@@ -134,6 +139,7 @@ class Library:
         top: int | None = 50,
         max_per_recording: int | None = None,
         mirror: bool = True,
+        tag: Tag | None = None,
         client: Any = None,
     ) -> list[Hit]:
         """Where the recordings of the library are like an example, the nearest first.
@@ -160,6 +166,9 @@ class Library:
         mirror : bool
             Search for the mirror images of the examples as well; of bodies only. Their distances
             are estimates (see `kineme.features.canonical.mirrored_features`).
+        tag : str, optional
+            Only hits with this tag, such as "backwards" (see `kineme.clips.tags`); the recordings
+            of hits are read for it.
         client : dask.distributed.Client or str, optional
             Search on this cluster, or on that of the scheduler at an address.
 
@@ -177,10 +186,12 @@ class Library:
         if not examples:
             raise ParameterError("nothing to search for: give an example or a cluster")
         with nullcontext() if client is None else connect(client) as executor:
-            return hits_like(
+            hits = hits_like(
                 self._tables, examples, as_examples(unlike, 0.0, None), threshold=threshold,
-                top=top, mirror=mirror, max_per_recording=max_per_recording, executor=executor,
+                top=top if tag is None else None, mirror=mirror,
+                max_per_recording=max_per_recording, executor=executor,
             )  # fmt: skip
+        return hits if tag is None else hits_tagged(self._tables, hits, tag, top)
 
     def pictures(self, folder: AnyPath) -> list[Path]:
         """A PNG of each cluster in a folder, its most typical segment as a strip; of all first."""
@@ -190,6 +201,41 @@ class Library:
     def clips(self, hits: Sequence[Hit], folder: AnyPath) -> list[Path]:
         """The clips of hits, recording by recording, in a new or empty folder with a manifest."""
         return write_hits(self._tables, hits, folder)
+
+    def coverage(self) -> list[Coverage]:
+        """Return what there is of each cluster in each direction; recordings are read for it."""
+        from kineme.library.clipping import coverage_of
+
+        return coverage_of(self._tables)
+
+    def loops(
+        self,
+        folder: AnyPath,
+        *,
+        per: Per = "cluster",
+        **options: Unpack[ClipOptions],
+    ) -> list[Path]:
+        """Write the best loops of each cluster, without near duplicates, to a new folder.
+
+        Parameters
+        ----------
+        folder : path-like
+            New or empty; it gets manifests, too.
+        per : {"cluster", "direction", "recording"}
+            Of a cluster in all recordings, or of each direction of travel or recording in it.
+        **options
+            As for `kineme.clips.split.split`, such as ``best=3``, the loops of each at most.
+
+        Raises
+        ------
+        ParameterError
+            No recording has a loop, or an option makes no sense.
+        WriteError
+            The folder is not empty, or cannot be written.
+        """
+        from kineme.library.clipping import write_best_loops
+
+        return write_best_loops(self._tables, folder, per=per, **options)
 
     def query(self, sql: str) -> Any:
         """Return the answer, a pyarrow.Table, to a question in SQL over the tables of the library.

@@ -83,8 +83,12 @@ def plot_strip(
     axes = new_axes(6.0, 1.4) if ax is None else ax
     if isinstance(recording, Motion):
         at = np.linspace(first, last - 1, int(poses)).round().astype(np.int64)
-        outlines = _from_the_side(recording.positions[first:last], recording.positions[at])
-        _draw_poses(axes, outlines, recording.skeleton.parents, drawn)
+        # A root bone stays on the floor, or anywhere: only the body is drawn.
+        body, parents = list(recording.skeleton.body), recording.skeleton.parents
+        places = recording.positions[:, body]
+        outlines = _from_the_side(places[first:last], places[at])
+        above = [body.index(parents[j]) if parents[j] in body else -1 for j in body]
+        _draw_poses(axes, outlines, above, drawn)
     else:
         _draw_channels(axes, recording, first, last, drawn)
     axes.set_axis_off()

@@ -10,7 +10,10 @@ HOMES = {
     "build": "kineme.cli.library.build",
     "show": "kineme.cli.library.commands",
     "search": "kineme.cli.library.search",
-    **dict.fromkeys(("name", "merge", "split", "query", "export"), "kineme.cli.library.commands"),
+    **dict.fromkeys(("name", "merge"), "kineme.cli.library.commands"),
+    "split": "kineme.cli.library.clips",
+    "coverage": "kineme.cli.library.clips",
+    **dict.fromkeys(("query", "export"), "kineme.cli.library.commands"),
 }
 """Module of each command, in the order of the help."""
 

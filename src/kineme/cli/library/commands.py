@@ -1,4 +1,4 @@
-"""``kineme library show``, ``query``, ``export``, ``name``, ``merge``, ``split``: what is kept.
+"""``kineme library show``, ``query``, ``export``, ``name``, ``merge``: what is kept.
 
 Each opens the library first, the argument ``LIB``.
 """
@@ -145,21 +145,6 @@ def merge(
     """Merge clusters into the first, which keeps number and name."""
     with open_library(folder) as library:
         library.merge(cluster, *others)
-
-
-def split(
-    folder: Folder,
-    cluster: Cluster,
-    recordings: Annotated[
-        list[str], typer.Argument(help="Names of recordings where it is something else.")
-    ],
-) -> None:
-    """Move the segments of some recordings to a new cluster.
-
-    Its number is printed.
-    """
-    with open_library(folder) as library:
-        typer.echo(library.split(cluster, recordings))
 
 
 def _facts(library: Library) -> dict[str, Any]:

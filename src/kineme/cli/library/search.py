@@ -72,6 +72,14 @@ def search(
     max_per_recording: Annotated[
         int | None, option(OUTPUT, "How many in one recording, at most.", min=1)
     ] = None,
+    tag: Annotated[
+        str | None,
+        option(
+            OUTPUT,
+            "Only those with a tag: forwards, backwards, left, right, in place, turn left, turn "
+            "right, start, stop.",
+        ),
+    ] = None,
     export: Annotated[
         Path | None,
         option(
@@ -110,6 +118,7 @@ def search(
             top=top,
             max_per_recording=max_per_recording,
             mirror=mirror,
+            tag=tag,  # type: ignore[arg-type]
             client=scheduler,
         )
         clips = [] if export is None else library.clips(hits, export)

@@ -31,7 +31,7 @@ from kineme.formats.files import MOST_EXPANSION, FileContent
 from kineme.formats.scenes.characters import SceneNode, carriers
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks, metres
-from kineme.recordings import Motion, Provenance, Skeleton
+from kineme.recordings import Motion, Note, Provenance, Skeleton
 from kineme.recordings.rig import UNIFORM, Rig
 
 Inheritance = Literal["RrSs", "RSrs", "Rrs"]
@@ -104,11 +104,11 @@ def assemble(
         found = _multiply_matrices(above, joints, parents, transform, n_frames, turn)
         if any(_factor(transform(node).scale, UNIFORM) is None for node in (*above, *joints)):
             remark = "its bones are scaled unevenly or over time: in clips joints slide instead"
-            provenance = provenance.noted(remark)
+            provenance = provenance.noted(Note(remark, "warning"))
     rig = _rig(nodes, [*above, *joints], len(joints), rest, metres(unit), turn, numbers)
     if rig is None:
         remark = "its bones are mirrored or scaled unevenly at rest: clips get another rest pose"
-        provenance = provenance.noted(remark)
+        provenance = provenance.noted(Note(remark, "warning"))
     content.let_go()
     rotations, offsets, slides = found
     # Leaves that never turn and do not slide become end sites, which have no rotation.

@@ -1,0 +1,115 @@
+"""``kineme library split`` and ``coverage``: clips of all recordings, and what there is of them."""
+
+from __future__ import annotations
+
+from json import dumps
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from kineme._util.checks import format_count
+from kineme.cli.help import OUTPUT, option
+from kineme.cli.library.commands import Folder, Json, open_library
+from kineme.cli.options.clips import (
+    Close,
+    ForTarget,
+    MotionMatching,
+    Name,
+    RootMotion,
+    Sheet,
+    ToFormat,
+    ToFps,
+)
+
+
+def split(
+    folder: Folder,
+    cluster: Annotated[
+        str | None, typer.Argument(help="A cluster by its number or name, to split it in two.")
+    ] = None,
+    recordings: Annotated[
+        list[str] | None, typer.Argument(help="Names of recordings where it is something else.")
+    ] = None,
+    output: Annotated[
+        Path | None,
+        option(OUTPUT, "Folder to make: the best loops as clips.", "--output", "-o"),
+    ] = None,
+    best: Annotated[int, option(OUTPUT, "Loops of each cluster, at most.", min=1)] = 3,
+    per: Annotated[
+        Literal["cluster", "direction", "recording"],
+        option(OUTPUT, "Best of each cluster, or of each direction or recording in it."),
+    ] = "cluster",
+    root_motion: RootMotion = None,
+    close: Close = False,
+    to_format: ToFormat = None,
+    to_fps: ToFps = None,
+    name: Name = None,
+    target: ForTarget = None,
+    sheet: Sheet = None,
+    motion_matching: MotionMatching = None,
+) -> None:
+    """Write the best loops of each cluster, or split a cluster in two.
+
+    For example: kineme library split LIB --best 3 --per cluster -o loops. Near duplicates are left
+    out. With a cluster and recordings the segments of these move to a new cluster, whose number is
+    printed.
+    """
+    if cluster is not None:
+        if not recordings:
+            raise typer.BadParameter(
+                "name the recordings in which this cluster is something else",
+                param_hint="RECORDINGS",
+            )
+        with open_library(folder) as library:
+            typer.echo(library.split(cluster, recordings))
+        return
+    place = output or Path(f"{folder.name}_loops")
+    with open_library(folder) as library:
+        clips = library.loops(
+            place,
+            best=best,
+            per=per,
+            root_motion=root_motion,
+            close=close,
+            format=to_format,
+            fps=to_fps,
+            name=name,
+            target=target,
+            sheet=sheet,
+            motion_matching=motion_matching,
+        )
+        typer.echo(f"{format_count(len(clips), 'clip')} in {place}")
+
+
+def coverage(folder: Folder, json: Json = False) -> None:
+    """Show which directions, speeds and turns there are of each cluster."""
+    with open_library(folder) as library:
+        covered = library.coverage()
+        if json:
+            for each in covered:
+                typer.echo(dumps(each._asdict()))
+            return
+        from rich.text import Text
+
+        from kineme.cli.tables import cluster_cell, new_table
+        from kineme.cli.terminal import Console
+
+        table = new_table(
+            "cluster", "label", "direction", "clips", "seconds", "m/s", "turn °", "starts", "stops"
+        )
+        for each in covered:
+            turns = [f"{each.left_deg:.0f} left"] * (each.left_deg >= 1)
+            turns += [f"{each.right_deg:.0f} right"] * (each.right_deg >= 1)
+            table.add_row(
+                cluster_cell(each.cluster),
+                Text(each.label),
+                each.direction,
+                str(each.clips),
+                f"{each.seconds:.1f}",
+                f"{each.slowest_m_s:.1f}-{each.fastest_m_s:.1f}",
+                ", ".join(turns),
+                str(each.starts),
+                str(each.stops),
+            )
+        Console(highlight=False).print(table)

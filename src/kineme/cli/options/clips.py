@@ -1,0 +1,51 @@
+"""How clips are shaped, named and written: what ``split`` and ``library split`` share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from kineme.cli.help import OUTPUT, option
+from kineme.clips import RootMotionMode, TargetName
+
+RootMotion = Annotated[
+    RootMotionMode | None,
+    option(OUTPUT, "keep, extract (root bone), in-place.", metavar="HOW", show_default="keep"),
+]
+Close = Annotated[bool, option(OUTPUT, "Repeat the first frame at the end.", "--close")]
+ToFormat = Annotated[
+    str | None,
+    option(OUTPUT, "Such as glb; bvh or csv by default.", "--format", metavar="SUFFIX"),
+]
+ToFps = Annotated[
+    float | None,
+    option(OUTPUT, "Frame rate of clips, such as 30.", "--to-fps", metavar="HZ"),
+]
+Name = Annotated[
+    str | None,
+    option(
+        OUTPUT,
+        "Such as {label}_{n:02}; also {name}, {take}, {direction} and others.",
+        "--name",
+        metavar="TEMPLATE",
+    ),
+]
+ForTarget = Annotated[
+    TargetName | None,
+    option(
+        OUTPUT,
+        "unreal, unity, blender or godot.",
+        "--for",
+        metavar="PROGRAM",
+    ),
+]
+Sheet = Annotated[Path | None, option(OUTPUT, "Picture of all clips.", "--sheet", metavar="PNG")]
+MotionMatching = Annotated[
+    Path | None,
+    option(
+        OUTPUT,
+        "Database to write, .npz or .bin.",
+        "--motion-matching",
+        metavar="FILE",
+    ),
+]

@@ -1,0 +1,214 @@
+"""A database for motion matching: features of each frame as published, and the poses themselves.
+
+All is at 60 Hz, in metres with y up. A root bone is put above the skeleton, at the place of the
+hips on the floor and turned as they face, both smoothed. Relative to it, a frame has 27 features:
+place and velocity of both ankles, velocity of the hips, and where the root bone is and faces in 20,
+40 and 60 frames. Beyond the end of a clip these are those of its recording. To compare frames,
+subtract ``features_offset`` and divide by ``features_scale``, which holds the published weights.
+
+``.npz`` has features, poses, feet on the ground and the ranges of clips by name. ``.bin`` has
+poses, ranges and contacts as the public example reads them; it expects the bones of LAFAN1.
+
+Source: Holden, Kanoun, Perepichka, Popa, "Learned Motion Matching", SIGGRAPH 2020, section 3;
+``database.bin`` of https://github.com/orangeduck/Motion-Matching.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterable, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme._util.files import atomic_write
+from kineme.clips.shaping import planted_feet
+from kineme.errors import EndEffectorError, MotionError, ParameterError
+from kineme.features import end_effectors, heading
+from kineme.recordings import Motion
+from kineme.recordings.kinematics import local_translations
+from kineme.recordings.operations import resample
+from kineme.segments.table import Segment
+
+RATE = 60.0
+"""Frames per second."""
+AHEAD = (20, 40, 60)
+"""Frames after which the trajectory is told."""
+SMOOTH_PLACE, SMOOTH_FACING = 31, 61
+"""Frames over which the root bone is smoothed by cubic polynomials."""
+GROUPS = (
+    *((f"{side}_foot_position", 3, 0.75) for side in ("left", "right")),
+    *((f"{side}_foot_velocity", 3, 1.0) for side in ("left", "right")),
+    ("hips_velocity", 3, 1.0),
+    ("trajectory_position", 6, 1.0),
+    ("trajectory_direction", 6, 1.5),
+)
+"""Name, size and weight of the parts of a feature."""
+SUFFIXES = (".npz", ".bin")
+
+Range = tuple[str, Segment, Sequence[str]]
+"""Name of a clip, its segment, and its tags."""
+
+
+class Database:
+    """Gathers clips of recordings of one skeleton; `write` leaves them in a file."""
+
+    def __init__(self) -> None:
+        self.skeleton: tuple[Any, ...] = ()
+        self.parts: list[dict[str, NDArray[Any]]] = []
+        self.ranges: list[tuple[str, Sequence[str], int, int]] = []
+
+    def add(self, motion: Motion, ranges: Iterable[Range]) -> None:
+        """Add clips of a recording.
+
+        Raises
+        ------
+        ParameterError
+            It has no rotations, no feet, or other bones than those before.
+        """
+        bones = [j for j in range(motion.skeleton.n_joints) if j not in motion.skeleton.end_sites]
+        numbers = {joint: bone for bone, joint in enumerate(bones, 1)}
+        parents = tuple(numbers.get(motion.skeleton.parents[joint], 0) for joint in bones)
+        skeleton = ("root", *(motion.skeleton.names[j] for j in bones)), (-1, *parents)
+        self.skeleton = self.skeleton or skeleton
+        if motion.rotations is None or self.skeleton != skeleton:
+            lacks = "bones other than those before" if motion.rotations is not None else "points"
+            raise ParameterError(
+                f"motion_matching needs rotations of one skeleton, {motion.provenance.path} has "
+                f"{lacks}"
+            )
+        described = _describe(resample(motion, RATE), bones)
+        ratio, n = RATE / motion.fps, len(described["features"])
+        at = self.ranges[-1][3] if self.ranges else 0
+        for name, row, tags in ranges:
+            start = min(round(row.start_frame * ratio), n - 1)
+            stop = max(start + 1, min(round(row.stop_frame * ratio), n))
+            self.parts.append({key: part[start:stop] for key, part in described.items()})
+            self.ranges.append((name, tags, at, at + stop - start))
+            at += stop - start
+
+    def write(self, path: str | PathLike[str]) -> None:
+        """Write all clips; ParameterError where there are none."""
+        if not self.parts:
+            raise ParameterError("there is no clip for motion_matching")
+        found = {key: np.concatenate([part[key] for part in self.parts]) for key in self.parts[0]}
+        names, tags, starts, stops = zip(*self.ranges, strict=True)
+        bone_names, parents = self.skeleton
+        found |= {
+            "bone_parents": np.array(parents, np.int32),
+            "range_starts": np.array(starts, np.int32),
+            "range_stops": np.array(stops, np.int32),
+        }
+        with atomic_write(path) as draft, draft.open("wb") as file:
+            if Path(path).suffix.lower() == ".bin":
+                for key in LAYOUT:
+                    # The size of each dimension goes before an array; three or four is a vector.
+                    shape = found[key].shape[:2]
+                    file.write(struct.pack(f"<{len(shape)}I", *shape) + found[key].tobytes())
+                return
+            offset, scale = _normalization(found["features"])
+            names_of = [f"{name}_{i}" for name, size, _ in GROUPS for i in range(size)]
+            found |= {
+                "features_offset": offset,
+                "features_scale": scale,
+                "feature_names": np.array(names_of),
+                "bone_names": np.array(bone_names),
+                "range_names": np.array(names),
+                "range_tags": np.array([", ".join(each) for each in tags]),
+                "fps": np.array(RATE),
+            }
+            np.savez_compressed(file, allow_pickle=False, **found)
+
+
+LAYOUT = (
+    *("bone_positions", "bone_velocities", "bone_rotations", "bone_angular_velocities"),
+    *("bone_parents", "range_starts", "range_stops", "contact_states"),
+)
+"""Arrays of a ``.bin``, little-endian, in this order."""
+
+
+def _describe(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[Any]]:
+    """Return features, poses and contacts of each frame, float32 but for the contacts."""
+    try:
+        ends = end_effectors(motion)
+        pelvis, angles = heading(motion, effectors=ends)
+    except (EndEffectorError, MotionError) as error:
+        raise ParameterError(f"motion_matching needs a body: {error}") from error
+    place = _smooth(motion.positions[:, pelvis] * [1.0, 0.0, 1.0], SMOOTH_PLACE)
+    facing = _smooth(np.stack([np.sin(angles), np.cos(angles)], axis=1), SMOOTH_FACING)
+    turn = rot.rotate_about_y(np.arctan2(facing[:, 0], facing[:, 1]))
+    back = rot.conjugate(turn)
+    skeleton, rotations = motion.skeleton, np.array(motion.rotations)
+    places = local_translations(skeleton, motion.positions, motion.rotations)
+    for joint in (j for j, parent in enumerate(skeleton.parents) if parent < 0):
+        places[:, joint] = rot.rotate(back, motion.positions[:, joint] - place)
+        rotations[:, joint] = rot.multiply(back, rotations[:, joint])
+    places = np.concatenate([place[:, None], places[:, bones]], axis=1)
+    rotations = np.concatenate([turn[:, None], rotations[:, bones]], axis=1)
+    feet = planted_feet(motion)
+    contacts = [feet[side][1] if side in feet else np.zeros(len(turn), bool) for side in
+                ("left", "right")]  # fmt: skip
+    arrays = {
+        "features": _features(motion, (ends.left_ankle, ends.right_ankle), pelvis, place, turn),
+        "bone_positions": places,
+        "bone_velocities": _velocities(places),
+        "bone_rotations": rotations,
+        "bone_angular_velocities": _angular_velocities(rotations),
+    }
+    found: dict[str, NDArray[Any]] = {key: part.astype("<f4") for key, part in arrays.items()}
+    return found | {"contact_states": np.stack(contacts, axis=1).astype(np.uint8)}
+
+
+def _features(
+    motion: Motion, feet: tuple[int, int], pelvis: int, place: Floats, turn: Floats
+) -> Floats:
+    """Return the features (frames, 27), in the order of `GROUPS`."""
+    back, n = rot.conjugate(turn), motion.n_frames
+    velocities = _velocities(motion.positions)
+    parts = [rot.rotate(back, motion.positions[:, foot] - place) for foot in feet]
+    parts += [rot.rotate(back, velocities[:, joint]) for joint in (*feet, pelvis)]
+    then = [np.minimum(np.arange(n) + ahead, n - 1) for ahead in AHEAD]
+    forward = rot.rotate(turn, np.array([0.0, 0.0, 1.0]))
+    parts += [rot.rotate(back, place[at] - place)[:, [0, 2]] for at in then]
+    parts += [rot.rotate(back, forward[at])[:, [0, 2]] for at in then]
+    return np.concatenate(parts, axis=1)
+
+
+def _normalization(features: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Return means, and the mean deviation of each group over its weight, (27,) each."""
+    deviations, scale, at = features.std(axis=0), np.empty(features.shape[1], np.float32), 0
+    for _, size, weight in GROUPS:
+        # A group that never changes tells nothing: any scale will do.
+        scale[at : at + size] = (float(deviations[at : at + size].mean()) or 1.0) / weight
+        at += size
+    return features.mean(axis=0), scale
+
+
+def _smooth(values: Floats, window: int) -> Floats:
+    """Return values (frames, dims) smoothed by cubic polynomials over an odd number of frames."""
+    from scipy.signal import savgol_filter  # heavy, and seldom needed
+
+    window = min(window, len(values) - 1 + len(values) % 2)
+    smoothed: Floats = values if window < 5 else savgol_filter(values, window, 3, axis=0)
+    return smoothed
+
+
+def _velocities(places: Floats) -> Floats:
+    """Return central differences per second."""
+    return np.gradient(places, axis=0) * RATE if len(places) > 1 else np.zeros_like(places)
+
+
+def _angular_velocities(rotations: Floats) -> Floats:
+    """Return rotation vectors per second, in the axes of the parent, (frames, bones, 3)."""
+    if len(rotations) < 2:
+        return np.zeros((*rotations.shape[:2], 3))
+    steps = rot.logarithm(rot.multiply(rotations[1:], rot.conjugate(rotations[:-1]))) * RATE
+    # The mean of the steps before and after a frame; at the ends the only one.
+    before, after = np.concatenate([steps[:1], steps]), np.concatenate([steps, steps[-1:]])
+    mean: Floats = (before + after) / 2
+    return mean

@@ -1,0 +1,133 @@
+"""Tags of clips: where a body goes as seen from where it looks, and whether it turns or stops.
+
+Velocities are those of the hips over the floor. A direction is that of the mean velocity in axes
+that follow the look: someone who walks to the left and looks ahead goes to the left, although hips
+and shoulders are turned. The look is the axis of the head that points to the left at rest; without
+rotations it is the heading of the hips, as turns are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, degrees, hypot
+from typing import Literal, get_args
+
+import numpy as np
+
+from kineme._util import rotations as rot
+from kineme._util.arrays import Floats
+from kineme.errors import EndEffectorError, MotionError
+from kineme.features import EndEffectors, end_effectors, heading
+from kineme.features.body_frame import find_facing, find_parting
+from kineme.recordings import Motion
+from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.posing import rig_of
+
+Tag = Literal[
+    "forwards", "backwards", "left", "right", "in place", "turn left", "turn right", "start", "stop"
+]
+TAGS: tuple[Tag, ...] = get_args(Tag)
+"""The directions first, of which each clip of a body has one."""
+DIRECTIONS = TAGS[:5]
+MOVING = 0.25
+"""Metres per second below which a body stays in place."""
+STILL, STILL_SHARE = 0.3, 0.25
+"""An end is still below so many metres per second, and below such a share of the largest speed."""
+END_S = 0.25
+"""Seconds at either end over which speed and heading are averaged."""
+GOING = 0.5
+"""Metres per second that a clip with a start or stop reaches."""
+TURN = 45.0
+"""Degrees from which the heading's change is a turn."""
+_LEAST = 0.1  # level part of the axis of a head below which it has no direction
+
+
+@dataclass(frozen=True, eq=False)
+class Travel:
+    """How the body of a recording goes over the floor.
+
+    Parameters
+    ----------
+    velocities : ndarray of shape (frames, 2)
+        Of the hips, to +x and to +z, metres per second.
+    looks, headings : ndarray of shape (frames,)
+        Where the head looks and the hips face, radians from +z towards +x; the latter without
+        jumps.
+    fps : float
+    """
+
+    velocities: Floats
+    looks: Floats
+    headings: Floats
+    fps: float
+
+    def velocity(self, start: int, stop: int) -> tuple[float, float]:
+        """Return the mean velocity of frames to the body's left, and ahead."""
+        # The head looks into a turn, so there the hips tell.
+        seen = self.looks if abs(self.turn(start, stop)) < TURN else self.headings
+        (x, z), angles = self.velocities[start:stop].T, seen[start:stop]
+        left = np.cos(angles) * x - np.sin(angles) * z
+        ahead = np.sin(angles) * x + np.cos(angles) * z
+        return float(left.mean()), float(ahead.mean())
+
+    def turn(self, start: int, stop: int) -> float:
+        """Return by how many degrees the hips turn in frames, positive to the left."""
+        headings, n = self.headings[start:stop], self._frames(stop - start)
+        return degrees(float(headings[-n:].mean() - headings[:n].mean()))
+
+    def tags(self, start: int, stop: int) -> tuple[Tag, ...]:
+        """Return the tags of a clip of these frames, in the order of `TAGS`."""
+        turn = self.turn(start, stop)
+        found: set[Tag] = {_direction(*self.velocity(start, stop))}
+        if abs(turn) >= TURN:
+            found.add("turn left" if turn > 0 else "turn right")
+        # Speeds of means over a quarter of a second, so that sway counts less.
+        n = self._frames(stop - start)
+        sums = np.cumsum(np.vstack([np.zeros(2), self.velocities[start:stop]]), axis=0)
+        speeds = np.linalg.norm(sums[n:] - sums[:-n], axis=1) / n
+        if speeds.max() >= GOING and "in place" not in found:
+            still = min(STILL, STILL_SHARE * float(speeds.max()))
+            found |= {"start"} if speeds[0] < still else set()
+            found |= {"stop"} if speeds[-1] < still else set()
+        return tuple(tag for tag in TAGS if tag in found)
+
+    def _frames(self, most: int) -> int:
+        return max(1, min(round(END_S * self.fps), most))
+
+
+def travel_of(motion: Motion) -> Travel | None:
+    """Return how the body of a recording goes; None where it has no hips or a single frame."""
+    if motion.n_frames < 2:
+        return None
+    try:
+        ends = end_effectors(motion)
+        pelvis, headings = heading(motion, effectors=ends)
+        looks = headings if motion.rotations is None else _looks(motion, motion.rotations, ends)
+    except (EndEffectorError, MotionError):
+        return None
+    # A gradient, so that every frame has a velocity.
+    velocities = np.gradient(motion.positions[:, pelvis][:, [0, 2]], axis=0) * motion.fps
+    return Travel(velocities, looks, np.unwrap(headings), motion.fps)
+
+
+def _direction(left: float, ahead: float) -> Tag:
+    """Return the nearest of four directions; in place where the body hardly moves."""
+    if hypot(left, ahead) < MOVING:
+        return "in place"
+    quarter = round(degrees(atan2(left, ahead)) / 90) % 4
+    directions: tuple[Tag, ...] = ("forwards", "left", "backwards", "right")
+    return directions[quarter]
+
+
+def _looks(motion: Motion, rotations: Floats, ends: EndEffectors) -> Floats:
+    """Return where the head looks, radians from +z towards +x."""
+    skeleton = motion.skeleton
+    _, left, right = find_parting(skeleton, ends.left_wrist, ends.right_wrist, "arms")
+    places, turns = rig_of(skeleton).rest()
+    # Where the arms part, at rest: head and chest face the same way there.
+    to_left = places[left] - places[right]
+    to_left /= max(float(np.linalg.norm(to_left)), 1e-12)
+    axis = rot.rotate(rot.conjugate(turns[ends.head]), to_left)
+    turned = rot.rotate(world_rotations(skeleton, rotations)[:, ends.head], axis)
+    cos, sin = find_facing(turned, _LEAST)
+    return np.arctan2(-sin, cos)[:, 0]
