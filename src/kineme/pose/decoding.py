@@ -49,6 +49,11 @@ class OpenVideo:
         told = self._stream.duration
         return float(told * self._stream.time_base) if told else 0.0
 
+    @property
+    def begins(self) -> float:
+        """Return the time at which players begin: that of the first picture or sound."""
+        return (self._container.start_time or 0) / 1_000_000  # in FFmpeg's microseconds
+
     def frames(self, after: float | None = None) -> Iterator[Frame]:
         """Yield the frames after a time; ReadError where the video ends too early.
 

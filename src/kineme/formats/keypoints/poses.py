@@ -10,7 +10,8 @@ for each keypoint
 
 A frame in which nobody was found has no row. The metadata of the table holds a JSON object under
 ``kineme.poses``: the estimator, the keypoints, the SHA-256 of the video, its width and height, the
-frames that were looked at, their rate and the first and last time.
+frames that were looked at, their rate, the seconds from the first to the last, and the second of
+the video (``start``) at which the first is shown.
 
 Frames are those of an even rate: each row belongs to the one that is nearest to its time. The
 positions are smoothed by a Butterworth low-pass filter of second order, forwards and backwards,
@@ -22,6 +23,7 @@ Source of the filter: D. A. Winter, Biomechanics and Motor Control of Human Move
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -32,7 +34,8 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
-from kineme._util.files import atomic_write
+from kineme._util.files import POSES, atomic_write
+from kineme._util.parallel import find_user_cache
 from kineme.features.filters import filter_low
 from kineme.formats.channels.parquet import parquet_columns, parquet_file
 from kineme.formats.files import FileContent, load
@@ -45,8 +48,6 @@ from kineme.recordings.arrays import spans_of
 
 KEY = b"kineme.poses"
 """Of the metadata."""
-POSES = ".poses.parquet"
-"""Behind the name of a video in that of the table of its poses."""
 CUTOFF = 6.0
 """Hertz: movement of people is slower than that, jitter of keypoints is faster."""
 NOBODY = -1
@@ -107,6 +108,7 @@ def write_poses(path: Path, head: Head, rows: Rows) -> None:
         "depth": bool(np.isfinite(found["metres"]).any()),
         "frames": len(times),
         "fps": _rate(times),
+        "start": float(times[0]) - float(head.get("begins", 0.0)),
         "duration": float(times[-1] - times[0]),
     }
     for column, (field, k, axis) in _columns(told).items():
@@ -115,6 +117,14 @@ def write_poses(path: Path, head: Head, rows: Rows) -> None:
     table = pa.table(columns).replace_schema_metadata({KEY: json.dumps(told).encode()})
     with atomic_write(path) as draft:
         parquet.write_table(table, draft)
+
+
+def find_poses(video: Path, digest: str) -> Path:
+    """Return where the poses of a video are kept, or will be: beside it, else in the cache."""
+    beside = video.with_name(video.name + POSES)
+    if beside.exists() or os.access(video.parent, os.W_OK):
+        return beside
+    return find_user_cache() / "kineme" / "poses" / f"{digest}{POSES}"
 
 
 def read_poses(path: Path) -> Poses:
