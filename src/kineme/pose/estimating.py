@@ -22,6 +22,7 @@ from typing import BinaryIO
 
 import numpy as np
 
+from kineme._util.arrays import Floats
 from kineme._util.checks import check_path
 from kineme._util.files import POSES, AnyPath, atomic_write, hold, is_held, refuse_link
 from kineme._util.parallel import announce, check_cancelled
@@ -38,7 +39,7 @@ from kineme.formats.keypoints.poses import (
     write_poses,
 )
 from kineme.pose.decoding import Frame, OpenVideo, open_video
-from kineme.pose.estimators import Estimate, Pose, PoseEstimator, choose_estimator
+from kineme.pose.estimators import Estimate, Picture, Pose, PoseEstimator, choose_estimator
 
 Watch = Callable[[float | None, float], None]
 """Told the share of a video that is done, None where nobody knows, and frames a second."""
@@ -207,6 +208,7 @@ def _append(
     watch: Watch,
 ) -> None:
     begun = spoken = time.monotonic()
+    colors: Floats | None = None
     for n, frame in enumerate(video.frames(last)):
         check_cancelled()
         poses = _present(estimate(frame.picture, frame.time))
@@ -215,7 +217,9 @@ def _append(
             head = {**told, "width": width, "height": height, "begins": video.begins}
             file.write(json.dumps(head).encode() + b"\n")
         # The rows of a frame go to the file in one call: it holds all of them or none.
-        file.write(_rows_of(frame, poses, len(told["keypoints"])).tobytes())
+        colors, before = _count_colors(frame.picture), colors
+        change = 0.0 if before is None else 0.5 * float(np.abs(colors - before).sum())
+        file.write(_rows_of(frame, poses, len(told["keypoints"]), change).tobytes())
         file.flush()
         now = time.monotonic()
         if now - spoken >= TOLD_S:
@@ -228,10 +232,18 @@ def _present(poses: Sequence[Pose]) -> list[Pose]:
     return [pose for pose in poses if np.mean(pose.confidence) >= PRESENT]
 
 
-def _rows_of(frame: Frame, poses: Sequence[Pose], keypoints: int) -> Rows:
+def _count_colors(picture: Picture) -> Floats:
+    """Return the shares of a picture, looked at coarsely, that have each of 64 colours."""
+    few = picture[::8, ::8].reshape(-1, 3) >> 6  # the two highest bits of red, green and blue
+    counts = np.bincount((few * (16, 4, 1)).sum(axis=1), minlength=64)
+    return np.asarray(counts / len(few))
+
+
+def _rows_of(frame: Frame, poses: Sequence[Pose], keypoints: int, change: float) -> Rows:
     """Return a row for each person in a frame; one of nobody where there is none."""
     rows = np.zeros(max(1, len(poses)), row_type(keypoints))
     rows["time"], rows["person"], rows["metres"] = frame.time, NOBODY, np.nan
+    rows["change"] = change
     for i, pose in enumerate(poses):
         rows[i]["person"] = i
         rows[i]["image"] = pose.image * frame.scale
