@@ -17,6 +17,7 @@ import os
 import shutil
 import time
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import BinaryIO
 
@@ -99,12 +100,22 @@ def has_poses(video: Path) -> bool:
     """Return whether the poses of a video are there, so that reading it takes no minutes."""
     beside = video.with_name(video.name + POSES)
     try:
-        if beside.exists() and beside.stat().st_mtime >= video.stat().st_mtime:
-            return True
-        digest = load_head(video).digest
+        changed = video.stat()
+        if beside.exists():
+            if beside.stat().st_mtime >= changed.st_mtime:
+                return True
+        elif os.access(video.parent, os.W_OK):
+            return False
+        digest = _digest(video, changed.st_mtime_ns, changed.st_size)
         return _is_made(find_poses(video, digest), {"sha256": digest})
     except (KinemeError, OSError):  # reading the video will say what is wrong
         return False
+
+
+@lru_cache(1000)
+def _digest(video: Path, *_: int) -> str:
+    """Return the digest of a video as it was at that time, of that size."""
+    return load_head(video).digest
 
 
 def keep_poses(

@@ -135,7 +135,8 @@ def _add_video(message: Recording, recording: Shown, page: Path) -> tuple[Record
     if not isinstance(recording, Motion | Signals) or recording.provenance.path is None:
         return message, b""
     source = Path(recording.provenance.path)
-    drawn = draw_picture(source, recording.provenance.person)
+    person = recording.provenance.person
+    drawn = draw_picture(source, person) if isinstance(recording, Motion) else None
     video, found = describe_video(source, drawn), find_video(source)
     if video is None or found is None:
         return message, b""

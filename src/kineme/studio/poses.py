@@ -44,7 +44,8 @@ def lacks_estimator() -> str:
     try:
         choose_estimator(None)
     except MissingDependencyError as error:
-        return str(error)
+        extra = f"pip install 'kineme[{error.extra}]'"
+        return f"Estimating poses needs {error.package}: {extra}, then start the studio again"
     return ""
 
 

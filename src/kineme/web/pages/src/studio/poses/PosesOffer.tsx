@@ -22,7 +22,7 @@ export function PosesOffer({ all = false }: { all?: boolean }): JSX.Element | nu
         <p>
           {subject} {has} no poses yet.{" "}
           {poses.install.value
-            ? `To estimate them, ${poses.install.value}`
+            ? `${poses.install.value}.`
             : "Estimating them can take some minutes; everything stays on this machine."}
         </p>
       )}
