@@ -121,6 +121,6 @@ def _upright(decoded: Any) -> Frame:
     return Frame(float(decoded.time), np.ascontiguousarray(turned), scale)
 
 
-def _reason(error: OSError) -> str:
+def _reason(error: Exception) -> str:
     """Return what FFmpeg says without its number and the path, which are no help."""
     return shorten_error(error).split("] ", 1)[-1].split(": '", 1)[0].lower()

@@ -219,7 +219,7 @@ def _append(
     watch: Watch,
 ) -> None:
     begun = spoken = time.monotonic()
-    colors: Floats | None = None
+    former: Floats | None = None
     for n, frame in enumerate(video.frames(last)):
         check_cancelled()
         poses = _present(estimate(frame.picture, frame.time))
@@ -228,8 +228,9 @@ def _append(
             head = {**told, "width": width, "height": height, "begins": video.begins}
             file.write(json.dumps(head).encode() + b"\n")
         # The rows of a frame go to the file in one call: it holds all of them or none.
-        colors, before = _count_colors(frame.picture), colors
-        change = 0.0 if before is None else 0.5 * float(np.abs(colors - before).sum())
+        colors = _count_colors(frame.picture)
+        change = 0.0 if former is None else 0.5 * float(np.abs(colors - former).sum())
+        former = colors
         file.write(_rows_of(frame, poses, len(told["keypoints"]), change).tobytes())
         file.flush()
         now = time.monotonic()
