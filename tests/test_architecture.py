@@ -107,15 +107,15 @@ ROOMS = {
     ),
     "web": Room(
         "sources of the pages, the built pages, and what they are told",
-        "cycles features labels recordings segments",
+        "cycles features formats labels recordings segments",
     ),
     "report": Room(
         "one page of HTML that shows a recording, or compares two sessions",
-        "cycles features plot segments web",
+        "cycles features plot recordings segments web",
     ),
     "studio": Room(
         "a local server and its page: recordings looked at, tables corrected and kept",
-        "clips datasets evaluation formats labels library methods recordings report "
+        "clips datasets evaluation formats labels library methods pose recordings report "
         "segments transfer web",
     ),
     "cli": Room("commands, each imported when it is asked for", "*"),

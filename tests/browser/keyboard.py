@@ -56,6 +56,14 @@ def zooms_to_the_segment(screen: Screen) -> None:
     shows_all(screen)
 
 
+def fills_the_screen(screen: Screen) -> None:
+    side = screen.page.locator(".place-side")
+    screen.page.keyboard.press("f")
+    side.wait_for(state="hidden")
+    screen.page.keyboard.press("f")
+    side.wait_for()
+
+
 def zooms(screen: Screen) -> None:
     shows_all(screen)
     state(screen, "k.range.stop_s - k.range.start_s < 0.8 * k.duration", "+")
@@ -220,6 +228,7 @@ CHECKS: dict[str, Check] = {
     ", .": changes_detail,
     "V": lays_a_ghost,
     "G": shows_curves,
+    "F": fills_the_screen,
     "+ −": zooms,
     "Home, End": jumps,
     "0": shows_all,

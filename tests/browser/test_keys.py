@@ -14,8 +14,11 @@ CONTROLS = ".viewer-buttons button, .transport button, .transport select, .scrub
 
 
 def calmed(screen: Screen) -> None:
-    """What the click began is ended: playing, a loop, a preview."""
+    """What the click began is ended: playing, a loop, a preview, full screen."""
     state = screen.state
+    if screen.page.evaluate("Boolean(document.fullscreenElement)"):
+        screen.page.keyboard.press("f")
+        screen.page.locator(".place-side").wait_for()
     for key in ["Space"] * state["playing"] + ["l"] * (state["loop"] is not None):
         screen.page.keyboard.press(key)
     discard = screen.page.get_by_role("button", name="Discard")

@@ -142,3 +142,55 @@ def test_a_folder_of_videos(tmp_path: Path) -> None:
         (tmp_path / name).write_bytes(b"\0\0\0\0ftyp")
     found = [path.name for path in recordings_in(tmp_path).recordings]
     assert found == ["a.mp4", "b.parquet", "c.MOV"]
+
+
+def test_people_who_cross_stay_who_they_are(tmp_path: Path) -> None:
+    """Both stand as they meet, and one is hidden behind the other for a moment."""
+
+    def two(time: float) -> list[Pose]:
+        ahead = 150 * (time - 4)
+        moving, still = squat(time, 420 + ahead), squat(0, 420 - ahead)
+        return [moving] if 3.92 < time < 4.08 else [moving, still]
+
+    path = write_squats(tmp_path / "a.parquet", AT_30_HZ, two)
+    moved = [np.ptp(kineme.read(path, person=who).positions[:, :, 1], axis=0).max() for who in "01"]
+    assert np.round(moved, 1).tolist() == [0.4, 0.0]
+
+
+def test_a_cut_splits_the_recording_and_is_said(tmp_path: Path) -> None:
+    def cut(time: float) -> list[Pose]:
+        return [squat(time, 200 if time < 5 else 520)]
+
+    path = write_squats(tmp_path / "a.parquet", AT_30_HZ, cut)
+    with pytest.warns(kineme.errors.KinemeWarning, match=r"camera cuts at 5\.0 s"):
+        motion = kineme.read(path)
+    assert motion.gaps == ((150, 151),)
+
+
+def test_fast_movement_is_no_cut(tmp_path: Path) -> None:
+    def leap(time: float) -> list[Pose]:  # 10 m/s from one side to the other
+        return [squat(6 * time, 200 + 2000 * min(max(time - 5, 0), 0.2))]
+
+    assert kineme.read(write_squats(tmp_path / "a.parquet", AT_30_HZ, leap)).gaps == ()
+
+
+def test_an_unsure_keypoint_counts_less(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    elbow = NAMES.index("left_elbow")
+
+    def hidden(time: float, unsure: float) -> list[Pose]:
+        pose = squat(time)
+        if round(30 * time) % 30 < 6:  # it is guessed wrongly now and then
+            pose.metres[elbow] += rng.normal(0, 0.08, 3)
+            pose.confidence[elbow] = unsure
+        return [pose]
+
+    errors = []
+    for unsure in (0.9, 0.1):
+        path = write_squats(tmp_path / "a.parquet", AT_30_HZ, lambda t, c=unsure: hidden(t, c))
+        motion = kineme.read(path)
+        joint = motion.skeleton.names.index("left_elbow")
+        true = [squat(time).metres[elbow] for time in AT_30_HZ]
+        off = motion.positions[:, joint] - motion.positions[:, 0] - true
+        errors.append(np.sqrt((off**2).mean()))
+    assert errors[1] < 0.5 * errors[0]

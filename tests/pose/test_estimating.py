@@ -148,11 +148,14 @@ def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Pa
         file.setframerate(8000)
         file.writeframes(bytes(16000))
     whole = write_video(tmp_path / "whole.mp4", np.arange(300) / 30).read_bytes()
+    matroska = write_video(tmp_path / "whole.mkv", np.arange(300) / 30).read_bytes()
     for name, data, reason in [
         ("text.mp4", b"not a video", "is no video"),
         ("empty.mp4", b"", "empty"),
         ("sound.mkv", sound.getvalue(), "sound"),
         ("head.mp4", video.read_bytes()[:500], "is no video"),
+        ("tenth.mp4", whole[: len(whole) // 10], "part of"),
+        ("half.mkv", matroska[: len(matroska) // 2], "breaks off"),
         ("half.mp4", whole[: len(whole) // 2], "breaks off|damaged"),
     ]:
         path = tmp_path / name

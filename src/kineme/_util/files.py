@@ -28,7 +28,12 @@ CORRECTED = ".segments.json"
 """How the name of a table ends that somebody corrected in the studio."""
 LONGEST_PERSON = 60
 """Bytes of a person's name in that of a file, which may have 255 in all."""
-VIDEOS = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
+VIDEOS = (
+    ".mp4", ".webm", ".m4v", ".mov", ".ogv", ".mkv", ".avi", ".3gp", ".mts", ".mpg", ".wmv",
+)  # fmt: skip
+"""Suffixes of videos; those that browsers play come first."""
+POSES = ".poses.parquet"
+"""Behind the name of a video in that of the table of its poses."""
 if sys.platform != "win32":  # where an open file cannot be removed anyway
     import fcntl
 
@@ -244,11 +249,17 @@ def _is_pipe(path: str | os.PathLike[str]) -> bool:
 
 
 def find_video(recording: Path) -> Path | None:
-    """Return the video of a recording: a file of its name beside it; None where there is none."""
-    for suffix in VIDEOS if recording.name else ():
-        for path in (recording.with_suffix(suffix), recording.with_suffix(suffix.upper())):
-            if path.is_file() and not path.is_symlink():
-                return path
+    """Return the video of a recording: itself, or a file of its name beside it; None without one.
+
+    The table ``squats.mp4.poses.parquet`` has ``squats.mp4``.
+    """
+    if not recording.name:
+        return None
+    own = recording.with_name(recording.name.removesuffix(POSES) or recording.name)
+    beside = [own.with_suffix(end) for suffix in VIDEOS for end in (suffix, suffix.upper())]
+    for path in [own, *beside] if own.suffix.lower() in VIDEOS else beside:
+        if path.is_file() and not path.is_symlink():
+            return path
     return None
 
 

@@ -26,13 +26,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kineme._util.checks import format_count
-from kineme._util.files import read_head, read_tail
+from kineme._util.files import POSES, read_head, read_tail
 from kineme.errors import ReadError
 from kineme.formats.columns import joint_names
 from kineme.formats.dialects import find_table, recognise_table
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import frame_files
-from kineme.formats.keypoints.poses import POSES
 from kineme.formats.label_tables import program_of_labels
 from kineme.formats.registry import is_video, speaks, supported_formats
 from kineme.recordings.times import is_timing
@@ -79,7 +78,7 @@ def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
     for place, names, files in os.walk(folder, onerror=closed):
         names[:] = sorted(name for name in names if not name.startswith("."))
         here = Path(place)
-        recordings = _without_shown(list(_recordings_among(here, files, found)))
+        recordings = drop_shown(list(_recordings_among(here, files, found)))
         try:
             frames = frame_files(here)
         except OSError as error:
@@ -129,7 +128,7 @@ def _recordings_among(folder: Path, names: list[str], found: Listing) -> Iterato
             found.passed_over.append((path, _reason(error)))
 
 
-def _without_shown(recordings: list[Path]) -> list[Path]:
+def drop_shown(recordings: list[Path]) -> list[Path]:
     """Return the recordings without videos that show others, and poses of videos among them."""
     videos = {path.name for path in recordings if is_video(path)}
     stems = {path.stem for path in recordings if path.name not in videos}

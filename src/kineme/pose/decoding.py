@@ -47,7 +47,16 @@ class OpenVideo:
     def duration(self) -> float:
         """Return the length of the pictures in seconds; 0 where the video does not tell it."""
         told = self._stream.duration
-        return float(told * self._stream.time_base) if told else 0.0
+        if told:
+            return float(told * self._stream.time_base)
+        # Matroska tells that of all; sound may go on for longer than the pictures.
+        alone = len(self._container.streams) == 1
+        return (self._container.duration or 0) / 1_000_000 if alone else 0.0
+
+    @property
+    def begins(self) -> float:
+        """Return the time at which players begin: that of the first picture or sound."""
+        return (self._container.start_time or 0) / 1_000_000  # in FFmpeg's microseconds
 
     def frames(self, after: float | None = None) -> Iterator[Frame]:
         """Yield the frames after a time; ReadError where the video ends too early.
@@ -79,7 +88,7 @@ class OpenVideo:
         try:
             yield from self._container.decode(self._stream)
         except (av.FFmpegError, OSError) as error:
-            reason = f"is damaged, its frames cannot be decoded: {shorten_error(error)}"
+            reason = f"is damaged, its frames cannot be decoded: {_reason(error)}"
             raise ReadError(self._path, reason) from error
 
 
@@ -91,11 +100,13 @@ def open_video(path: Path) -> Iterator[OpenVideo]:
     try:
         container = av.open(str(path))
     except (av.FFmpegError, OSError) as error:
-        reason = f"is no video, or is damaged: {shorten_error(error)}"
+        reason = f"is no video, or only a part of one: {_reason(error)}"
         raise ReadError(path, reason) from error
     with container:
         if not container.streams.video:
-            raise ReadError(path, "is no video: it holds sound, but no pictures")
+            sound = "is no video: it holds sound, but no pictures"
+            lost = "holds no pictures: it may be a part of a video only, so copy it again"
+            raise ReadError(path, sound if container.streams.audio else lost)
         stream = container.streams.video[0]
         stream.thread_type = "AUTO"
         yield OpenVideo(path, container, stream)
@@ -108,3 +119,8 @@ def _upright(decoded: Any) -> Frame:
     # The rotation is counterclockwise, and so are the quarter turns of numpy.
     turned = np.rot90(picture, round(decoded.rotation / 90))
     return Frame(float(decoded.time), np.ascontiguousarray(turned), scale)
+
+
+def _reason(error: Exception) -> str:
+    """Return what FFmpeg says without its number and the path, which are no help."""
+    return shorten_error(error).split("] ", 1)[-1].split(": '", 1)[0].lower()

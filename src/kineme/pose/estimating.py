@@ -16,29 +16,34 @@ import json
 import os
 import shutil
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
 
+from kineme._util.arrays import Floats
 from kineme._util.checks import check_path
-from kineme._util.files import AnyPath, atomic_write, hold, is_held, refuse_link
-from kineme._util.parallel import announce, check_cancelled, find_user_cache
+from kineme._util.files import POSES, AnyPath, atomic_write, hold, is_held, refuse_link
+from kineme._util.parallel import announce, check_cancelled
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_file
 from kineme.formats.files import FileContent, load, load_head
 from kineme.formats.keypoints.poses import (
     NOBODY,
-    POSES,
     Head,
     Rows,
+    find_poses,
     parse_head,
     row_type,
     write_poses,
 )
 from kineme.pose.decoding import Frame, OpenVideo, open_video
-from kineme.pose.estimators import Estimate, Pose, PoseEstimator, choose_estimator
+from kineme.pose.estimators import Estimate, Picture, Pose, PoseEstimator, choose_estimator
+
+Watch = Callable[[float | None, float], None]
+"""Told the share of a video that is done, None where nobody knows, and frames a second."""
 
 PRESENT = 0.3
 """Mean confidence of the keypoints below which nobody is there."""
@@ -91,17 +96,45 @@ def estimate_poses(
     return keep_poses(load_head(Path(video)), target, estimator=estimator, model=model)
 
 
+def has_poses(video: Path) -> bool:
+    """Return whether the poses of a video are there, so that reading it takes no minutes."""
+    beside = video.with_name(video.name + POSES)
+    try:
+        changed = video.stat()
+        if beside.exists():
+            if beside.stat().st_mtime >= changed.st_mtime:
+                return True
+        elif os.access(video.parent, os.W_OK):
+            return False
+        digest = _digest(video, changed.st_mtime_ns, changed.st_size)
+        return _is_made(find_poses(video, digest), {"sha256": digest})
+    except (KinemeError, OSError):  # reading the video will say what is wrong
+        return False
+
+
+@lru_cache(1000)
+def _digest(video: Path, *_: int) -> str:
+    """Return the digest of a video as it was at that time, of that size."""
+    return load_head(video).digest
+
+
 def keep_poses(
     content: FileContent,
     target: AnyPath | None = None,
     *,
     estimator: str | None = None,
     model: AnyPath | None = None,
+    watch: Watch | None = None,
 ) -> Path:
-    """Return the table of `estimate_poses` for a video of which the first bytes are loaded."""
+    """Return the table of `estimate_poses` for a video of which the first bytes are loaded.
+
+    ``watch`` is told how far it is, by default whoever listens to what is announced.
+    """
     path, digest = content.path, content.digest
-    beside = _place(path, digest)
+    beside = find_poses(path, digest)
     place = beside if target is None else Path(target)
+    if target is None:
+        place.parent.mkdir(parents=True, exist_ok=True)  # of the cache
     asked: dict[str, object] = {"sha256": digest}
     if estimator is not None or model is not None:
         asked |= _told_of(choose_estimator(estimator), model)
@@ -113,7 +146,8 @@ def keep_poses(
             return place
     chosen = choose_estimator(estimator)
     part = place.with_name(f"{place.name}.part")
-    _run(path, part, chosen, None if model is None else Path(model), digest)
+    given = None if model is None else Path(model)
+    _run(path, part, chosen, given, digest, watch or _announce)
     head, rows, _ = _parse_part(part, len(chosen.keypoints))
     if len(np.unique(rows["time"])) < 2:
         part.unlink()
@@ -121,16 +155,6 @@ def keep_poses(
     write_poses(place, head, rows)
     part.unlink()
     return place
-
-
-def _place(video: Path, digest: str) -> Path:
-    """Return where the poses of a video are kept unless another place is given."""
-    beside = video.with_name(video.name + POSES)
-    if beside.exists() or os.access(video.parent, os.W_OK):
-        return beside
-    home = find_user_cache() / "kineme" / "poses"
-    home.mkdir(parents=True, exist_ok=True)
-    return home / f"{digest}{POSES}"
 
 
 def _told_of(estimator: PoseEstimator, model: AnyPath | None) -> dict[str, object]:
@@ -155,7 +179,19 @@ def _is_made(place: Path, asked: Head) -> bool:
     return all(head.get(name) == value for name, value in asked.items())
 
 
-def _run(path: Path, part: Path, estimator: PoseEstimator, model: Path | None, digest: str) -> None:
+def _announce(share: float | None, pace: float) -> None:
+    done = "" if share is None else f"{share:.0%}, "
+    announce(f"estimating poses, {done}{pace:.1f} frames/s")
+
+
+def _run(
+    path: Path,
+    part: Path,
+    estimator: PoseEstimator,
+    model: Path | None,
+    digest: str,
+    watch: Watch,
+) -> None:
     """Append the poses of all frames that the file of an earlier run lacks."""
     refuse_link(part)
     if part.exists() and is_held(part):
@@ -166,8 +202,8 @@ def _run(path: Path, part: Path, estimator: PoseEstimator, model: Path | None, d
         try:
             with part.open("ab") as file, estimator.start(model) as estimate:
                 hold(file.fileno())
-                _append(file, video, estimate, told, last)
-        except KinemeError:  # of the video or the model: nothing to go on with
+                _append(file, video, estimate, told, last, watch)
+        except ReadError:  # of the video or the model: nothing to go on with
             part.unlink(missing_ok=True)
             raise
         except OSError as error:
@@ -175,34 +211,51 @@ def _run(path: Path, part: Path, estimator: PoseEstimator, model: Path | None, d
 
 
 def _append(
-    file: BinaryIO, video: OpenVideo, estimate: Estimate, told: Head, last: float | None
+    file: BinaryIO,
+    video: OpenVideo,
+    estimate: Estimate,
+    told: Head,
+    last: float | None,
+    watch: Watch,
 ) -> None:
     begun = spoken = time.monotonic()
+    former: Floats | None = None
     for n, frame in enumerate(video.frames(last)):
         check_cancelled()
         poses = _present(estimate(frame.picture, frame.time))
         if file.tell() == 0:
             height, width = (round(side * frame.scale) for side in frame.picture.shape[:2])
-            head = {**told, "width": width, "height": height}
+            head = {**told, "width": width, "height": height, "begins": video.begins}
             file.write(json.dumps(head).encode() + b"\n")
         # The rows of a frame go to the file in one call: it holds all of them or none.
-        file.write(_rows_of(frame, poses, len(told["keypoints"])).tobytes())
+        colors = _count_colors(frame.picture)
+        change = 0.0 if former is None else 0.5 * float(np.abs(colors - former).sum())
+        former = colors
+        file.write(_rows_of(frame, poses, len(told["keypoints"]), change).tobytes())
         file.flush()
         now = time.monotonic()
         if now - spoken >= TOLD_S:
             spoken = now
-            share = f"{frame.time / video.duration:.0%}, " if video.duration else ""
-            announce(f"estimating poses, {share}{(n + 1) / (now - begun):.1f} frames/s")
+            share = min(frame.time / video.duration, 1.0) if video.duration else None
+            watch(share, (n + 1) / (now - begun))
 
 
 def _present(poses: Sequence[Pose]) -> list[Pose]:
     return [pose for pose in poses if np.mean(pose.confidence) >= PRESENT]
 
 
-def _rows_of(frame: Frame, poses: Sequence[Pose], keypoints: int) -> Rows:
+def _count_colors(picture: Picture) -> Floats:
+    """Return the shares of a picture, looked at coarsely, that have each of 64 colours."""
+    few = picture[::8, ::8].reshape(-1, 3) >> 6  # the two highest bits of red, green and blue
+    counts = np.bincount((few * (16, 4, 1)).sum(axis=1), minlength=64)
+    return np.asarray(counts / len(few))
+
+
+def _rows_of(frame: Frame, poses: Sequence[Pose], keypoints: int, change: float) -> Rows:
     """Return a row for each person in a frame; one of nobody where there is none."""
     rows = np.zeros(max(1, len(poses)), row_type(keypoints))
     rows["time"], rows["person"], rows["metres"] = frame.time, NOBODY, np.nan
+    rows["change"] = change
     for i, pose in enumerate(poses):
         rows[i]["person"] = i
         rows[i]["image"] = pose.image * frame.scale

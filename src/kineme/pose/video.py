@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from kineme._util.files import VIDEOS
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.poses import poses_to_motion, read_poses
 from kineme.formats.options import ReadOptions
@@ -25,10 +26,4 @@ def begins_video(head: bytes) -> bool:
     return head[4:8] in _BOXES or head.startswith(_EBML) or is_avi
 
 
-FORMAT = Format(
-    "video",
-    (".mp4", ".mov", ".m4v", ".webm", ".mkv", ".avi", ".3gp", ".mts", ".mpg", ".wmv", ".ogv"),
-    begins_video,
-    read_video,
-    is_video=True,
-)
+FORMAT = Format("video", VIDEOS, begins_video, read_video, is_video=True)

@@ -4,25 +4,32 @@ The page itself is built from the sources in ``web/pages`` and comes with the
 package. It has marked places for data, which become script elements that
 no browser runs: the `kineme.web.messages.Recording` message, the binary
 motion, the tiles of the similarity matrix, and the curves of repetitions.
+A video is the one thing that stays outside: the page shows it from where it lies.
 """
 
 from __future__ import annotations
 
 import json
+import os
 import zlib
 from base64 import b64encode
 from importlib.resources import files
 from os import PathLike
 from pathlib import Path
+from urllib.parse import quote
+
+from msgspec import structs
 
 from kineme._util.checks import check_path, check_type
-from kineme._util.files import atomic_write
+from kineme._util.files import atomic_write, find_video
 from kineme.errors import WriteError
 from kineme.features import Names
+from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.web.curves import as_recording, curves_of
 from kineme.web.cycle_curves import CycleCurves
 from kineme.web.encoding import to_json
+from kineme.web.film import describe_video, draw_picture
 from kineme.web.matrix import make_report_tiles
 from kineme.web.messages import Recording, ReportCurves
 from kineme.web.page_data import PageData, Shown, page_data, recording_message
@@ -39,6 +46,8 @@ def write_report(
     effectors: Names | None = None,
 ) -> None:
     """Write a page that shows a recording and its segments.
+
+    A video of the recording is shown from its own file, so keep page and video together.
 
     Parameters
     ----------
@@ -77,6 +86,7 @@ def write_report(
     tiles = make_report_tiles(data.matrix)
     message = recording_message(data, segmentation, name=name or _name(segmentation), levels=True)
     source = as_recording(recording, data.fps)
+    message, keypoints = _add_video(message, recording, Path(path))
     others = [segmentation.at_detail(level.detail) for level in message.levels]
     with atomic_write(path) as draft:
         page = fill_template(
@@ -86,6 +96,7 @@ def write_report(
             tiles,
             _curves(recording, data),
             CycleCurves(lambda: source).report(segmentation, others),
+            keypoints,
         )
         draft.write_text(page, encoding="utf-8")
 
@@ -97,11 +108,12 @@ def fill_template(
     tiles: dict[str, bytes],
     curves: dict[str, object] | None = None,
     cycles: ReportCurves | None = None,
+    keypoints: bytes = b"",
 ) -> str:
     """Return the template with the data in place of its comments.
 
     Tiles are PNGs by "level/row/column"; ``curves`` has ``list`` and ``tiles``, where there are
-    any; ``cycles`` are the curves of repetitions.
+    any; ``cycles`` are the curves of repetitions, ``keypoints`` those drawn over a video.
     """
     pictures = {place: _base64(tile) for place, tile in tiles.items()}
     parts = {
@@ -109,12 +121,31 @@ def fill_template(
         "motion": ("application/octet-stream;base64", _base64(binary)),
         "tiles": ("application/json", _json(pictures)),
         "curves": ("application/json", _json(curves)),
+        "keypoints": ("application/octet-stream;base64", _base64(keypoints)),
         "cycles": ("application/json;deflate;base64", _base64(zlib.compress(to_json(cycles)))),
     }
     for part, (kind, text) in parts.items():
         element = f'<script type="{kind}" id="kineme-{part}">{text}</script>'
         template = template.replace(f"<!--kineme:{part}-->", element)
     return template
+
+
+def _add_video(message: Recording, recording: Shown, page: Path) -> tuple[Recording, bytes]:
+    """Return the message with the video of a recording, and the keypoints drawn over it."""
+    if not isinstance(recording, Motion | Signals) or recording.provenance.path is None:
+        return message, b""
+    source = Path(recording.provenance.path)
+    person = recording.provenance.person
+    drawn = draw_picture(source, person) if isinstance(recording, Motion) else None
+    video, found = describe_video(source, drawn), find_video(source)
+    if video is None or found is None:
+        return message, b""
+    try:
+        address = quote(os.path.relpath(found, page.parent).replace(os.sep, "/"))
+    except ValueError:  # on another drive of Windows
+        address = found.absolute().as_uri()
+    video = structs.replace(video, address=address)
+    return structs.replace(message, video=video), drawn.binary if drawn else b""
 
 
 def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:

@@ -21,6 +21,7 @@ from kineme.studio.http.events import Hub
 from kineme.studio.http.security import Guard, is_trusted
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
+from kineme.studio.poses import PosesNeededError
 from kineme.studio.routes import Api
 from kineme.web.messages import Failure
 
@@ -103,8 +104,10 @@ def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> 
 def _answer_refused(_: Request, error: Exception) -> Response:
     status = next(STATUS[kind] for kind in type(error).__mro__ if kind in STATUS)
     people = error.people if isinstance(error, SeveralPeopleError) else ()
-    reading = isinstance(error, ReadError)
-    return MessageResponse(Failure(error=str(error), people=[*people], reading=reading), status)
+    poses = isinstance(error, PosesNeededError)
+    reading = isinstance(error, ReadError) and not poses
+    failure = Failure(error=str(error), people=[*people], reading=reading, poses=poses)
+    return MessageResponse(failure, status)
 
 
 def _answer_disconnected(_: Request, __: Exception) -> Response:

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from kineme.transfer import KnowledgeBase
     from kineme.web.curves import Curves
     from kineme.web.cycle_curves import CycleCurves
+    from kineme.web.film import DrawnPicture
     from kineme.web.page_data import PageData
 
 
@@ -53,6 +54,8 @@ class LoadedRecording:
         self.provenance = found.provenance
         self._lock = threading.Lock()
         self._page_data: PageData | None = None
+        self._picture: DrawnPicture | None = None
+        self._has_picture = self.is_motion  # until it was looked for
         self._curves: Curves | None = None
         self._cycle_curves: CycleCurves | None = None
         self._found: tuple[tuple[object, ...], Segmentation] | None = None
@@ -95,10 +98,21 @@ class LoadedRecording:
                 self._page_data = page_data(shown, effectors=self.effectors)
             return self._page_data
 
+    def picture(self) -> DrawnPicture | None:
+        """Return what is drawn over the video that the poses come from, where they do."""
+        from kineme.web.film import draw_picture
+
+        with self._lock:
+            if self._has_picture and self._picture is None:
+                self._picture = draw_picture(self.path, self.provenance.person)
+                self._has_picture = self._picture is not None
+            return self._picture
+
     def forget_pictures(self) -> None:
         """Let go of what pages draw, until one asks again."""
         with self._lock:
             self._page_data = self._curves = self._cycle_curves = self._found = None
+            self._picture = None
 
     def curves(self) -> Curves:
         """Return what is drawn over time."""

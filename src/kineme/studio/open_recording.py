@@ -138,7 +138,7 @@ class OpenRecording:
                 can_undo=self._journal.can_undo,
                 can_redo=self._journal.can_redo,
                 saved=self._saved,
-                video=video_message(self.path),
+                video=video_message(self.path, self.loaded.picture()),
                 read_options=options_to_json(options_of(self.path)),
                 take=read.take,
                 takes=[*read.takes],

@@ -83,12 +83,16 @@ class OpenRecordings:
         # Checked again, since another thread may have opened it meanwhile.
         if present is not None and not present.loaded.changed():
             return present
-        listed = _find_or_raise(self.folder.recordings(), name, "recording")
+        listed = self.listed(name)
         with self._opening.setdefault(name, threading.Lock()):
             present = self._open.get(name)
             if present is None or present.loaded.changed():
                 return self._opened(listed, present)
             return present
+
+    def listed(self, name: str) -> ListedRecording:
+        """Return the recording of that id, opened or not; UnknownError where none is listed."""
+        return _find_or_raise(self.folder.recordings(), name, "recording")
 
     def _opened(self, listed: ListedRecording, before: OpenRecording | None) -> OpenRecording:
         """Open a recording, perhaps once more, and say later when its segments are there."""
@@ -137,7 +141,7 @@ class OpenRecordings:
         """Return what there is to show of a recording that is being read, which is opened then."""
         if name in self._open:
             return None
-        listed = _find_or_raise(self.folder.recordings(), name, "recording")
+        listed = self.listed(name)
         return self._sketcher.open(
             listed, lambda made: self._in_background(lambda: self._read(name, made))
         )
@@ -146,7 +150,7 @@ class OpenRecordings:
         """Open a recording that is shown as a sketch, and say when it is there, or cannot be."""
         revision = SKETCH_REVISION + 1  # a page asks anew for any other than its own
         with suppress(KinemeError, UnknownError):
-            self._cache.read(_find_or_raise(self.folder.recordings(), name, "recording"))
+            self._cache.read(self.listed(name))
             if self._sketcher.forget_closed(instead):
                 return
             opened = self.get(name)
@@ -230,7 +234,7 @@ class OpenRecordings:
         they were left. What ``options`` leave out is as for all. KinemeError where it cannot be
         read so: it is read as before.
         """
-        listed = _find_or_raise(self.folder.recordings(), name, "recording")
+        listed = self.listed(name)
         changed, person = self._reader.change_options(listed, options, everybody=everybody)
         present = [each for each in self.folder.recordings().values() if each.path == listed.path]
         if name not in {each.id for each in present}:

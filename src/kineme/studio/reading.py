@@ -11,6 +11,7 @@ from kineme.errors import ReadError
 from kineme.formats import ReadOptions, people_in, read_analog, read_quietly
 from kineme.labels.collections import Extent
 from kineme.methods.segmenter import SegmentOptions
+from kineme.studio.poses import require_poses
 from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import read_options
 
@@ -41,6 +42,8 @@ class RecordingCache:
     def read(self, listed: ListedRecording, choice: ReadOptions | None = None) -> Motion | Signals:
         """A recording, read from its file if it is not in memory; ReadError where it cannot be.
 
+        PosesNeededError for a video whose poses have not been estimated.
+
         It is read as people said of it, or as a ``choice`` says. Its provenance has what there is
         to warn of.
         """
@@ -51,6 +54,8 @@ class RecordingCache:
         with reading:
             with self._lock:
                 former = self._recent.get(key)
+            if former is None:
+                require_poses(path)
             found = read_quietly(path, options) if former is None else former
             with self._lock:
                 self._recent[key] = found

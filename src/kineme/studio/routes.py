@@ -41,6 +41,8 @@ from kineme.studio.http.bodies import (
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
+from kineme.studio.poses import PoseQueue, lacks_estimator, needs_poses
+from kineme.studio.sketches import SKETCH_REVISION
 from kineme.studio.storage.listed import ListedRecording, file_id
 from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels
 from kineme.web.annotator_messages import (
@@ -62,6 +64,7 @@ from kineme.web.messages import (
     Listing,
     Loops,
     PlayedLoop,
+    PosesProgress,
     Preview,
     Progress,
     Recording,
@@ -75,12 +78,15 @@ from kineme.web.requests import (
     EditRequest,
     KnowledgeRequest,
     LabelsRequest,
+    PosesRequest,
     PreviewRequest,
     ReadRequest,
     VideoRequest,
 )
 
 BINARY = "application/octet-stream"
+PLAYED_AS = {".mov": "video/mp4", ".m4v": "video/mp4", ".mkv": "video/webm"}
+"""Types that browsers take, of containers like theirs."""
 
 
 class Api:
@@ -88,6 +94,7 @@ class Api:
 
     def __init__(self, recordings: OpenRecordings, hub: Hub, *, limit: int = LIMIT):
         self._recordings, self._hub, self._limit = recordings, hub, limit
+        self._poses = PoseQueue(lambda name: hub.tell(name, SKETCH_REVISION + 1))
 
     def routes(self) -> list[Route]:
         one = "/api/recordings/{id}"
@@ -122,7 +129,11 @@ class Api:
             route(f"{one}/loops/{{number}}", self.loop),
             route(f"{one}/video", self.video),
             route(f"{one}/video", self.offset, VideoRequest),
+            route(f"{one}/keypoints", self.keypoints),
             route(f"{one}/reading", self.reading, ReadRequest),
+            route("/api/poses", self.poses),
+            route("/api/poses", self.estimate, PosesRequest),
+            Route("/api/poses/cancel", self.stop_estimating, methods=["POST"]),
             Route("/api/events", self.events),
             Route("/api{rest:path}", self.unknown),
         ]
@@ -134,12 +145,13 @@ class Api:
             [FileChoice(id=name, name=path.name) for name, path in files.items()]
             for files in (folder.knowledge_bases(), folder.annotations(recordings.values()))
         )
+        listings = [_listing(listed) for listed in recordings.values()]
         return State(
             version=__version__,
             folder=str(folder.root.absolute()),
             of_library=folder.of_library,
             suffixes=recording_suffixes(),
-            recordings=[_listing(listed) for listed in recordings.values()],
+            recordings=listings,
             presets=choices.presets(),
             default_preset=DEFAULT,
             details=choices.details(),
@@ -147,6 +159,7 @@ class Api:
             knowledge_bases=bases,
             annotations=annotations,
             export_formats=choices.export_formats(),
+            install=lacks_estimator() if any(each.needs_poses for each in listings) else "",
         )
 
     def tables(self, _: Request) -> FolderTables:
@@ -335,10 +348,16 @@ class Api:
         return loops.play_loop(self._opened(request), *_numbers(request, "number"))
 
     def video(self, request: Request) -> Response:
-        found = find_video(self._opened(request).path)
+        found = find_video(self._recordings.listed(request.path_params["id"]).path)
         if found is None:
             raise UnknownError("there is no video of that name beside the recording")
-        return FileResponse(found)
+        return FileResponse(found, media_type=PLAYED_AS.get(found.suffix.lower()))
+
+    def keypoints(self, request: Request) -> Response:
+        drawn = self._opened(request).loaded.picture()
+        if drawn is None:
+            raise UnknownError("these poses are not those of a video")
+        return Response(drawn.binary, media_type=BINARY)
 
     def offset(self, request: Request, sent: VideoRequest) -> VideoRequest:
         set_offset(self._opened(request).path, sent.offset_s)
@@ -348,6 +367,19 @@ class Api:
         options = options_from_json(ReadOptions, sent.options)
         name = request.path_params["id"]
         return self._recordings.read_as(name, options, everybody=sent.everybody)
+
+    def poses(self, _: Request) -> PosesProgress:
+        return self._poses.progress()
+
+    def estimate(self, _: Request, sent: PosesRequest) -> PosesProgress:
+        if missing := lacks_estimator():
+            raise ParameterError(missing)
+        listed = [self._recordings.listed(name) for name in sent.recordings]
+        return self._poses.start(each for each in listed if needs_poses(each.path))
+
+    async def stop_estimating(self, _: Request) -> Response:
+        self._poses.cancel()
+        return Response(status_code=204)
 
     async def events(self, _: Request) -> Response:
         # sse-starlette would be one more dependency for the few lines of Hub.stream, no shorter.
@@ -388,6 +420,7 @@ def _listing(listed: ListedRecording) -> Listing:
         file=file_id(listed.path),
         name=listed.name,
         bytes=_size(listed.path),
+        needs_poses=needs_poses(listed.path),
         corrected=counts is not None,
         segments=counts.segments if counts else 0,
         checked=counts.checked if counts else 0,

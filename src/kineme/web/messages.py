@@ -187,11 +187,25 @@ class TableAtDetail(Struct, frozen=True, kw_only=True):
     segments: list[Segment]
 
 
+class Picture(Struct, frozen=True, kw_only=True):
+    """What is drawn over a video, whose picture has so many pixels; see `kineme.web.film`."""
+
+    width: int
+    height: int
+    keypoints: MotionHead
+
+
 class Video(Struct, frozen=True, kw_only=True):
-    """A video of the recording, and when in it the recording starts, seconds."""
+    """A video of the recording, and when in it the recording starts, seconds.
+
+    ``picture`` is there where the poses come from it; ``address`` in a report, relative to its
+    page.
+    """
 
     name: str
     offset_s: float
+    picture: Picture | UnsetType = UNSET
+    address: str | UnsetType = UNSET
 
 
 class Recording(Struct, frozen=True, kw_only=True):
@@ -391,6 +405,22 @@ class Progress(Struct, frozen=True, kw_only=True):
     share: float | None
 
 
+class PosesProgress(Struct, frozen=True, kw_only=True):
+    """Poses that are being estimated of the video ``recording``, empty where none are.
+
+    ``done`` of ``all`` videos are; ``share`` of this one, null where nobody knows, at a ``pace`` in
+    frames a second. ``failed`` says in a sentence each what went wrong.
+    """
+
+    recording: str
+    name: str
+    share: float | None
+    pace: float
+    done: int
+    all: int
+    failed: list[str]
+
+
 class Changed(Struct, frozen=True, kw_only=True):
     """Sent to every page when a recording's table changed or a file came."""
 
@@ -401,12 +431,14 @@ class Changed(Struct, frozen=True, kw_only=True):
 class Failure(Struct, frozen=True, kw_only=True):
     """Why a request was refused, in one sentence; ``people`` are those one of whom is to be chosen.
 
-    ``reading`` says that the recording could not be read as it was told to be.
+    ``reading`` says that the recording could not be read as it was told to be, ``poses`` that it is
+    a video whose poses have to be estimated first.
     """
 
     error: str
     people: list[str] = []
     reading: bool = False
+    poses: bool = False
 
 
 class Parameter(Struct, frozen=True, kw_only=True):
@@ -437,14 +469,16 @@ class PresetChoice(Struct, frozen=True, kw_only=True):
 class Listing(Struct, frozen=True, kw_only=True):
     """A recording of the folder, opened or not; people in the same file have the same ``file``.
 
-    ``segments``, ``checked`` and ``named`` count the rows of its table, if it has been saved
-    (``corrected``), that are there, checked, have a name, and are no transitions.
+    It ``needs_poses`` where it is a video whose poses have not been estimated. ``segments``,
+    ``checked`` and ``named`` count the rows of its table, if it has been saved (``corrected``),
+    that are there, checked, have a name, and are no transitions.
     """
 
     id: str
     file: str
     name: str
     bytes: int
+    needs_poses: bool
     corrected: bool
     segments: int
     checked: int
@@ -472,7 +506,8 @@ class State(Struct, frozen=True, kw_only=True):
 
     ``suffixes`` are those of files that can be recordings, ``details`` the levels of detail that
     a segmentation may have, ``labels`` those that all recordings share, ``of_library`` whether the
-    recordings are those of a library.
+    recordings are those of a library. ``install`` says what to install before poses of videos can
+    be estimated; it is empty where nothing is to be.
     """
 
     version: str
@@ -487,3 +522,4 @@ class State(Struct, frozen=True, kw_only=True):
     knowledge_bases: list[FileChoice]
     annotations: list[FileChoice]
     export_formats: list[ExportFormat]
+    install: str

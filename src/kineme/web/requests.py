@@ -251,6 +251,12 @@ class VideoRequest(Request, frozen=True, kw_only=True):
     offset_s: Number
 
 
+class PosesRequest(Request, frozen=True, kw_only=True):
+    """Videos whose poses are to be estimated."""
+
+    recordings: list[Text]
+
+
 class ReadRequest(Request, frozen=True, kw_only=True):
     """How a recording is read: what is to be other than the file says, by its name.
 

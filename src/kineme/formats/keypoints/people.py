@@ -2,7 +2,8 @@
 
 Where the file tracks people, by a name or number, these are they. Where it does
 not, detections of successive frames are joined by the smallest distance between
-their keypoints, and people are numbered from 0 as they come into sight. Who is
+their keypoints, once each person has gone on as before, so that people who cross
+stay who they are. They are numbered from 0 as they come into sight. Who is
 seen in less than a tenth of the frames of the one seen most is passed over.
 """
 
@@ -28,6 +29,7 @@ PASSING = 0.1
 _STRIDE = 0.5  # of the body's size that someone may be away from the frame before,
 _STRAY = 0.1  # and for each frame that passed since
 _REMEMBERED = 50  # people last seen, who may come back
+_STEADY = 0.8  # of how fast a person moves that a frame leaves as it was
 
 
 @dataclass(frozen=True)
@@ -97,16 +99,18 @@ def track_people(found: Detections) -> list[int]:
 
     numbers = [0] * len(found.frames)
     last: dict[int, int] = {}  # the row of each person last seen
+    drifts: dict[int, Floats] = {}  # how far each goes in a frame, as a whole
     count = 0
     # First row of each frame.
     starts = np.flatnonzero(np.diff(found.frames, prepend=-1))
     for start, stop in pairwise([*starts.tolist(), len(found.frames)]):
         tracks = list(last)
         before = np.array([last[who] for who in tracks], np.intp)
+        drift = np.array([drifts[who] for who in tracks]).reshape(len(tracks), 3)
         cost = np.full((len(tracks), stop - start), np.inf)
         for column, row in enumerate(range(start, stop)):
             if tracks:
-                cost[:, column] = _strides(found, before, row)
+                cost[:, column] = _strides(found, before, drift, row)
         # The assignment needs finite costs; pairs that are too far are dropped below.
         possible = np.where(np.isfinite(cost), cost, 1e6)
         pairs = zip(*linear_sum_assignment(possible), strict=True)
@@ -114,27 +118,38 @@ def track_people(found: Detections) -> list[int]:
         for column, row in enumerate(range(start, stop)):
             if column not in matched:
                 matched[column] = count
+                drifts[count] = np.zeros(3)
                 count += 1
-            numbers[row] = matched[column]
+            who = numbers[row] = matched[column]
             # Taken out and put in again: the order tells who was seen last.
-            last.pop(matched[column], None)
-            last[matched[column]] = row
+            if (former := last.pop(who, None)) is not None:
+                drifts[who] = _STEADY * drifts[who] + (1 - _STEADY) * _step(found, former, row)
+            last[who] = row
         for who in list(last)[:-_REMEMBERED]:
-            del last[who]
+            del last[who], drifts[who]
     return numbers
 
 
-def _strides(found: Detections, before: Rows, row: int) -> Floats:
-    """How far a person is from where others were last, in the ways they could have gone; or inf."""
+def _step(found: Detections, former: int, row: int) -> Floats:
+    """How far a person went in a frame between two rows, as a whole; 0 where nothing tells."""
+    steps = found.points[row] - found.points[former]
+    seen = np.isfinite(steps).all(axis=1)
+    passed = found.frames[row] - found.frames[former]
+    return steps[seen].mean(axis=0) / passed if seen.any() else np.zeros(3)
+
+
+def _strides(found: Detections, before: Rows, drift: Floats, row: int) -> Floats:
+    """How far a person is from where others went, in the ways they could have gone; or inf."""
     now = found.points[row]
+    passed = found.frames[row] - found.frames[before]
     with np.errstate(all="ignore"):
-        # (people, keypoints): how far each keypoint moved, nan where one was not seen.
-        away = np.linalg.norm(found.points[before] - now, axis=2)
+        expected = found.points[before] + (drift * passed[:, None])[:, None]
+        # (people, keypoints): how far each keypoint is, nan where one was not seen.
+        away = np.linalg.norm(expected - now, axis=2)
         visible = np.isfinite(away)
         mean = np.where(visible, away, 0).sum(axis=1) / visible.sum(axis=1)
         here = now[np.isfinite(now).all(axis=1)]
         size = np.ptp(here, axis=0).max() if len(here) > 1 else 0.0
         # Somebody who was out of sight for longer may be farther away.
-        passed = found.frames[row] - found.frames[before]
         strides = mean / (size * (_STRIDE + _STRAY * (passed - 1)))
     return np.asarray(np.where(np.isfinite(strides), strides, np.inf))

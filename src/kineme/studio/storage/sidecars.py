@@ -22,11 +22,12 @@ from typing import Annotated, Any, TypeVar
 from msgspec import Meta, Struct
 
 from kineme._util.checks import as_texts
-from kineme._util.files import OwnedFolder, atomic_write, find_video
+from kineme._util.files import OwnedFolder, atomic_write
 from kineme._util.json import load_json, options_from_json, options_to_json
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
 from kineme.studio.storage.listed import ListedRecording
+from kineme.web.film import DrawnPicture, describe_video
 from kineme.web.messages import Video
 from kineme.web.requests import LARGEST
 
@@ -37,7 +38,7 @@ Content = TypeVar("Content")
 
 
 class _Offset(Struct):
-    offset_s: Annotated[float, Meta(ge=-LARGEST, le=LARGEST)] = 0.0
+    offset_s: Annotated[float, Meta(ge=-LARGEST, le=LARGEST)] | None = None
 
 
 def reading_of(recording: Path) -> tuple[ReadOptions, tuple[str, ...]]:
@@ -83,15 +84,14 @@ def keep_reading(recording: Path, options: ReadOptions, people: Sequence[str]) -
     write_file(_sidecar(recording, READING), json.dumps(content).encode())
 
 
-def video_message(recording: Path) -> Video | None:
-    """Return what a page is told of the video."""
-    found = find_video(recording)
-    return Video(name=found.name, offset_s=offset_of(recording)) if found else None
+def video_message(recording: Path, drawn: DrawnPicture | None = None) -> Video | None:
+    """Return what a page is told of the video, over which ``drawn`` is drawn."""
+    return describe_video(recording, drawn, _video(recording)[0].offset_s)
 
 
 def offset_of(recording: Path) -> float:
     """Seconds of the video at the start of the recording; 0 where nobody said."""
-    return _video(recording)[0].offset_s
+    return _video(recording)[0].offset_s or 0.0
 
 
 def set_offset(recording: Path, seconds: float) -> None:

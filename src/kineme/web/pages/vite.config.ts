@@ -101,7 +101,7 @@ function oneFile(): Plugin {
       }
       script = script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--").trim();
       style = style.trim();
-      const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src blob: data:; base-uri 'none'; form-action 'none'`;
+      const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src blob: data:; media-src 'self' file:; base-uri 'none'; form-action 'none'`;
       page = page
         .replace(/\s*<script type="module"[^>]*><\/script>/, "")
         .replace(/\s*<link rel="stylesheet"[^>]*>/, "")

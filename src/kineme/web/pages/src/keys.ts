@@ -1,5 +1,6 @@
 /** The keys of every page. */
 import { isForPlayer, leaveClicked, watchFocus } from "./focus";
+import { toggleFullScreen } from "./layout/fullScreen";
 import { togglePlay } from "./player";
 import type { Store } from "./store";
 
@@ -14,6 +15,7 @@ export const PAGE_KEYS: readonly (readonly [string, string])[] = [
   [", .", "Look at coarser or finer segments"],
   ["V", "Keep the repetition as a ghost, to lay it over others; once more takes it away"],
   ["G", "Show curves and signals over time, or hide them"],
+  ["F", "Full screen, and back"],
   ["+ −", "Zoom in or out"],
   ["Home, End", "To the start or the end"],
   ["0", "Show all of the recording"],
@@ -41,6 +43,7 @@ export function pageCommandOf(
     "-": () => store.zoomBy(1 / 0.7),
     v: () => store.toggleGhost(),
     g: () => void (store.curves.value = !store.curves.value),
+    f: toggleFullScreen,
     ",": () => store.stepDetail(-1),
     ".": () => store.stepDetail(1),
     "0": () => void (store.zoom.value = null),

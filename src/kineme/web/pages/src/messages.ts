@@ -132,10 +132,19 @@ export interface TableAtDetail {
   segments: Segment[];
 }
 
+/** What is drawn over a video, whose picture has so many pixels; see `kineme.web.film`. */
+export interface Picture {
+  width: number;
+  height: number;
+  keypoints: MotionHead;
+}
+
 /** A video of the recording, and when in it the recording starts, seconds. */
 export interface Video {
   name: string;
   offset_s: number;
+  picture?: Picture;
+  address?: string;
 }
 
 /** Everything a page needs of one recording but the binary parts. */
@@ -282,6 +291,17 @@ export interface Progress {
   share: number | null;
 }
 
+/** Poses that are being estimated of the video `recording`, empty where none are. */
+export interface PosesProgress {
+  recording: string;
+  name: string;
+  share: number | null;
+  pace: number;
+  done: number;
+  all: number;
+  failed: string[];
+}
+
 /** Sent to every page when a recording's table changed or a file came. */
 export interface Changed {
   recording: string;
@@ -293,6 +313,7 @@ export interface Failure {
   error: string;
   people?: string[];
   reading?: boolean;
+  poses?: boolean;
 }
 
 /** A constant of a preset that the page offers to change. */
@@ -320,6 +341,7 @@ export interface Listing {
   file: string;
   name: string;
   bytes: number;
+  needs_poses: boolean;
   corrected: boolean;
   segments: number;
   checked: number;
@@ -354,6 +376,7 @@ export interface State {
   knowledge_bases: FileChoice[];
   annotations: FileChoice[];
   export_formats: ExportFormat[];
+  install: string;
 }
 
 /** Move the border at `frame` of a level to `to`. */
@@ -542,6 +565,11 @@ export interface ClipsRequest {
 /** Where the recording starts in its reference video, seconds. */
 export interface VideoRequest {
   offset_s: number;
+}
+
+/** Videos whose poses are to be estimated. */
+export interface PosesRequest {
+  recordings: string[];
 }
 
 /** How a recording is read: what is to be other than the file says, by its name. */

@@ -10,6 +10,8 @@ export interface OpenRecording {
   recording: ReadonlySignal<Recording>;
   /** null without a skeleton, and until it has come. */
   motion: Signal<Motion | null>;
+  /** Keypoints in the picture of the video; null without them, and until they have come. */
+  keypoints: Signal<Motion | null>;
 }
 
 /** What people call the person of a recording, of several in its file; some have only numbers. */
@@ -25,7 +27,7 @@ export interface ShownRecording extends OpenRecording {
 /** A recording from where its data are; the motion comes later, so that the lanes show at once. */
 export async function openRecording(data: RecordingData): Promise<ShownRecording> {
   const recording = signal(await data.recording());
-  return { data, recording, motion: signal<Motion | null>(null) };
+  return { data, recording, motion: signal(null), keypoints: signal(null) };
 }
 
 /**
@@ -33,11 +35,18 @@ export async function openRecording(data: RecordingData): Promise<ShownRecording
  * itself until all of it is read.
  */
 export async function loadMotion(opened: OpenRecording): Promise<void> {
+  const keypoints = loadKeypoints(opened);
   for (;;) {
     const { motion: head } = opened.recording.peek(); // which may be another one meanwhile
-    if (!head || isOf(head, opened.motion.peek())) return;
+    if (!head || isOf(head, opened.motion.peek())) return keypoints;
     opened.motion.value = await unpackMotion(head, await opened.data.motion(head.n_samples));
   }
+}
+
+async function loadKeypoints(opened: OpenRecording): Promise<void> {
+  const picture = opened.recording.peek().video?.picture;
+  if (!picture || opened.keypoints.peek()) return;
+  opened.keypoints.value = await unpackMotion(picture.keypoints, await opened.data.keypoints());
 }
 
 function isOf({ n_samples, step }: MotionHead, motion: Motion | null): boolean {

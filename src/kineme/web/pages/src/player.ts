@@ -1,14 +1,22 @@
-/** Moves the playhead while the page plays. */
+/** Moves the playhead while the page plays, in step with a video where one is seen. */
 import { effect } from "@preact/signals";
 import type { Store } from "./store";
 import type { Span } from "./view";
 import { ticker } from "./ticker";
 
+const PATIENCE = 2; // seconds that a page waits for the picture of a video, then it goes on
+
 /** Starts the clock of a page; call the result to stop it. */
 export function startPlayer(store: Store): () => void {
+  let waited = 0; // seconds, for the video
   const stopClock = ticker.add((seconds) => {
     if (!store.playing.value) return;
-    const next = advance(store.playhead.value, seconds * store.speed.value, store.loop.value);
+    const { value: playhead } = store.playhead;
+    const pace = store.film.value?.seconds() ?? null;
+    waited = pace === "waits" ? waited + seconds : 0;
+    const waits = pace === "waits" && waited < PATIENCE;
+    const on = waits || typeof pace === "number" ? 0 : seconds * store.speed.value;
+    const next = advance(typeof pace === "number" ? pace : playhead, on, store.loop.value);
     if (next >= store.duration.value) store.playing.value = false;
     store.seek(next);
     ticker.request();

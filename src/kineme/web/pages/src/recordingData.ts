@@ -6,6 +6,10 @@ export interface RecordingData {
   recording(): Promise<Recording>;
   /** The binary motion as it was sent: deflated, see motion.ts; of as many poses as were told. */
   motion(n_samples: number): Promise<ArrayBuffer>;
+  /** The keypoints drawn over the video, as the motion is. */
+  keypoints(): Promise<ArrayBuffer>;
+  /** Where the video may be, the likeliest place first. */
+  videoAddresses(): string[];
   /** A tile of the similarity matrix as PNG, or null where there is none. */
   tile(level: number, row: number, column: number): Promise<Blob | null>;
   /** The curves there are to draw; null where none can be had. */
@@ -46,6 +50,16 @@ export class EmbeddedData implements RecordingData {
 
   motion(): Promise<ArrayBuffer> {
     return Promise.resolve(bytesOf(this.text("kineme-motion")).buffer);
+  }
+
+  keypoints(): Promise<ArrayBuffer> {
+    return Promise.resolve(bytesOf(this.text("kineme-keypoints")).buffer);
+  }
+
+  /** Where it was when the page was written, then beside the page: people move them together. */
+  videoAddresses(): string[] {
+    const { video } = JSON.parse(this.text("kineme-recording")) as Recording;
+    return video?.address ? [video.address, encodeURIComponent(video.name)] : [];
   }
 
   tile(level: number, row: number, column: number): Promise<Blob | null> {

@@ -41,6 +41,12 @@ export interface Levels {
   choose: (detail: number) => void;
 }
 
+/** What the page follows while it plays. */
+export interface Pace {
+  /** Second of the recording where it is; null where it has no say, as after its end. */
+  seconds(): number | "waits" | null;
+}
+
 export class State {
   /** The recordings shown side by side. */
   readonly opened = signal<OpenRecording[]>([]);
@@ -66,6 +72,12 @@ export class State {
   readonly ghost = signal<Segment | null>(null);
   readonly follow = signal(true);
   readonly trails = signal(true);
+  /** The video that is seen; null without one. */
+  readonly film = signal<Pace | null>(null);
+  /** Whether the figure is large and the video small. */
+  readonly figureFirst = signal(false);
+  /** Whether the video is silent. */
+  readonly muted = signal(false);
   /** The span of time that the timeline and the matrix show; null: all of it. */
   readonly zoom = signal<Span | null>(null);
   /** Other results of the recording, which lie below it. */

@@ -27,7 +27,12 @@ beforeEach(() => {
   store = new Store();
   const table = tableOf(ROWS);
   const recording = { n_frames: 100, fps: FPS, segmentation: table } as unknown as Recording;
-  store.add({ data: {} as RecordingData, recording: signal(recording), motion: signal(null) });
+  store.add({
+    data: {} as RecordingData,
+    recording: signal(recording),
+    motion: signal(null),
+    keypoints: signal(null),
+  });
   moves = [];
   drag = null;
   store.edit.value = (edit) => {

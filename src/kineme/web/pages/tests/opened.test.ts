@@ -28,7 +28,12 @@ test("all poses follow the few that a large recording shows first, also where th
       return Promise.resolve(new Uint8Array(deflateSync(new Uint8Array(6 * n_samples))).buffer);
     },
   } as unknown as RecordingData;
-  const opened: OpenRecording = { data, recording, motion: signal<Motion | null>(null) };
+  const opened: OpenRecording = {
+    data,
+    recording,
+    motion: signal<Motion | null>(null),
+    keypoints: signal(null),
+  };
   await loadMotion(opened);
   expect(asked).toEqual([2, 5]);
   expect(opened.motion.value?.head.n_samples).toBe(5);

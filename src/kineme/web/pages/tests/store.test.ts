@@ -26,7 +26,12 @@ function page(): Store {
       read_options: {},
     },
   } satisfies Recording);
-  store.add({ data: {} as RecordingData, recording, motion: signal(null) });
+  store.add({
+    data: {} as RecordingData,
+    recording,
+    motion: signal(null),
+    keypoints: signal(null),
+  });
   return store;
 }
 

@@ -6,6 +6,7 @@ import { Keys } from "../about/Keys";
 import { PAGE_KEYS } from "../keys";
 import { Channels } from "../channels/Channels";
 import { Clusters } from "../clusters/Clusters";
+import { Film } from "../film/Film";
 import { DetailSlider } from "../layout/DetailSlider";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
@@ -38,7 +39,12 @@ export function Report(): JSX.Element {
     <>
       <Layout
         header={<Header />}
-        viewer={store.recording.value?.motion ? <Viewer /> : <Channels ruler />}
+        viewer={
+          <>
+            {store.recording.value?.motion ? <Viewer /> : <Channels ruler />}
+            <Film />
+          </>
+        }
         matrix={<MatrixPlace />}
         side={<Tabs label="About the recording" tabs={tabs} />}
         transport={<Transport />}

@@ -28,6 +28,7 @@ import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
 import { Opening } from "./panels/Opening";
 import { Video } from "./panels/Video";
+import { PosesOffer } from "./poses/PosesOffer";
 import { PresetPanel } from "./panels/PresetPanel";
 import { ReadingPanel } from "./panels/ReadingPanel";
 import { SegmentPanel } from "./panels/SegmentPanel";
@@ -110,6 +111,7 @@ function Stage(): JSX.Element {
         <Channels ruler />
         <Video />
         <QueueBar />
+        <PosesOffer />
         <Opening />
       </>
     );
@@ -118,7 +120,8 @@ function Stage(): JSX.Element {
       {turn.value && <Viewer />}
       <Video />
       <QueueBar />
-      {!store.active.value && (
+      <PosesOffer />
+      {!store.active.value && !session.needing.value && (
         <p class="empty quiet">
           {session.opening.value || !session.state.value ? (
             <span class="busy" role="status" aria-label="Opening" />

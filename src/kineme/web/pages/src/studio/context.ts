@@ -3,6 +3,7 @@ import { signal, type Signal } from "@preact/signals";
 import { createContext } from "preact";
 import { useContext } from "preact/hooks";
 import type { Editor } from "./editing/editor";
+import type { Poses } from "./poses/poses";
 import type { Review } from "./review/review";
 import type { Uploads } from "./server/uploads";
 import type { Session } from "./session";
@@ -26,6 +27,7 @@ export interface StudioParts {
   editor: Editor;
   review: Review;
   uploads: Uploads;
+  poses: Poses;
   front: Front;
 }
 

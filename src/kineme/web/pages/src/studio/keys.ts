@@ -32,7 +32,7 @@ export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
 /** What a key does in the studio; undefined where it does nothing. */
 export function commandOf(
   event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">,
-  { session, editor, review, front }: Omit<StudioParts, "uploads">,
+  { session, editor, review, front }: Omit<StudioParts, "uploads" | "poses">,
 ): (() => void) | undefined {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   if (event.ctrlKey || event.metaKey) {

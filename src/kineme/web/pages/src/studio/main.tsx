@@ -14,6 +14,7 @@ import { Api } from "./server/api";
 import { Editor } from "./editing/editor";
 import { commandOf } from "./keys";
 import { rememberLevel } from "./rememberedLevel";
+import { Poses } from "./poses/poses";
 import { Review } from "./review/review";
 import { Session } from "./session";
 import { exposeStudio } from "./snapshot";
@@ -28,7 +29,8 @@ function start(): void {
   const editor = new Editor(session);
   const front = new Front();
   const review = new Review(session, editor);
-  const parts = { session, editor, review, uploads: new Uploads(session), front };
+  const uploads = new Uploads(session);
+  const parts = { session, editor, review, uploads, poses: new Poses(session), front };
   store.edit.value = (edit) => editor.edit(edit);
   effect(() => {
     if (editor.naming.value) front.tab.value = "segment";

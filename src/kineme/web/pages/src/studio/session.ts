@@ -7,12 +7,11 @@
 
 import { computed, effect, signal, untracked } from "@preact/signals";
 import type { Changed, ReadRequest, Recording, State } from "../messages";
-import type { Motion } from "../motion";
 import { loadMotion, type OpenRecording } from "../opened";
 import type { Store } from "../store";
 import { type Api, explain, Refused, RETRY, Unreachable } from "./server/api";
 import { Beside } from "./editing/beside";
-import { notRead } from "./server/answers";
+import { needsPoses, notRead } from "./server/answers";
 import { EditedRecording } from "./editing/editedRecording";
 import { openInAddress, openToAddress, secondsInAddress } from "./server/address";
 import { ServerData } from "./server/serverData";
@@ -45,6 +44,8 @@ export class Session {
   readonly opening = signal<string | null>(null);
   /** The recording that could not be read, and the people in it. */
   readonly unread = signal<Unread | null>(null);
+  /** The video that could not be opened because its poses are to be estimated first. */
+  readonly needing = signal<string | null>(null);
   /** Who of several people is to be seen, in a sentence; empty where nothing is asked. */
   readonly question = computed(() => {
     const { people = [], name } = this.unread.value ?? {};
@@ -129,6 +130,7 @@ export class Session {
     }
     this.opening.value = id;
     this.unread.value = null;
+    this.needing.value = null;
     try {
       const opened = await this.opened(id);
       if (this.opening.value !== id) return; // another one has been chosen since
@@ -142,6 +144,11 @@ export class Session {
     } catch (error) {
       const isShown = store.opened.value.some((each) => each.recording.value.id === id);
       if (this.opening.value !== id && !isShown) return; // cancelled, or another one chosen
+      if (needsPoses(error)) {
+        this.needing.value = id;
+        this.bulletin.solved("open");
+        return void this.refresh();
+      }
       const isAsked = this.notRead(id, error);
       if (!isAsked || store.opened.value.length)
         // else the stage asks
@@ -276,7 +283,7 @@ export class Session {
       if (revision > edited.confirmed.peek().revision) void edited.changed(revision);
       this.missed.delete(id);
     }
-    return { data, recording: edited.confirmed, motion: signal<Motion | null>(null) };
+    return { data, recording: edited.confirmed, motion: signal(null), keypoints: signal(null) };
   }
 
   /** News of a recording; those of one that is not in front are told with its name. */

@@ -2,6 +2,7 @@
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import { useCalm } from "../canvas/calm";
+import { toggleFullScreen } from "../layout/fullScreen";
 import { NumberInput } from "../layout/NumberInput";
 import { togglePlay } from "../player";
 import { clock } from "../view";
@@ -76,6 +77,7 @@ export function Transport({ curves = false }: Props): JSX.Element {
         />
         <IconButton icon="plus" label="Zoom in" keys="+" onClick={() => store.zoomBy(0.7)} />
       </div>
+      <IconButton icon="full" label="Full screen" keys="F" onClick={toggleFullScreen} />
     </div>
   );
 }

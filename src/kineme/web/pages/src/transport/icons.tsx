@@ -13,6 +13,7 @@ const PATHS = {
   minus: "M3 7h10v2H3z",
   plus: "M7 3h2v4h4v2H9v4H7V9H3V7h4z",
   fit: "M2 3h2v10H2zM12 3h2v10h-2zM5 8l2.5-2.5v1.7h1V5.5L11 8l-2.5 2.5V8.8h-1v1.7z",
+  full: "M2 2h5v2H4v3H2zM9 2h5v5h-2V4H9zM2 9h2v3h3v2H2zM12 9h2v5H9v-2h3z",
   theme: "M8 2a6 6 0 1 0 0 12zM8 2a6 6 0 1 1 0 12v-1.4a4.6 4.6 0 1 0 0-9.2z",
 } as const;
 

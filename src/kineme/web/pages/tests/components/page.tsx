@@ -6,6 +6,7 @@ import type { Segments, State } from "../../src/messages";
 import { Store } from "../../src/store";
 import { Front, StudioProvider, type StudioParts } from "../../src/studio/context";
 import { Editor } from "../../src/studio/editing/editor";
+import { Poses } from "../../src/studio/poses/poses";
 import { Review } from "../../src/studio/review/review";
 import type { Api } from "../../src/studio/server/api";
 import { Uploads } from "../../src/studio/server/uploads";
@@ -27,7 +28,8 @@ export async function show(component: JSX.Element, table: Segments): Promise<Pag
   const session = new Session(api, store);
   const editor = new Editor(session);
   const review = new Review(session, editor);
-  const parts = { session, editor, review, uploads: new Uploads(session), front: new Front() };
+  const [uploads, poses] = [new Uploads(session), new Poses(session)];
+  const parts = { session, editor, review, uploads, poses, front: new Front() };
   store.edit.value = (edit) => editor.edit(edit);
   await session.open("take");
   const page = render(

@@ -28,6 +28,7 @@ export function listing(id: string, table: BriefTable | null): Listing {
     file: id,
     name: `${id}.bvh`,
     bytes: 1,
+    needs_poses: false,
     corrected: table !== null,
     segments: n,
     checked,

@@ -10,6 +10,7 @@ import { isForPlayer } from "../../focus";
 import { AddFiles } from "../panels/AddFiles";
 
 import { useStudio } from "../context";
+import { PosesOffer } from "../poses/PosesOffer";
 import { STATUSES } from "../recordingList";
 import { FolderProgress } from "./FolderProgress";
 import { FolderRow } from "./FolderRow";
@@ -27,7 +28,7 @@ export function FolderPage(): JSX.Element | null {
   const { session, front } = useStudio();
   const files = new Set(session.state.value?.recordings.map((each) => each.file));
   const several = files.size > 1;
-  const asks = session.question.value !== ""; // on the stage
+  const asks = session.question.value !== "" || session.needing.value; // on the stage
   const none = !session.store.opened.value.length && !session.opening.value && !asks;
   if (!(front.folder.value ?? (several && none))) return null;
   return <Page />;
@@ -103,6 +104,7 @@ function Page(): JSX.Element {
           <Button onClick={() => (front.folder.value = null)}>Back to the recording</Button>
         )}
       </div>
+      <PosesOffer all />
       <div class="folder-tools">
         <input
           type="search"

@@ -43,7 +43,10 @@ export class Folder {
     }
     return sum;
   });
-  readonly without = computed(() => this.members.value.filter(({ table }) => !table));
+  /** Those that can be segmented, and are not. */
+  readonly without = computed(() =>
+    this.members.value.filter(({ table, listing }) => !table && !listing.needs_poses),
+  );
 
   private readonly ofServer = signal<ReadonlyMap<string, { table: Segments; comments: number }>>(
     new Map(),

@@ -29,6 +29,11 @@ export function notRead(error: unknown): string[] | null {
   return failure?.reading ? (failure.people ?? []) : null;
 }
 
+/** Whether a recording is a video whose poses have to be estimated first. */
+export function needsPoses(error: unknown): boolean {
+  return error instanceof Refused && Boolean((error.body as Partial<Failure> | null)?.poses);
+}
+
 /** What to tell a person about anything thrown by this page. */
 export function explain(error: unknown): string {
   return error instanceof Error ? error.message : String(error);

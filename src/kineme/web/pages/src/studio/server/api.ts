@@ -31,6 +31,8 @@ import type {
   Level,
   Listing,
   PlayedLoop,
+  PosesProgress,
+  PosesRequest,
   Preview,
   ReadRequest,
   PreviewRequest,
@@ -80,6 +82,11 @@ export class Api {
 
   async motion(id: string, poses: number): Promise<ArrayBuffer> {
     const answer = await this.ask(addressOf("/api/recordings/{id}/motion", { id }, { poses }));
+    return unbroken(answer.arrayBuffer());
+  }
+
+  async keypoints(id: string): Promise<ArrayBuffer> {
+    const answer = await this.ask(addressOf("/api/recordings/{id}/keypoints", { id }));
     return unbroken(answer.arrayBuffer());
   }
 
@@ -208,6 +215,19 @@ export class Api {
   /** How a file is read from now on; the recordings that are asked for. */
   readAs(id: string, request: ReadRequest): Promise<string[]> {
     return this.post("/api/recordings/{id}/reading", { id }, request);
+  }
+
+  /** How far the server is with the poses of videos. */
+  posesProgress(): Promise<PosesProgress> {
+    return this.get("/api/poses", {});
+  }
+
+  estimatePoses(request: PosesRequest): Promise<PosesProgress> {
+    return this.post("/api/poses", {}, request);
+  }
+
+  async cancelPoses(): Promise<void> {
+    await this.ask(addressOf("/api/poses/cancel", {}), {});
   }
 
   /** Where the video of a recording comes from. */

@@ -19,6 +19,14 @@ export class ServerData implements RecordingData {
     return this.api.motion(this.id, n_samples);
   }
 
+  keypoints(): Promise<ArrayBuffer> {
+    return this.api.keypoints(this.id);
+  }
+
+  videoAddresses(): string[] {
+    return [this.api.videoAddress(this.id)];
+  }
+
   tile(level: number, row: number, column: number): Promise<Blob | null> {
     return this.api.tile(this.id, level, row, column);
   }

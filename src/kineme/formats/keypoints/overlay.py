@@ -1,0 +1,85 @@
+"""Keypoints in the picture of a video, as they are drawn over it.
+
+They come from the table of poses that a recording is, or that lies beside the video that it is.
+They are those of the estimator, neither smoothed nor turned.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from kineme._util.arrays import Floats
+from kineme.errors import KinemeError
+from kineme.formats.channels.parquet import parquet_file
+from kineme.formats.files import load, load_head
+from kineme.formats.keypoints.poses import Poses, find_poses, holds_poses, parse_poses
+from kineme.formats.registry import is_video
+
+_SIDES = (
+    ("shoulder", "elbow"), ("elbow", "wrist"), ("wrist", "index"), ("shoulder", "hip"),
+    ("hip", "knee"), ("knee", "ankle"), ("ankle", "heel"), ("ankle", "foot_index"),
+    ("heel", "foot_index"), ("ankle", "big_toe"), ("heel", "big_toe"), ("ear", "eye"),
+)  # fmt: skip
+_ACROSS = ("shoulder", "hip")
+LINES = (
+    *((f"{side}_{a}", f"{side}_{b}") for side in ("left", "right") for a, b in _SIDES),
+    *((f"left_{part}", f"right_{part}") for part in _ACROSS),
+    *(("nose", f"{side}_eye") for side in ("left", "right")),
+)
+"""Names of keypoints between which a line is drawn, where an estimator has both."""
+
+
+@dataclass(frozen=True, eq=False)
+class Overlay:
+    """Keypoints of a person in the picture of a video.
+
+    ``points`` is (frames, keypoints, 3): pixels from the left and from the top, and the confidence,
+    0 to 1; NaN where nobody was found. Frame 0 is shown at second ``start_s`` of the video, whose
+    picture is ``width`` by ``height`` pixels.
+    """
+
+    names: tuple[str, ...]
+    lines: tuple[tuple[int, int], ...]
+    points: Floats
+    fps: float
+    start_s: float
+    width: int
+    height: int
+
+
+def find_overlay(recording: Path, person: str | None = None) -> Overlay | None:
+    """Return the keypoints of a recording that came from a video, None for any other.
+
+    ``person`` is who of several people. What is wrong with a table was said when it was read.
+    """
+    try:
+        place = recording
+        if is_video(recording):
+            place = find_poses(recording, load_head(recording).digest)
+        if place.suffix.lower() != ".parquet" or not place.is_file():
+            return None
+        content = load(place)
+        file = parquet_file(content)
+        return draw_over(parse_poses(content, file), person) if holds_poses(file) else None
+    except KinemeError:
+        return None
+
+
+def draw_over(poses: Poses, person: str | None) -> Overlay:
+    """Return the keypoints of a person, by default the one seen most, in frames of an even rate."""
+    head, rows = poses.head, poses.rows
+    names, fps = tuple(map(str, head["keypoints"])), float(head["fps"])
+    everybody, counts = np.unique(rows["person"], return_counts=True)
+    chosen = everybody[counts.argmax()] if person is None else int(person)
+    mine = rows[rows["person"] == chosen]
+    points = np.full((round(float(head["duration"]) * fps) + 1, len(names), 3), np.nan)
+    frames = np.rint(mine["time"] * fps).astype(np.intp)
+    points[frames, :, :2], points[frames, :, 2] = mine["image"], mine["confidence"]
+    lines = tuple((names.index(a), names.index(b)) for a, b in LINES if {a, b} <= {*names})
+    return Overlay(
+        names, lines, points, fps, float(head.get("start", 0.0)),
+        int(head.get("width", 0)), int(head.get("height", 0)),
+    )  # fmt: skip
