@@ -90,6 +90,9 @@ def split(
         The segments to take; without a cluster all, transitions too.
     cluster : int, optional
         See `level`.
+
+    Other Parameters
+    ----------------
     loops : bool, optional
         Blend the ends of each clip but transitions (see `kineme.clips.loops`); motions only.
     format : str, optional
