@@ -31,6 +31,7 @@ from kineme.clips.shaping import planted_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import end_effectors, heading
 from kineme.recordings import Motion
+from kineme.recordings.arrays import to_samples
 from kineme.recordings.kinematics import local_translations
 from kineme.recordings.operations import resample
 from kineme.segments.table import Segment
@@ -86,8 +87,7 @@ class Database:
         ratio, n = RATE / motion.fps, len(described["features"])
         at = self.ranges[-1][3] if self.ranges else 0
         for name, row, tags in ranges:
-            start = min(round(row.start_frame * ratio), n - 1)
-            stop = max(start + 1, min(round(row.stop_frame * ratio), n))
+            start, stop = to_samples((row.start_frame, row.stop_frame), ratio, n)
             self.parts.append({key: part[start:stop] for key, part in described.items()})
             self.ranges.append((name, tags, at, at + stop - start))
             at += stop - start

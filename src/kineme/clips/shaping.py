@@ -27,7 +27,7 @@ from kineme.cycles.landmarks import find_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import PARTS, body_frame, end_effectors
 from kineme.recordings import Motion
-from kineme.recordings.arrays import spans_of
+from kineme.recordings.arrays import spans_of, to_samples
 from kineme.recordings.operations import cut, resample
 from kineme.segments.table import Segment
 
@@ -160,8 +160,7 @@ def _at_rate(
     ratio, motion = fps / motion.fps, resample(motion, fps)
     spans = []
     for row in rows:
-        start = min(round(row.start_frame * ratio), motion.n_frames - 1)
-        stop = max(start + 1, min(round(row.stop_frame * ratio), motion.n_frames))
+        start, stop = to_samples((row.start_frame, row.stop_frame), ratio, motion.n_frames)
         spans.append(replace(row, start_frame=start, stop_frame=stop))
     return motion, spans
 

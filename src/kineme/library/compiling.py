@@ -22,6 +22,7 @@ from kineme.library.storage.analyses import (
 )
 from kineme.library.storage.layout import ANALYSES, BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.tables import read_table, table_of
+from kineme.recordings.arrays import to_samples
 from kineme.segments.table import COLUMNS
 from kineme.transfer.clusters import (
     CONSTANTS,
@@ -35,7 +36,6 @@ from kineme.transfer.clusters import (
     keep_numbers,
     link_clusters,
     spans_with_clusters,
-    to_samples,
 )
 
 Columns = dict[str, Any]

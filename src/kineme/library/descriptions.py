@@ -28,6 +28,7 @@ from kineme.library.storage.layout import BODIES, EMBEDDED
 from kineme.methods.kineme.preset import SENSORS
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals
+from kineme.recordings.arrays import to_samples
 from kineme.transfer.embeddings import course, embedding
 
 UNIT = 0.5
@@ -75,8 +76,7 @@ class Description:
         return found
 
     def _samples(self, start_s: float, stop_s: float) -> slice:
-        first = min(round(start_s * self.fps), max(len(self.features) - 1, 0))
-        return slice(first, max(round(stop_s * self.fps), first + 1))
+        return slice(*to_samples((start_s, stop_s), self.fps, max(len(self.features), 1)))
 
 
 def describe(recording: Motion | Signals, options: SegmentOptions) -> Description:

@@ -17,6 +17,7 @@ from kineme.library.searching import Hit
 from kineme.library.storage.layout import EXTRA, arrow
 from kineme.library.storage.tables import DESCRIBED
 from kineme.recordings import Motion, Signals
+from kineme.recordings.arrays import to_samples
 from kineme.segments.table import Segment
 
 if TYPE_CHECKING:
@@ -99,9 +100,8 @@ def _cell(value: object) -> object:
 
 def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:
     """Return a hit in frames of its recording, one at least."""
-    fps, n = recording.fps, recording.n_frames
-    start = min(round(hit.start_s * fps), n - 1)
-    stop = min(max(round(hit.stop_s * fps), start + 1), n)
+    fps = recording.fps
+    start, stop = to_samples((hit.start_s, hit.stop_s), fps, recording.n_frames)
     return Segment(
         level="primitive",
         kind="primitive",

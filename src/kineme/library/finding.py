@@ -34,6 +34,7 @@ from kineme.library.storage.layout import ANALYSES, BODIES
 from kineme.library.storage.places import place
 from kineme.library.windows import length_for
 from kineme.recordings import Motion, Signals
+from kineme.recordings.arrays import to_samples
 
 TYPICAL = 5
 """Segments that stand for a cluster in a search, the most typical ones."""
@@ -96,9 +97,8 @@ def hits_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | No
             travels[hit.recording] = travel_of(motion) if isinstance(motion, Motion) else None
         travel = travels[hit.recording]
         if travel is not None:
-            start = min(round(hit.start_s * travel.fps), len(travel.looks) - 1)
-            stop = max(start + 1, round(hit.stop_s * travel.fps))
-            found += [hit] if tag in travel.tags(start, stop) else []
+            span = to_samples((hit.start_s, hit.stop_s), travel.fps, len(travel.looks))
+            found += [hit] if tag in travel.tags(*span) else []
     return found
 
 

@@ -17,6 +17,7 @@ from kineme._util.checks import check_type, is_number
 from kineme.errors import ParameterError
 from kineme.plot.timeline import new_axes
 from kineme.recordings import Motion, Signals
+from kineme.recordings.arrays import to_samples
 from kineme.segments.colors import cluster_color
 
 if TYPE_CHECKING:
@@ -104,8 +105,7 @@ def _frames(recording: Motion | Signals, start_s: float, stop_s: float | None) -
             f"a span lies within the {lasts:.2f} s of the recording, not from {start_s!r:.20} to "
             f"{stop_s!r:.20}"
         )
-    first = min(round(start_s * recording.fps), recording.n_frames - 1)
-    return first, min(max(round(stop * recording.fps), first + 1), recording.n_frames)
+    return to_samples((start_s, stop), recording.fps, recording.n_frames)
 
 
 def _from_the_side(span: Floats, poses: Floats) -> Floats:

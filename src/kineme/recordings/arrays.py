@@ -67,3 +67,17 @@ def spans_of(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
     # False at both ends closes every span; changes then come in pairs of start and stop.
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
     return edges.reshape(-1, 2)
+
+
+def to_samples(span: tuple[float, float], fps: float, n_samples: int) -> tuple[int, int]:
+    """Return the samples [first, stop) of a span in seconds, at least one.
+
+    Of a span in frames, ``fps`` is the number of samples in a frame.
+
+    Examples
+    --------
+    >>> to_samples((0.5, 0.9), 30, 20), to_samples((100, 200), 0.25, 40)
+    ((15, 20), (25, 40))
+    """
+    first = min(round(span[0] * fps), n_samples - 1)
+    return first, min(max(round(span[1] * fps), first + 1), n_samples)

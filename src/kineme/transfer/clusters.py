@@ -160,12 +160,6 @@ def find_local_clusters(table: SegmentTable, recording: int) -> list[LocalCluste
     return found
 
 
-def to_samples(span: tuple[float, float], fps: float, n_samples: int) -> tuple[int, int]:
-    """Return the samples [first, stop) of a span in seconds, at least one."""
-    first = min(round(span[0] * fps), n_samples - 1)
-    return first, min(max(round(span[1] * fps), first + 1), n_samples)
-
-
 @dataclass(frozen=True, eq=False)
 class ClusterSet:
     """Local clusters to be linked.

@@ -15,6 +15,7 @@ from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.recordings import Motion, Signals
+from kineme.recordings.arrays import to_samples
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.channel_samples import (
@@ -34,7 +35,6 @@ from kineme.transfer.clusters import (
     link_clusters,
     samples_in,
     spans_with_clusters,
-    to_samples,
 )
 from kineme.transfer.embeddings import embedding
 from kineme.transfer.subsequences import THRESHOLD
