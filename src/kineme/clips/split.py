@@ -250,10 +250,8 @@ def _write_one_file(
             raise ParameterError(f"signals are no animations of {target.name}: give a folder")
         run = _Run(recording, number, target.parent, chosen, names, of_takes=len(sources) > 1)
         number += len(rows)
-        for each in _make_clips(run, recording, rows, companions, *ranked):
-            clip = run.shaped_clip(each, target.name)
-            entries.append(replace(clip, animation=clip.name))
-            animations[clip.name] = each.motion
+        made = _make_clips(run, recording, rows, companions, *ranked)
+        entries += _add_animations(run, made, target.name, animations)
     if not animations:
         raise ParameterError(f"there is no clip to write to {target.name}")
     with atomic_write(lists[0]) as table, atomic_write(lists[1]) as list_of_all:
@@ -414,11 +412,20 @@ def _write_animations(
     write_all: Callable[[Mapping[str, Motion], Path], object],
 ) -> list[Clip]:
     """Leave all clips in one file."""
-    clips, animations = list[Clip](), dict[str, Motion]()
-    for each in made:
-        clip = run.shaped_clip(each, path.name)
-        clips.append(replace(clip, animation=clip.name))
-        animations[clip.name] = each.motion
+    animations: dict[str, Motion] = {}
+    clips = _add_animations(run, made, path.name, animations)
     if animations:
         write_all(animations, path)
+    return clips
+
+
+def _add_animations(
+    run: _Run, made: Iterable[ShapedClip], file: str, animations: dict[str, Motion]
+) -> list[Clip]:
+    """Add clips to the animations of a file; return what the lists say of them."""
+    clips = []
+    for each in made:
+        clip = run.shaped_clip(each, file)
+        clips.append(replace(clip, animation=clip.name))
+        animations[clip.name] = each.motion
     return clips
