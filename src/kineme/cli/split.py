@@ -4,22 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.options.clips import (
-    Close,
-    ForTarget,
-    MotionMatching,
-    Name,
-    RootMotion,
-    Sheet,
-    ToFormat,
-    ToFps,
-)
+from kineme.cli.options.clips import CLIPS
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
@@ -35,11 +26,12 @@ if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation
 
 
-@add_options(READING | SEGMENTING)
+@add_options(READING | SEGMENTING | CLIPS)
 def split(
     files: Files,
     read_options: ReadOptions,
     segment_options: SegmentOptions,
+    clip_options: dict[str, Any],
     output: Annotated[
         Path,
         option(
@@ -57,16 +49,8 @@ def split(
     best: Annotated[
         int | None, option(OUTPUT, "Loops of each cluster.", "--best", metavar="NUMBER")
     ] = None,
-    root_motion: RootMotion = None,
     straight: Annotated[bool, option(OUTPUT, "Take out each clip's turn.", "--straight")] = False,
     mirror: Annotated[bool, option(OUTPUT, "Exchange left and right.", "--mirror")] = False,
-    close: Close = False,
-    to_format: ToFormat = None,
-    to_fps: ToFps = None,
-    name: Name = None,
-    target: ForTarget = None,
-    sheet: Sheet = None,
-    motion_matching: MotionMatching = None,
     segments: SegmentTable = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
@@ -99,26 +83,20 @@ def split(
             level=level,
             cluster=cluster,
             loops=loop,
-            format=to_format,
             best=best,
-            root_motion=root_motion,
             straight=straight,
             mirror=mirror,
-            close=close,
-            fps=to_fps,
-            name=name,
-            target=target,
-            sheet=sheet,
-            motion_matching=motion_matching,
+            **clip_options,
         )
         if not quiet:
             loop_table = loop and folder.is_dir()
             where = "; manifest.csv tells how good each loop is (cost, less is better)" * loop_table
             typer.echo(f"{format_count(len(clips), 'clip')} in {folder}{where}")
 
-    for option_name, place in (("--sheet", sheet), ("--motion-matching", motion_matching)):
-        if place is not None and len(batch.paths) > 1:
-            raise typer.BadParameter("is of one recording only", param_hint=option_name)
+    for name in ("sheet", "motion_matching"):
+        if clip_options[name] is not None and len(batch.paths) > 1:
+            hint = f"--{name.replace('_', '-')}"
+            raise typer.BadParameter("is of one recording only", param_hint=hint)
     for path, folder in zip(batch.paths, folders, strict=True):
         if read_options.take == EVERYTHING and folder.suffix and not folder.is_dir():
             # Takes of one file are animations of one file.

@@ -4,27 +4,21 @@ from __future__ import annotations
 
 from json import dumps
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.library.commands import Folder, Json, open_library
-from kineme.cli.options.clips import (
-    Close,
-    ForTarget,
-    MotionMatching,
-    Name,
-    RootMotion,
-    Sheet,
-    ToFormat,
-    ToFps,
-)
+from kineme.cli.options.clips import CLIPS
+from kineme.cli.options.declare import add_options
 
 
+@add_options(CLIPS)
 def split(
     folder: Folder,
+    clip_options: dict[str, Any],
     cluster: Annotated[
         str | None, typer.Argument(help="A cluster by its number or name, to split it in two.")
     ] = None,
@@ -40,14 +34,6 @@ def split(
         Literal["cluster", "direction", "recording"],
         option(OUTPUT, "Best of each cluster, or of each direction or recording in it."),
     ] = "cluster",
-    root_motion: RootMotion = None,
-    close: Close = False,
-    to_format: ToFormat = None,
-    to_fps: ToFps = None,
-    name: Name = None,
-    target: ForTarget = None,
-    sheet: Sheet = None,
-    motion_matching: MotionMatching = None,
 ) -> None:
     """Write the best loops of each cluster, or split a cluster in two.
 
@@ -66,19 +52,7 @@ def split(
         return
     place = output or Path(f"{folder.name}_loops")
     with open_library(folder) as library:
-        clips = library.loops(
-            place,
-            best=best,
-            per=per,
-            root_motion=root_motion,
-            close=close,
-            format=to_format,
-            fps=to_fps,
-            name=name,
-            target=target,
-            sheet=sheet,
-            motion_matching=motion_matching,
-        )
+        clips = library.loops(place, best=best, per=per, **clip_options)
         typer.echo(f"{format_count(len(clips), 'clip')} in {place}")
 
 

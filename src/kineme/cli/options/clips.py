@@ -1,9 +1,12 @@
-"""How clips are shaped, named and written: what ``split`` and ``library split`` share."""
+"""How clips are shaped, named and written: what ``split`` and ``library split`` share.
+
+`kineme.cli.options.declare.add_options` gives them to a command.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from kineme.cli.help import OUTPUT, option
 from kineme.clips import RootMotionMode, TargetName
@@ -49,3 +52,22 @@ MotionMatching = Annotated[
         metavar="FILE",
     ),
 ]
+
+CLIPS: dict[str, Any] = {
+    "root_motion": RootMotion,
+    "close": Close,
+    "to_format": ToFormat,
+    "to_fps": ToFps,
+    "name": Name,
+    "target": ForTarget,
+    "sheet": Sheet,
+    "motion_matching": MotionMatching,
+}
+"""Keywords of `kineme.clips.split.split`; the format and rate of clips are not those of files."""
+
+
+def make_clip_options(
+    *, to_format: str | None, to_fps: float | None, close: bool | None, **given: Any
+) -> dict[str, Any]:
+    """Return the keywords as `kineme.clips.split.split` takes them."""
+    return {"format": to_format, "fps": to_fps, "close": bool(close), **given}

@@ -1,4 +1,4 @@
-"""Declare how a command reads and segments: its options reach it as two checked objects."""
+"""Declare how a command reads, segments and writes clips: what it gets of its options."""
 
 from __future__ import annotations
 
@@ -9,14 +9,16 @@ from typing import Any
 
 import typer
 
+from kineme.cli.options.clips import CLIPS, make_clip_options
 from kineme.cli.options.method import SEGMENTING, make_segment_options
 from kineme.cli.options.reading import make_read_options
 
 
 def add_options(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command options for reading, and for segmenting if these are among them.
+    """Give a command options for reading, for segmenting, and for clips, if these are among them.
 
-    They reach it as ``read_options``, a `ReadOptions`, and ``segment_options``, a `SegmentOptions`.
+    They reach it as ``read_options``, a `ReadOptions`, ``segment_options``, a `SegmentOptions`,
+    and ``clip_options``, keywords of `kineme.clips.split.split`.
     """
     added = [
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=option)
@@ -25,17 +27,21 @@ def add_options(options: Mapping[str, Any]) -> Callable[[Callable[..., None]], C
 
     def decorate(command: Callable[..., None]) -> Callable[..., None]:
         signature = inspect.signature(command, eval_str=True)
-        made = ("read_options", "segment_options")
+        made = ("read_options", "segment_options", "clip_options")
         own = [each for name, each in signature.parameters.items() if name not in made]
 
         @wraps(command)
         def wrapped(**values: Any) -> None:
             given = {name: values.pop(name) for name in options}
             method = {name: given.pop(name) for name in SEGMENTING if name in given}
-            values["read_options"] = read_options = make_read_options(**given)
+            clips = {name: given.pop(name) for name in CLIPS if name in given}
+            if given:
+                values["read_options"] = make_read_options(**given)
             if method:
-                emg = read_options.emg
+                emg = values["read_options"].emg
                 values["segment_options"] = make_segment_options(**method, emg=emg)
+            if clips:
+                values["clip_options"] = make_clip_options(**clips)
             command(**values)
 
         # typer declares the options of a command by its signature.
