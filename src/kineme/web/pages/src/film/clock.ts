@@ -41,8 +41,7 @@ export class FilmClock implements Pace {
     const stopEffect = effect(follow);
     const events = ["loadedmetadata", "seeked", "canplay"] as const;
     for (const each of events) video.addEventListener(each, follow);
-    const drawSoon = (): void => draw();
-    video.addEventListener("seeked", drawSoon);
+    video.addEventListener("seeked", draw);
     let request = 0;
     const onPicture = (_: number, { mediaTime }: { mediaTime: number }): void => {
       this.seen = mediaTime;
@@ -52,13 +51,13 @@ export class FilmClock implements Pace {
     // Where a browser cannot tell its pictures, the time of the video has to do.
     const tells = typeof HTMLVideoElement.prototype.requestVideoFrameCallback === "function";
     if (tells) request = video.requestVideoFrameCallback(onPicture);
-    else video.addEventListener("timeupdate", drawSoon);
+    else video.addEventListener("timeupdate", draw);
     return () => {
       stopEffect();
       if (tells) video.cancelVideoFrameCallback(request);
       for (const each of [...events, "timeupdate"]) video.removeEventListener(each, follow);
-      video.removeEventListener("seeked", drawSoon);
-      video.removeEventListener("timeupdate", drawSoon);
+      video.removeEventListener("seeked", draw);
+      video.removeEventListener("timeupdate", draw);
       video.pause();
     };
   }

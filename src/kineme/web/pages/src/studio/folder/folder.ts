@@ -5,6 +5,7 @@
 import { batch, computed, effect, signal, untracked } from "@preact/signals";
 import type { Listing, Segments } from "../../messages";
 import { checkedIn } from "../../segments";
+import { later } from "../later";
 import { explain, type Refused, Unreachable } from "../server/api";
 import type { Session } from "../session";
 import { tableOf, tallyOf, type Tally } from "./briefTables";
@@ -131,8 +132,4 @@ export class Folder {
       if (!this.missed) session.bulletin.problem(explain(error), "tables"); // else it is told
     }
   }
-}
-
-function later(milliseconds: number): Promise<void> {
-  return new Promise((resolve) => setTimeout(resolve, milliseconds));
 }

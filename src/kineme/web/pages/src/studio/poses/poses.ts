@@ -1,6 +1,7 @@
 /** Poses of videos of the folder, which the server estimates one video after the other. */
 import { computed, effect, signal, untracked } from "@preact/signals";
 import type { PosesProgress } from "../../messages";
+import { later } from "../later";
 import { explain } from "../server/api";
 import type { Session } from "../session";
 
@@ -83,8 +84,4 @@ export class Poses {
     const { value: needing } = session.needing;
     if (needing && !this.asked.value) await session.open(needing);
   }
-}
-
-function later(milliseconds: number): Promise<void> {
-  return new Promise((resolve) => setTimeout(resolve, milliseconds));
 }
