@@ -21,7 +21,7 @@ from urllib.parse import quote
 from msgspec import structs
 
 from kineme._util.checks import check_path, check_type
-from kineme._util.files import atomic_write, find_video
+from kineme._util.files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
 from kineme.recordings import Motion, Signals
@@ -137,9 +137,10 @@ def _add_video(message: Recording, recording: Shown, page: Path) -> tuple[Record
     source = Path(recording.provenance.path)
     person = recording.provenance.person
     drawn = draw_picture(source, person) if isinstance(recording, Motion) else None
-    video, found = describe_video(source, drawn), find_video(source)
-    if video is None or found is None:
+    video = describe_video(source, drawn)
+    if video is None:
         return message, b""
+    found = source.with_name(video.name)
     try:
         address = quote(os.path.relpath(found, page.parent).replace(os.sep, "/"))
     except ValueError:  # on another drive of Windows
