@@ -149,7 +149,7 @@ def glb(path: Path) -> tuple[dict[str, Any], bytes]:
 
 
 def used(tree: dict[str, Any]) -> set[int]:
-    """The accessors of meshes, blend shapes and skins."""
+    """Return the accessors of meshes, blend shapes and skins."""
     found = {skin["inverseBindMatrices"] for skin in tree["skins"]}
     for mesh in tree["meshes"]:
         for part in mesh["primitives"]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from json import dumps
 from pathlib import Path
@@ -136,8 +136,6 @@ def _open(
     options: ReadOptions,
 ) -> Source:
     """Return the source that was chosen, with its rate."""
-    from dataclasses import replace
-
     from kineme.live import sources
 
     if replayed is not None:

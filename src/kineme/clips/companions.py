@@ -21,7 +21,10 @@ SHOWN = 24
 
 
 class Companions:
-    """Follow clips as they are made; `write` leaves what was asked for."""
+    """Collect what a contact sheet and a database need while clips are made.
+
+    `write` then writes those that were asked for.
+    """
 
     def __init__(self, given: ClipOptions) -> None:
         self.sheet, self.matching = given.get("sheet"), given.get("motion_matching")
@@ -39,7 +42,7 @@ class Companions:
         made: Iterable[ShapedClip],
         name_of: Callable[[ShapedClip], str],
     ) -> Iterator[ShapedClip]:
-        """Yield the clips of a recording as they come, and keep what is told of them."""
+        """Yield the clips of a recording unchanged, and collect what is needed of each."""
         ranges = []
         for clip in made:
             name = name_of(clip)
@@ -52,7 +55,7 @@ class Companions:
             self.database.add(motion, ranges)
 
     def write(self) -> None:
-        """Write what was asked for."""
+        """Write the database and the sheet, if they were asked for."""
         if self.matching is not None:
             self.database.write(self.matching)
         if self.sheet is not None:

@@ -72,7 +72,7 @@ class ClipOptions(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class Chosen:
-    """Options with those of their target.
+    """Options of clips, completed by those of the target program.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class Chosen:
 
 
 def choose(options: ClipOptions) -> Chosen:
-    """Return options as they are to be used; ParameterError where one makes no sense."""
+    """Return the options, completed by those of the target; ParameterError for a bad one."""
     unknown = options.keys() - ClipOptions.__annotations__.keys()
     if unknown:
         raise TypeError(f"split() got an unexpected keyword argument {min(unknown)!r}")

@@ -27,7 +27,7 @@ Tag = Literal[
     "forwards", "backwards", "left", "right", "in place", "turn left", "turn right", "start", "stop"
 ]
 TAGS: tuple[Tag, ...] = get_args(Tag)
-"""The directions first, of which each clip of a body has one."""
+"""Directions come first; each clip of a body has one of them."""
 DIRECTIONS = TAGS[:5]
 MOVING = 0.25
 """Metres per second below which a body stays in place."""

@@ -129,7 +129,10 @@ def _recordings_among(folder: Path, names: list[str], found: Listing) -> Iterato
 
 
 def drop_shown(recordings: list[Path]) -> list[Path]:
-    """Return the recordings without videos that show others, and poses of videos among them."""
+    """Return the recordings without what another one of them shows or holds already.
+
+    These are videos that lie beside a recording of the same name, and poses of a video in the list.
+    """
     videos = {path.name for path in recordings if is_video(path)}
     stems = {path.stem for path in recordings if path.name not in videos}
     return [

@@ -35,6 +35,7 @@ Per = Literal["cluster", "direction", "recording"]
 NEAR_M = 0.03
 """Metres, root mean square of five points, below which two loops are the same movement."""
 NEAR_SHARE = 0.1
+"""Share of the longer one by which the durations of two such loops may differ."""
 
 
 class Coverage(NamedTuple):

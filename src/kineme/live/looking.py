@@ -68,7 +68,7 @@ def choose_options(options: SegmentOptions, *, signals: bool) -> SegmentOptions:
 
 @dataclass
 class RecentPast:
-    """The last frames, and what is remembered of those before.
+    """Last frames of a stream, and what is remembered of those before.
 
     Attributes
     ----------
@@ -114,7 +114,7 @@ class RecentPast:
         self.start = max(self.start, frame)
 
     def look(self, finals: Finals) -> Look:
-        """Return what the recent past holds, in the clusters of the stream."""
+        """Segment the recent past; return its rows with the cluster numbers of the stream."""
         self.collect()
         fps, stop = self.layout.fps, self.start + len(self.values)
         if (~self.missing).sum() < LEAST_S * fps:

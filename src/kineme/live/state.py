@@ -24,7 +24,7 @@ Settings = dict[str, Any]
 
 @dataclass
 class Told:
-    """The activity that was announced last, and how many repetitions of it."""
+    """Activity that was announced last, and how many repetitions of it."""
 
     start: int = 0
     cluster: int = -1

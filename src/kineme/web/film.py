@@ -1,7 +1,7 @@
-"""The video of a recording, as a page shows it: where it is, and what is drawn over it.
+"""Describe the video of a recording as a page shows it: its place, and what is drawn over it.
 
-The keypoints travel as poses do (`kineme.web.display`): x and y are pixels of the picture, y from
-the top, and z is the confidence in hundredths.
+Keypoints are sent to the page as poses are (`kineme.web.display`): x and y are pixels of the
+picture, y from the top, and z is the confidence in hundredths.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""Time series of any kind, whose own pace is its clock: the preset ``series``.
+"""Time series of any kind, segmented at their own pace: the preset ``series``.
 
-The method's constants are seconds of a moving body. A series of another kind has another pace, and
-often no seconds at all. So the rate is set by two scales of the series itself, its dominant period
-and its length, whose geometric mean a second becomes: the first tells how long a pattern is, the
-second how long an activity is that somebody would look for in it.
+The constants of the method are seconds of a moving body. Other series have another pace, and often
+no seconds at all. So the preset decides how many samples count as a second. It takes the geometric
+mean of two answers: with the first, the dominant period of the series lasts `PERIOD` seconds; with
+the second, the whole series lasts `LENGTH` seconds.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from kineme._util.arrays import Floats
 from kineme.methods.kineme.preset import OF_SENSORS, KinemePreset
 
 PERIOD = 0.4
-"""Seconds that the dominant period lasts, as far as it decides."""
+"""Seconds that the dominant period is taken to last."""
 LENGTH = 30.0
-"""Seconds that the series lasts, as far as its length decides."""
+"""Seconds that the whole series is taken to last."""
 SHORTEST = 10
-"""Samples of the shortest period: what is shorter is noise."""
+"""Samples of the shortest period: what repeats faster is taken for noise."""
 CYCLES = 4
-"""Times that a period fits into the series, at least."""
+"""Times that the longest period fits into the series."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SeriesPreset(KinemePreset):
-    """The method for signals at the pace of the signals."""
+    """Segments signals of any kind, at the pace of the signals."""
 
     def rate_of(self, values: Floats, fps: float) -> float:  # noqa: ARG002
         """Return how many samples (samples, channels) count as a second, whatever their rate."""
