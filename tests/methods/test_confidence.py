@@ -88,6 +88,13 @@ def test_a_border_at_a_step_is_surer_than_one_in_a_slow_change() -> None:
     assert compute_sharpness(step, at, 10) > 2 * compute_sharpness(slope, at, 10)
 
 
+def test_borders_have_a_confidence_at_the_slowest_rate() -> None:
+    rows = np.random.default_rng(0).standard_normal((6000, 3)).cumsum(axis=0)
+    with np.errstate(all="raise"):
+        found = kineme.segment(rows, fps=10, rate=0.1).activities
+    assert np.isfinite(found.border_confidence[1:]).all()
+
+
 # --- the columns ------------------------------------------------------------------------------
 
 

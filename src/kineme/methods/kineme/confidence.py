@@ -118,7 +118,7 @@ def evidence(
 
     map_threads(correlate, np.unique(parents[repeats]).tolist())
     at = np.rint(segments.borders[1:-1] / (preset.working_fps / preset.rate)).astype(np.int64)
-    sharpness = compute_sharpness(view, at, round(preset.samples(SIDE)))
+    sharpness = compute_sharpness(view, at, max(1, round(preset.samples(SIDE))))
     return Evidence(
         np.log(seconds * np.maximum(segments.preference, LEAST)),
         np.append(np.nan, np.log(np.maximum(sharpness, BLUNTEST))),
