@@ -6,6 +6,7 @@ import type { Recording } from "../messages";
 import { useStore } from "../context";
 import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
+import { onPaper } from "../theme";
 import { clock } from "../view";
 import { repetitionsOf } from "./repetitions";
 import { Button } from "../layout/controls";
@@ -90,7 +91,7 @@ export function Paper(): JSX.Element | null {
   );
 }
 
-/** The recording once edits of it have rested: its table is long, and seen on paper alone. */
+/** The recording once edits of it have rested, or at once where it is printed: its table is long. */
 function useRested(
   present: ReadonlySignal<Recording | undefined>,
 ): ReadonlySignal<Recording | undefined> {
@@ -98,7 +99,7 @@ function useRested(
   useSignalEffect(() => {
     const { value } = present;
     const take = (): void => void (rested.value = value);
-    if (!rested.peek()) take();
+    if (!rested.peek() || onPaper.value) take();
     const timer = setTimeout(take, PAUSE);
     return () => clearTimeout(timer);
   });
