@@ -35,7 +35,7 @@ export function Repetitions({ of }: { of: ReadonlySignal<Recording | undefined> 
         </tr>
       </thead>
       <tbody>
-        {rows.map(({ activity, durations, leftOut, mean_s, deviation_s }) => (
+        {rows.map(({ activity, durations, leftOut, mean, deviation }) => (
           <tr key={activity.start_frame}>
             <th scope="row">
               <Button class="plain" onClick={() => store.select(activity)}>
@@ -47,8 +47,8 @@ export function Repetitions({ of }: { of: ReadonlySignal<Recording | undefined> 
             <td class="number">{durationOf(activity).toFixed(1)} s</td>
             <td class="number">{timesOf(leftOut)}</td>
             <td class="number">
-              {mean_s?.toFixed(2)}
-              {deviation_s !== null && ` ± ${deviation_s.toFixed(2)}`}
+              {mean?.toFixed(2)}
+              {deviation !== null && ` ± ${deviation.toFixed(2)}`}
             </td>
             <td class="each">
               {durations.map((each, i) => [
