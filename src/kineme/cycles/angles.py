@@ -65,21 +65,8 @@ def measure_angle(first: Floats, second: Floats) -> Floats:
 def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
     """By how much a vector is turned about an axis to lie in the direction of another.
 
-    Parameters
-    ----------
-    axis, first, second : (frames, 3) array
-        What the vectors have in the direction of the axis does not count.
-
-    Returns
-    -------
-    (frames,) array
-        Degrees, -180 to 180, right-handed.
-
-    Examples
-    --------
-    >>> x, y, z = np.eye(3)[:, None]
-    >>> measure_turn(x, y, z).round(6), measure_turn(x, z, y).round(6)
-    (array([90.]), array([-90.]))
+    Degrees, -180 to 180, right-handed. What the vectors (frames, 3) have in the direction of the
+    axis does not count.
     """
     flat = [remove_along(vectors, axis) for vectors in (first, second)]
     # The triple product with the unit axis: the sine with its sign.
@@ -89,30 +76,12 @@ def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
 
 
 def hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats) -> Floats | None:
-    """Return the axis of a hinge such as a knee, which is fixed to the upper limb.
+    """Return the axis (frames, 3) of a hinge such as a knee, which is fixed to the upper limb.
 
     The lower limb moves in a plane, as seen from the upper one. The axis is what is most at right
-    angles to it in all frames, so markers need not be at the centre of the joint.
-
-    Parameters
-    ----------
-    upper, joint, lower : (frames, 3) array
-        Hip, knee and ankle.
-    beside : (frames, 3) array
-        A point that tells how the upper limb is turned, such as a marker of the thigh.
-
-    Returns
-    -------
-    (frames, 3) array or None
-        Unit vectors, of either sign; None where the hinge hardly moves.
-
-    Examples
-    --------
-    >>> turn = np.linspace(0, 1, 50)[:, None]
-    >>> x, y, z = (np.repeat(axis[None], 50, axis=0) for axis in np.eye(3))
-    >>> lower = -np.cos(turn) * y - np.sin(turn) * z
-    >>> np.abs(hinge_axis(y, 0 * y, lower, x + y)[0]).round(6).tolist()
-    [1.0, 0.0, 0.0]
+    angles to it in all frames, so markers need not be at the centre of the joint. ``beside`` is a
+    point that tells how the upper limb is turned, such as a marker of the thigh. The axis has
+    either sign; None where the hinge hardly moves.
     """
     # Directions of thigh and shank.
     along, limb = normalize(joint - upper), normalize(lower - joint)
@@ -129,32 +98,15 @@ def hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats) -> F
 
 
 def remove_along(vectors: Floats, direction: Floats) -> Floats:
-    """Return vectors without what they have in a direction.
-
-    Examples
-    --------
-    >>> remove_along(np.array([[3.0, 4.0, 0.0]]), np.array([[0.0, 2.0, 0.0]])).tolist()
-    [[3.0, 0.0, 0.0]]
-    """
+    """Return vectors without what they have in a direction."""
     direction = normalize(direction)
     return np.asarray(vectors - (vectors * direction).sum(axis=-1, keepdims=True) * direction)
 
 
 def normalize(vectors: Floats) -> Floats:
-    """Return vectors of length 1; those without a length stay 0.
-
-    Examples
-    --------
-    >>> normalize(np.array([[0.0, 2.0, 0.0]])).tolist()
-    [[0.0, 1.0, 0.0]]
-    """
+    """Return vectors of length 1; those without a length stay 0."""
     # The floor avoids a division by 0; a vector of length 0 stays 0.
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12))
-
-
-def continuous(angle: Floats) -> Floats:
-    """Return the same angle without jumps by 360 degrees."""
-    return np.degrees(np.unwrap(np.radians(angle)))
 
 
 def cardan(rotations: Floats) -> Floats:

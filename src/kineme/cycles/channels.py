@@ -33,7 +33,6 @@ from kineme._util.checks import as_texts
 from kineme.cycles.angles import (
     bend,
     cardan,
-    continuous,
     hinge_axis,
     measure_angle,
     measure_turn,
@@ -138,25 +137,22 @@ def channels_of(
     >>> [channel.name for channel in channels_of(motion, ["knee_*", "Head.up"])]
     ['knee_l', 'knee_r', 'Head.up']
     """
-    every = (
-        make_motion_channels(recording)
-        if isinstance(recording, Motion)
-        else _make_signal_channels(recording)
-    )
+    if isinstance(recording, Motion):
+        every = make_motion_channels(recording)
+    else:
+        every = _make_signal_channels(recording)
     # Contacts follow, unless a channel of this name is there already.
     every += [each for each in contacts_of(recording) if each.name not in {c.name for c in every}]
     for signals in beside:
         every += _make_signal_channels(signals)
+    usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
     if names is None:
-        usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
         return usual or [channel for channel in every if channel.group == "speed"]
     chosen: dict[str, Channel] = {}
     for pattern in as_texts(names, "names of channels"):
         matching = [each for each in every if fnmatchcase(each.name, pattern)]
         if not matching:
-            choices = [each.name for each in every if each.group in (ANGLE, CHANNEL)] or [
-                each.name for each in every
-            ]
+            choices = [each.name for each in usual or every]
             more = ", …" if len(choices) > _SHOWN else ""
             raise ParameterError(
                 f"no channel {pattern!r}; there are {', '.join(choices[:_SHOWN])}{more} "
@@ -196,6 +192,7 @@ def make_motion_channels(motion: Motion) -> list[Channel]:
         channels.append(Channel(name, unit, group, source, fps, compute, gaps))
 
     faces = _faces(motion)
+    _add_bends(extended.positions, parts, add)
     _add_angles(extended, parts, add)
     if faces:
         add("heading", DEGREES, "direction", ["the line of the hips"], partial(_heading, motion))
@@ -234,7 +231,7 @@ def _faces(motion: Motion) -> bool:
 
 
 def _heading(motion: Motion) -> Floats:
-    return continuous(np.degrees(heading(motion)[1]))
+    return np.degrees(np.unwrap(heading(motion)[1]))  # without jumps by 360 degrees
 
 
 def _rotation(rotations: Floats, joint: int, place: int) -> Floats:
@@ -249,9 +246,8 @@ def _from_pelvis(motion: Motion, joint: int, axis: int) -> Floats:
     return np.asarray(body_frame(motion, (joint,))[:, 0, axis])
 
 
-def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
-    """Knees, elbows, hips, ankles, shoulders and the trunk, as far as their joints are there."""
-    places = motion.positions
+def _add_bends(places: Floats, joints: Mapping[str, int], add: Add) -> None:
+    """Knees, elbows and ankles, as far as their joints are there."""
     bent = (
         ("knee", ("hip", "knee", "ankle"), 0.0),
         ("elbow", ("shoulder", "elbow", "wrist"), 0.0),
@@ -269,16 +265,29 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
                 compute = partial(_flexion, places, chain, thigh, hips)
             if min(chain) >= 0:
                 add(f"{name}_{side[0]}", DEGREES, ANGLE, chain, compute)
+
+
+def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
+    """Hips, shoulders and the trunk."""
+    places = motion.positions
     hips = [joints.get(f"{side}_hip", -1) for side in SIDES]
     shoulders = [joints.get(f"{side}_shoulder", -1) for side in SIDES]
     if min(hips) < 0:
         return
-    has_trunk = min(shoulders) >= 0
     for side, hip in zip(SIDES, hips, strict=True):
         if f"{side}_knee" in joints:
-            knee = joints[f"{side}_knee"]
-            _add_hip(motion, f"hip_{side[0]}", (hip, knee), hips, shoulders, add)
-    if not has_trunk:
+            thigh = hip, joints[f"{side}_knee"]
+            pelvis = motion.skeleton.parents[hip]
+            if motion.rotations is not None and pelvis >= 0:
+                against = f"against {motion.skeleton.names[pelvis]}"
+                compute = partial(_against_pelvis, motion, *thigh, hips)
+            elif min(shoulders) >= 0:
+                against = "against the trunk"
+                compute = partial(_against_trunk, places, *thigh, hips, shoulders)
+            else:
+                continue
+            add(f"hip_{side[0]}", DEGREES, ANGLE, [against, *thigh], compute)
+    if min(shoulders) < 0:
         return
     for side, shoulder in zip(SIDES, shoulders, strict=True):
         elbow = joints.get(f"{side}_elbow")
@@ -289,27 +298,6 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     for name, sideways in (("trunk_lean", False), ("trunk_side", True)):
         compute = partial(_lean, places, hips, shoulders, sideways=sideways)
         add(name, DEGREES, ANGLE, [*hips, *shoulders], compute)
-
-
-def _add_hip(
-    motion: Motion,
-    name: str,
-    thigh: tuple[int, int],
-    hips: Sequence[int],
-    shoulders: Sequence[int],
-    add: Add,
-) -> None:
-    """A thigh against the pelvis, where its rotation is there, else against the trunk."""
-    pelvis = motion.skeleton.parents[thigh[0]]
-    if motion.rotations is not None and pelvis >= 0:
-        against = f"against {motion.skeleton.names[pelvis]}"
-        compute = partial(_against_pelvis, motion, *thigh, hips)
-    elif min(shoulders) >= 0:
-        against = "against the trunk"
-        compute = partial(_against_trunk, motion.positions, *thigh, hips, shoulders)
-    else:
-        return
-    add(name, DEGREES, ANGLE, [against, *thigh], compute)
 
 
 def _bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
@@ -350,10 +338,8 @@ def _trunk(places: Floats, hips: Sequence[int], shoulders: Sequence[int]) -> Flo
 def _against_trunk(
     places: Floats, hip: int, knee: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
-    to_left = places[:, hips[0]] - places[:, hips[1]]
-    return -measure_turn(
-        to_left, -_trunk(places, hips, shoulders), places[:, knee] - places[:, hip]
-    )
+    to_left, thigh = places[:, hips[0]] - places[:, hips[1]], places[:, knee] - places[:, hip]
+    return -measure_turn(to_left, -_trunk(places, hips, shoulders), thigh)
 
 
 def _measure_arm_raise(

@@ -20,7 +20,16 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import check_flag, check_type
-from kineme.cycles.table import CONFIDENCE, Columns, Cycles, is_phase, mean_phase, phase_differences
+from kineme.cycles.table import (
+    CONFIDENCE,
+    Columns,
+    Cycles,
+    as_columns,
+    half_width,
+    is_phase,
+    mean_phase,
+    phase_differences,
+)
 from kineme.errors import ParameterError
 
 MEASURES = ("range", "min", "max", "mean", "min_at", "max_at")
@@ -78,35 +87,25 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
                 lines.append((group, left, right, measure, *compared))
     names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
              "difference", "low", "high", "symmetry_index")  # fmt: skip
-    columns = zip(*lines, strict=True) if lines else [()] * len(names)
-    return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
+    return as_columns(names, lines)
 
 
 def sides_of(channels: tuple[str, ...]) -> list[tuple[str, str]]:
-    """Return the channels of left sides with those of the right.
-
-    Without those that have no other side.
-    """
-    pairs = ((name, right_of(name)) for name in channels)
-    return [(left, right) for left, right in pairs if right != left and right in channels]
-
-
-def right_of(name: str) -> str:
-    """Return the channel of the right side to one of the left.
-
-    The name itself where it is of no side.
-    """
-    # The case of the word is kept; a name that has no `left` may end in `_l`.
-    turned = re.sub("left", lambda found: _RIGHT.get(found[0], "right"), name, flags=re.IGNORECASE)
-    return turned if turned != name else re.sub("_l$", "_r", name)
+    """Return the channels of left sides, each with that of the right, where both are there."""
+    pairs = []
+    for left in channels:
+        # The case of the word is kept; a name that has no `left` may end in `_l`.
+        right = re.sub("left", lambda word: _RIGHT.get(word[0], "right"), left, flags=re.IGNORECASE)
+        right = right if right != left else re.sub("_l$", "_r", left)
+        if right != left and right in channels:
+            pairs.append((left, right))
+    return pairs
 
 
 def _compare_values(
     left: Floats, right: Floats, measure: str, *, indexed: bool
 ) -> tuple[float, ...]:
     """Number, means, difference with bounds, symmetry index."""
-    from scipy.special import stdtrit
-
     both = np.isfinite(left) & np.isfinite(right)
     n = int(both.sum())
     if n == 0:
@@ -117,11 +116,7 @@ def _compare_values(
     if is_phase(measure):
         apart = phase_differences(apart)
         of_left, of_right = mean_phase(left[both]), mean_phase(right[both])
-    mean = apart.mean()
-    half = np.nan
-    if n > 1:
-        # Student's t with n - 1 degrees of freedom times the standard error of the mean difference.
-        half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * apart.std(ddof=1) / np.sqrt(n)
+    mean, half = apart.mean(), half_width(apart.std(ddof=1) if n > 1 else np.nan, n)
     total = of_left + of_right
     # Per cent of the mean of both sides: 100 / (total / 2).
     index = 200 * mean / total if indexed and total > 0 else np.nan

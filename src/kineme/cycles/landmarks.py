@@ -69,9 +69,11 @@ def landmarks(motion: Motion) -> dict[str, int]:
         skeleton.names, [("*_heel",), ("*_toe", "*_foot")], usable=others, single=True
     )
     joints |= {joint: points[0] for joint, points in named.items()}
+    lengths = np.linalg.norm(skeleton.offsets, axis=1)
     for side, ankle in ankles.items():
-        if (toe := _beyond(skeleton, ankle)) is not None:
-            joints.setdefault(f"{side}_toe", toe)
+        below = [j for j in skeleton.children[ankle] if lengths[j] > 0]
+        if below:
+            joints.setdefault(f"{side}_toe", max(below, key=lambda j: float(lengths[j])))
     return joints
 
 
@@ -85,13 +87,6 @@ def find_feet(motion: Motion) -> dict[str, tuple[int, ...]]:
         for side, heel in heels.items()
         if heel is not None
     }
-
-
-def _beyond(skeleton: Skeleton, ankle: int) -> int | None:
-    """Return the joint below the ankle that is farthest from it."""
-    lengths = np.linalg.norm(skeleton.offsets, axis=1)
-    below = [j for j in skeleton.children[ankle] if lengths[j] > 0]
-    return max(below, key=lambda j: float(lengths[j]), default=None)
 
 
 LEAST = 3
@@ -114,15 +109,9 @@ MOST = 4000
 def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
     """Return motion with centres of hips and knees as more joints, and the joints by part and side.
 
-    Both are as they were where nothing tells where centres are. Of markers on the skin,
-    ``left_thigh`` is the point that tells with hip and knee how a thigh is turned: the marker of
-    the thigh that is farthest from their line, else the other hip.
-
-    Parameters
-    ----------
-    motion : Motion
-    joints : mapping of str to int
-        As `kineme.cycles.landmarks` has them.
+    Both are as they were (joints as `landmarks` has them) where nothing tells where centres are. Of
+    markers on the skin, ``left_thigh`` is the point that tells with hip and knee how a thigh is
+    turned: the marker of the thigh that is farthest from their line, else the other hip.
     """
     names = [simplify_name(name.rpartition(":")[2]) for name in motion.skeleton.names]
     found = find_joints(motion.skeleton.names, MARKERS, exact=True, single=True)
@@ -172,11 +161,8 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     for side in SIDES:
         if f"{side}_knee" in chosen:
             hip, knee = (positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
-            markers = [
-                j
-                for j, name in enumerate(names)
-                if name[:1] == side[0].upper() and "THI" in name[1:] and j not in chosen.values()
-            ]
+            markers = [j for j, name in enumerate(names) if name[:1] == side[0].upper()
+                       and "THI" in name[1:] and j not in chosen.values()]  # fmt: skip
             # Vectors from the line through hip and knee to each marker.
             aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
             far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
@@ -233,27 +219,19 @@ def _knee(
         np.concatenate([both, PULL * pulled]), np.concatenate([apart, PULL * apart / 2])
     )[0]
     # The same point as each body sees it, averaged.
-    at = (_place_point(upper, found[:3]) + _place_point(lower, found[3:])) / 2
+    at = (upper[0] @ found[:3] + upper[1] + lower[0] @ found[3:] + lower[1]) / 2
     # Leftward axis in the frame of the thigh, averaged over time, then turned back with the thigh.
     axis = normalize(
         np.einsum("fji,fj->fi", upper[0], normalize(to_left)).mean(axis=0, keepdims=True)
     )[0]
-    axis = np.einsum("fij,j->fi", upper[0], axis)
+    axis = upper[0] @ axis
     # How far the middle of hip and ankle lies beside the point, along the axis.
     aside = (((ends[0] + ends[1]) / 2 - at) * axis).sum(axis=1)
     return np.asarray(at + float(np.median(aside)) * axis)
 
 
-Poses = tuple[Floats, Floats]
-"""Rotations (frames, 3, 3) and places of the middle (frames, 3) of a rigid body."""
-
-
-def _place_point(poses: Poses, point: Floats) -> Floats:
-    return np.asarray(np.einsum("fij,j->fi", poses[0], point) + poses[1])
-
-
-def _poses(markers: Floats) -> Poses:
-    """How a body is turned against its shape in the middle frame, by least squares (Kabsch)."""
+def _poses(markers: Floats) -> tuple[Floats, Floats]:
+    """Rotations (frames, 3, 3) against the middle frame (Kabsch), and places of the middle."""
     # Centred markers (frames, markers, 3); the middle frame is the reference shape.
     centre = markers.mean(axis=1)
     shape = markers - centre[:, None]
