@@ -18,7 +18,7 @@ from kineme.evaluation.label_truth import add_repetitions
 from kineme.evaluation.label_truth import truth_of as truth_of  # noqa: PLC0414 (others have it from here)
 from kineme.evaluation.score import comparison_of, results_of, value_of
 from kineme.evaluation.truth import UNLABELLED, Truth, check_length
-from kineme.labels.files import read_content
+from kineme.labels.registry import read_content
 from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
 from kineme.segments.segmentation import Segmentation
 

@@ -29,6 +29,8 @@ from kineme.labels.delimited import (
     digest_cuts,
     find_differences,
     integer,
+    level_of,
+    new_text,
     number,
     read_rows,
     write_rows,
@@ -36,7 +38,7 @@ from kineme.labels.delimited import (
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level, Segment
+from kineme.segments.table import Segment
 
 NEEDED = ("onset", "duration", "trial_type")
 COLUMNS = {
@@ -68,10 +70,9 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
     cuts = ((row.level, row.start_frame, row.stop_frame) for row in rows)
     digest = {CUTS_KEY: digest_cuts(cuts)}
     sidecar = {**COLUMNS, **_sidecar_to_keep(beside), **facts, **digest}
-    with atomic_write(beside) as side_draft, atomic_write(path) as draft:
+    with atomic_write(beside) as side_draft, new_text(path) as file:
         side_draft.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
-        with draft.open("w", encoding="utf-8", newline="") as file:
-            write_rows(file, ["onset", "duration", *COLUMNS], map(_cells, rows), delimiter="\t")
+        write_rows(file, ["onset", "duration", *COLUMNS], map(_cells, rows), delimiter="\t")
 
 
 def read(path: Path) -> Labels:
@@ -115,14 +116,13 @@ def _span(cells: dict[str, str], path: Path, line: int) -> Span:
     duration = cells["duration"]
     length = 0.0 if duration == MISSING else number(duration, "duration", path, line)
     text = cells["trial_type"] if cells["trial_type"] != MISSING else ""
-    level: Level = "primitive" if cells.get("level") == "primitive" else "activity"
     cluster = cells.get("cluster", MISSING)
     confidence = cells.get("confidence", MISSING)
     return Span(
         onset,
         onset + length,
         text,
-        level,
+        level_of(cells.get("level")),
         -1 if cluster in (MISSING, "") else integer(cluster, "cluster", path, line),
         math.nan if confidence in (MISSING, "") else number(confidence, "confidence", path, line),
     )

@@ -18,16 +18,22 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
-from kineme._util.files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.label_tables import is_boris_table
-from kineme.labels.delimited import head, number, read_rows, write_rows
+from kineme.labels.delimited import (
+    head,
+    level_of,
+    new_text,
+    number,
+    read_rows,
+    source_path,
+    write_rows,
+)
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level, Segment
+from kineme.segments.table import Segment
 
 COLUMNS = (
     "Observation id",
@@ -55,8 +61,7 @@ Cells = dict[str, str]
 
 def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave two rows per segment at ``path``, in time order."""
-    source = (segmentation.provenance.get("input") or {}).get("path") or ""
-    media = str(source).encode(errors="backslashreplace").decode()
+    media = source_path(segmentation)
     facts = {
         "Observation id": Path(media).stem,
         "Observation type": "Media file(s)",
@@ -67,8 +72,23 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         "Subject": "No focal subject",
         "Media file name": media,
     }
-    events = sorted((event for row in rows for event in _events(row)), key=_order)
-    with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
+    events = [
+        {
+            "Behavior": text_of(row),
+            "Behavioral category": row.level,
+            "Behavior type": kind,
+            "Time": time,
+            "Image index": frame,
+        }
+        for row in rows
+        for kind, time, frame in (
+            ("START", row.start_s, row.start_frame),
+            ("STOP", row.stop_s, row.stop_frame),
+        )
+    ]
+    # What stops at a frame comes before what starts there.
+    events.sort(key=lambda event: (event["Image index"], event["Behavior type"] == "START"))
+    with new_text(path) as file:
         lines = ({**facts, **event} for event in events)
         write_rows(file, COLUMNS, ([line.get(name, "") for name in COLUMNS] for line in lines))
 
@@ -87,17 +107,6 @@ def read(path: Path) -> Labels:
     return Labels(spans, "seconds", _fact(rows, RATES), _fact(rows, LENGTHS), notes)
 
 
-def _events(row: Segment) -> Iterator[dict[str, Any]]:
-    what = {"Behavior": text_of(row), "Behavioral category": row.level}
-    yield {**what, "Behavior type": "START", "Time": row.start_s, "Image index": row.start_frame}
-    yield {**what, "Behavior type": "STOP", "Time": row.stop_s, "Image index": row.stop_frame}
-
-
-def _order(event: dict[str, Any]) -> tuple[int, bool]:
-    """Return what stops at a frame comes before what starts there."""
-    return event["Image index"], event["Behavior type"] == "START"
-
-
 def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
     """Yield each STOP with the START of the same behavior before it."""
     starts: dict[tuple[str, ...], float] = {}
@@ -112,7 +121,9 @@ def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
         if kind == "START" and key not in starts:
             starts[key] = time
         elif kind == "STOP" and key in starts:
-            yield Span(starts.pop(key), time, cells["Behavior"], _level(cells))
+            yield Span(
+                starts.pop(key), time, cells["Behavior"], level_of(cells.get("Behavioral category"))
+            )
         else:
             reason = f"{cells['Behavior']!r:.60} has a {kind!r:.20} where START and STOP alternate"
             raise ReadError(path, reason, line=line)
@@ -126,15 +137,12 @@ def _read_aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span
             continue
         start = number(cells["Start (s)"], "Start (s)", path, line)
         stop = number(cells["Stop (s)"], "Stop (s)", path, line)
-        yield Span(start, stop, cells["Behavior"], _level(cells))
+        level = level_of(cells.get("Behavioral category"))
+        yield Span(start, stop, cells["Behavior"], level)
 
 
 def _kind(cells: Cells) -> str:
     return (cells.get("Behavior type") or cells.get("Status") or "").strip().upper()
-
-
-def _level(cells: Cells) -> Level:
-    return "primitive" if cells.get("Behavioral category") == "primitive" else "activity"
 
 
 def _fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | None:

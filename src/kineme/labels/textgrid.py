@@ -22,8 +22,8 @@ import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from kineme._util.files import atomic_write
 from kineme.errors import ReadError
+from kineme.labels.delimited import new_text
 from kineme.labels.elan import chosen_tiers
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
@@ -39,7 +39,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
     tiers: dict[str, list[Segment]] = {}
     for row in rows:
         tiers.setdefault(row.level, []).append(row)
-    with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as file:
+    with new_text(path, newline="\n") as file:
         file.write('File type = "ooTextFile"\nObject class = "TextGrid"\n\n')
         file.write(f"xmin = 0\nxmax = {length!r}\ntiers? <exists>\nsize = {len(tiers)}\nitem []:\n")
         for number, (name, inside) in enumerate(tiers.items(), 1):
