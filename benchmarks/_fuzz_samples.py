@@ -22,7 +22,7 @@ from kineme import formats, labels
 from kineme._util.files import CORRECTED
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import MissingDependencyError
-from kineme.evaluation.annotations import is_annotations, read_trials
+from kineme.evaluation.inputs import is_annotations, read_trials
 from kineme.formats.listing import recordings_in
 from kineme.labels.collections import labels_of
 from kineme.library import Library, build

@@ -15,7 +15,7 @@ from kineme._util.json import DEEPEST, decode_json, load_json
 from kineme.datasets import bundled_truth
 from kineme.errors import ParameterError, ReadError
 from kineme.evaluation import Truth
-from kineme.evaluation.annotations import is_annotations, read_trials
+from kineme.evaluation.inputs import is_annotations, read_trials
 from kineme.labels.collections import labels_of
 from kineme.synthesis import MotionGraph
 from kineme.synthesis.graph_file import load_sources, read_graph, write_graph

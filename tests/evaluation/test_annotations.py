@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kineme.errors import KinemeWarning, ReadError
-from kineme.evaluation.annotations import read_trials
+from kineme.evaluation.inputs import read_trials
 
 TEXT = """86_01 two actions
 walk 500 550 600

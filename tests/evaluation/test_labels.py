@@ -28,7 +28,7 @@ from kineme.evaluation import (
     one_to_one_accuracy,
     scores,
 )
-from kineme.evaluation.borders import border_frames
+from kineme.evaluation.measures import border_frames
 from kineme.evaluation.score import value_of
 from kineme.segments.segmentation import Segmentation
 

@@ -22,7 +22,8 @@ from numpy.typing import ArrayLike
 
 from kineme._util.checks import Registry, check_one_of
 from kineme.errors import KinemeError, KinemeWarning
-from kineme.evaluation.comparison import Comparison, labelling_of
+from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.label_truth import labelling_of
 from kineme.evaluation.truth import Labelling, Truth
 from kineme.segments.segmentation import Segmentation
 
@@ -95,7 +96,7 @@ SCORES: Registry[Score] = Registry(
     "score",
     "kineme.scores",
     home="kineme.evaluation",
-    builtins=("frames:SCORES", "segments:SCORES", "borders:SCORES"),
+    builtins=("measures:SCORES",),
 )
 """In the order in which they are shown."""
 
@@ -229,7 +230,7 @@ def evaluate_segmentation(
     --------
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
-    >>> from kineme.evaluation.inputs import truth_of
+    >>> from kineme.evaluation.label_truth import truth_of
     >>> labels = kineme.read_segments(bundled_truth())
     >>> truth = truth_of(labels, n_frames=labels.n_frames, fps=labels.fps)
     >>> evaluate_segmentation(truth, labels)["one_to_one"]
@@ -264,9 +265,8 @@ def comparison_of(
 
 def value_of(result: Value) -> float:
     """Return the number that a score's function gave, be it one or a ratio; nan for None."""
-    if result is None:
-        return math.nan
-    return result.value if isinstance(result, Ratio) else float(result)
+    number = result.value if isinstance(result, Ratio) else result
+    return math.nan if number is None else float(number)
 
 
 def pool_scores(results: Iterable[Value]) -> float:
