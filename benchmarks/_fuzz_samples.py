@@ -45,7 +45,7 @@ from kineme.studio.storage.sidecars import (
 )
 from kineme.studio.storage.tables import saved_table
 from kineme.synthesis import motion_graph
-from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
+from kineme.synthesis.graph import load_sources, read_graph, write_graph
 
 LARGEST = 100_000
 """Bytes of a sample from KINEME_DATA; of longer texts the beginning is taken."""

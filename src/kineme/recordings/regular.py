@@ -520,14 +520,12 @@ def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Not
 
 def _fastest(moments: Floats, values: Floats | None) -> float:
     """Return the rate of the rows, or of the fastest sensor that fills only some of them."""
-    rates = [_rate(moments)]
+    rates: list[float] = []
     if values is not None:
-        present = np.isfinite(values)
-        parts = [moments[seen] for _, seen in _patterns(present) if 0 < seen.mean() <= _MOST]
-        rest = [seen for _, seen in _patterns(present) if seen.mean() > _MOST]
-        if parts and not rest:
-            rates = [_rate(part) for part in parts if len(part) > 1] or rates
-    return max(rates)
+        rows = [seen for _, seen in _patterns(np.isfinite(values)) if seen.any()]
+        if all(seen.mean() <= _MOST for seen in rows):
+            rates = [_rate(moments[seen]) for seen in rows if seen.sum() > 1]
+    return max(rates, default=_rate(moments))
 
 
 def _rate(moments: Floats) -> float:

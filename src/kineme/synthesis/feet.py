@@ -104,13 +104,6 @@ def foot_contacts(path: Floats, fps: float) -> Spans:
     return [(start, stop) for start, stop in spans if stop - start >= SHORTEST * fps]
 
 
-def slides(path: Floats, contacts: Spans) -> Floats:
-    """Return for each contact, how far the ankle gets on the floor from where it began, metres."""
-    floor = path[:, [0, 2]]
-    far = [np.linalg.norm(floor[a:b] - floor[a], axis=1).max() for a, b in contacts]
-    return np.array(far)
-
-
 def _corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
     """Return what to add to the ankle's path, (frames, 3); nothing along y."""
     floor = path[:, [0, 2]]
