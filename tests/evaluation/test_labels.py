@@ -184,12 +184,6 @@ def test_labels_without_gaps_score_as_a_truth_of_exact_borders(labels, data):
             assert ours == pytest.approx(theirs, nan_ok=True), name
 
 
-def test_frames_are_cut_out_of_intervals():
-    found = Labelling([0, 3, 5, 9], ("a", "b", "c"), 10.0)
-    kept = found.within(np.array([True, True, False, False, False, True, True, True, False]))
-    assert (kept.borders.tolist(), kept.labels) == ([0, 2, 5], ("a", "c"))
-
-
 def test_a_border_counts_once_and_the_best_matching_is_found():
     truth = Truth(("a", "b", "c"), [20, 28], [22, 29], [26, 30], 60, 10.0)
     score = border_score(of(truth, Labelling.from_cuts([24, 27], frames=60, fps=10.0)))

@@ -52,18 +52,10 @@ differ all over the window. Chosen on synthetic recordings (`python -m benchmark
 
 @dataclass(frozen=True)
 class Run:
-    """Repetitions of one cluster back to back.
+    """Repetitions of one cluster back to back, with n + 1 ``borders`` in seconds.
 
-    Attributes
-    ----------
-    recording : int
-        Which of the recordings.
-    borders : (n + 1,) array
-        Seconds, of n repetitions.
-    uncertainty : (n + 1,) array
-        Standard deviations in seconds; nan where nothing tells.
-    turned : float
-        By how much of a cycle its phase was moved.
+    ``uncertainty``: standard deviations of the borders; nan where nothing tells. ``turned``: by how
+    much of a cycle its phase was moved.
     """
 
     recording: int

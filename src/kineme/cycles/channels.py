@@ -191,12 +191,17 @@ def make_motion_channels(motion: Motion) -> list[Channel]:
         source = ", ".join(each if isinstance(each, str) else names[each] for each in of)
         channels.append(Channel(name, unit, group, source, fps, compute, gaps))
 
-    faces = _faces(motion)
+    try:
+        # Without jumps by 360 degrees.
+        facing = np.degrees(np.unwrap(heading(motion)[1]))
+    except (EndEffectorError, MotionError):
+        facing = None  # nothing tells where the body faces
     _add_bends(extended.positions, parts, add)
     _add_angles(extended, parts, add)
-    if faces:
-        add("heading", DEGREES, "direction", ["the line of the hips"], partial(_heading, motion))
-    _add_joints(motion, faces, add)
+    if facing is not None:
+        source = ["the line of the hips"]
+        add("heading", DEGREES, "direction", source, partial(np.asarray, facing))
+    _add_joints(motion, facing is not None, add)
     return channels
 
 
@@ -204,46 +209,29 @@ def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
     """Rotation, position and speed of each joint."""
     places, rotations = motion.positions, motion.rotations
     joints = [*enumerate(motion.skeleton.names)]
+
+    def add_axes(name: str, axes: Iterable[str], unit: str, group: str, joint: int,
+                 compute: Compute) -> None:  # fmt: skip
+        for place, axis in enumerate(axes):
+            add(f"{name}.{axis}", unit, group, [joint], partial(_column, compute, place))
+
     for joint, name in joints:
         if rotations is not None and joint not in motion.skeleton.end_sites:
-            for place, axis in enumerate("xzy"):
-                compute = partial(_rotation, rotations, joint, place)
-                add(f"{name}.r{axis}", DEGREES, "rotation", [joint], compute)
+            compute = partial(cardan, rotations[:, joint])
+            add_axes(name, ("rx", "rz", "ry"), DEGREES, "rotation", joint, compute)
     for joint, name in joints:
-        for place, axis in enumerate("xyz"):
-            add(f"{name}.{axis}", "m", "position", [joint], partial(_place, places, joint, place))
+        add_axes(name, "xyz", "m", "position", joint, partial(np.asarray, places[:, joint]))
     for joint, name in joints if faces else []:
-        for place, axis in enumerate(("left", "up", "ahead")):
-            compute = partial(_from_pelvis, motion, joint, place)
-            add(f"{name}.{axis}", "m", "from the pelvis", [joint], compute)
+        compute = partial(body_frame, motion, (joint,))
+        add_axes(name, ("left", "up", "ahead"), "m", "from the pelvis", joint, compute)
     for joint, name in joints:
         compute = partial(speed_of, places[:, joint], motion.fps)
         add(f"{name}.speed", "m/s", "speed", [joint], compute)
 
 
-def _faces(motion: Motion) -> bool:
-    """Return whether anything tells where the body faces."""
-    try:
-        heading(motion)
-    except (EndEffectorError, MotionError):
-        return False
-    return True
-
-
-def _heading(motion: Motion) -> Floats:
-    return np.degrees(np.unwrap(heading(motion)[1]))  # without jumps by 360 degrees
-
-
-def _rotation(rotations: Floats, joint: int, place: int) -> Floats:
-    return np.asarray(cardan(rotations[:, joint])[:, place])
-
-
-def _place(places: Floats, joint: int, axis: int) -> Floats:
-    return places[:, joint, axis]
-
-
-def _from_pelvis(motion: Motion, joint: int, axis: int) -> Floats:
-    return np.asarray(body_frame(motion, (joint,))[:, 0, axis])
+def _column(compute: Compute, place: int) -> Floats:
+    """Return one number of each frame, of the several that a function gives."""
+    return np.asarray(compute()[..., place]).ravel()
 
 
 def _add_bends(places: Floats, joints: Mapping[str, int], add: Add) -> None:

@@ -67,18 +67,9 @@ class Difference(NamedTuple):
 
 @dataclass(frozen=True)
 class RecordingAgreement:
-    """How far those who labelled a recording agree about it.
+    """How far those who labelled a recording agree about it, and where they differ.
 
-    Parameters
-    ----------
-    recording : str
-        Its name.
-    annotators : tuple of str
-        Who labelled it.
-    fleiss_kappa : float
-        Of these.
-    differences : tuple of Difference
-        In order; none is shorter than the tolerance of borders.
+    No difference is shorter than the tolerance of borders.
     """
 
     recording: str

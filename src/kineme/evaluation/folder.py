@@ -48,22 +48,9 @@ NUMBER_OF_CLASSES = "n_classes"
 
 @dataclass(frozen=True)
 class Evaluated:
-    """One method on one recording: its scores, or why there are none.
+    """One method on one recording of ``length_s``: results by score, or the error why not.
 
-    Parameters
-    ----------
-    recording : str
-        Name of the file.
-    seconds : float
-        What segmenting took.
-    length_s : float
-        Of the recording.
-    results : Mapping of str to float or Ratio
-        By the names of the scores.
-    notes : tuple of str
-        What is unusual about the labels, such as spans that overlap.
-    error : str
-        Why there are none; else empty.
+    ``seconds`` are what segmenting took; ``notes`` what is unusual about the labels.
     """
 
     recording: str

@@ -227,6 +227,7 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
 
     Examples
     --------
+    >>> from kineme.evaluation import Truth
     >>> truth = Truth(("jump", "rest"), [60], [60], [60], frames=90, fps=30, counts=(3, None))
     >>> found = Labelling.from_cuts([15, 30, 60], ["0", "0", "0", "1"], frames=90, fps=30)
     >>> count_errors(Comparison.of(truth, found))
@@ -300,23 +301,7 @@ def border_score(compared: Comparison) -> BorderScore:
 def repetition_f1(compared: Comparison) -> Ratio | None:
     """F1 of the borders between repetitions, in the actions whose repetitions people cut.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    Ratio
-        Over a folder, borders are counted over all recordings. None where there is none.
-
-    Examples
-    --------
-    >>> from kineme.evaluation import Truth
-    >>> cut = Labelling.from_cuts([30, 60], ["squat"] * 3, frames=90, fps=30)
-    >>> truth = Truth(("squat",), [], [], [], frames=90, fps=30, repetitions=cut)
-    >>> found = Labelling.from_cuts([31, 45, 60], ["0"] * 4, frames=90, fps=30)
-    >>> repetition_f1(Comparison.of(truth, found))
-    Ratio(part=4, total=5)
+    None where there is none.
     """
     truth, primitives = compared.repetitions
     if truth.repetitions is None:

@@ -88,7 +88,9 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         holder = ET.SubElement(tiers[row.level], "ANNOTATION")
         span = ET.SubElement(holder, "ALIGNABLE_ANNOTATION", ANNOTATION_ID=f"a{position}")
         span.attrib |= {"TIME_SLOT_REF1": start, "TIME_SLOT_REF2": stop}
-        ET.SubElement(span, "ANNOTATION_VALUE").text = _drop_forbidden(text_of(row))
+        # XML cannot hold two characters that labels can.
+        text = text_of(row).replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
+        ET.SubElement(span, "ANNOTATION_VALUE").text = text
     ET.SubElement(
         root,
         "LINGUISTIC_TYPE",
@@ -195,11 +197,6 @@ def _property(root: ET.Element, name: str, path: Path) -> float | None:
 
 def _milliseconds(row: Segment) -> tuple[int, int]:
     return round(row.start_s * PER_SECOND), round(row.stop_s * PER_SECOND)
-
-
-def _drop_forbidden(text: str) -> str:
-    """Return the text without the two characters that XML cannot hold and labels can."""
-    return text.replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
 
 
 FORMAT = LabelFormat(

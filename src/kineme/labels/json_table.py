@@ -37,7 +37,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -103,7 +103,12 @@ def loads(content: bytes, path: Path) -> Segmentation:
         missing = lacking(row)
         if missing:
             raise ReadError(path, f"segment {number} has no {missing[0]!r}")
-    return join_head({name: _column(rows, name) for name in COLUMNS}, data, path)
+    # Cells that a row lacks are what holds where nothing is known.
+    columns = {
+        name: _replace_null([row.get(name, column.default) for row in rows], name)
+        for name, column in COLUMNS.items()
+    }
+    return join_head(columns, data, path)
 
 
 def head_of(segmentation: Segmentation) -> dict[str, Any]:
@@ -187,12 +192,6 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
             columns, n_frames=found.n_frames, fps=found.fps
         ).table
     return Hierarchy(tuple(tables), tuple(tables.values()), data["detail"])
-
-
-def _column(rows: Sequence[Mapping[str, Any]], name: str) -> list[Any]:
-    """Return the cells of a column, or what holds where nothing is known."""
-    default = COLUMNS[name].default
-    return _replace_null([row.get(name, default) for row in rows], name)
 
 
 def _replace_null(values: list[Any], name: str) -> list[Any]:

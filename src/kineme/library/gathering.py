@@ -48,14 +48,8 @@ DIED = "the process that worked on it died: it may need more memory than there i
 class Gathered:
     """What there is of the recordings of a build.
 
-    Attributes
-    ----------
-    digests : dict of Path to str
-        Of the files of each recording that has an analysis.
-    failed : dict of Path to str
-        Why the others have none.
-    new : int
-        How many analyses were made.
+    ``digests`` of the files of each recording that has an analysis; ``failed``: why the others have
+    none; how many analyses are ``new``.
     """
 
     digests: dict[Path, str] = field(default_factory=dict)

@@ -33,20 +33,10 @@ NOTHING = "{}: nothing to build from: name recordings or folders"
 
 @dataclass(frozen=True)
 class Plan:
-    """What a build is asked for.
+    """What a build is asked for: sources, those that it knew before among them, and how to read.
 
-    Attributes
-    ----------
-    folder : Path
-        Of the library.
-    sources : tuple of Path
-        Recordings and folders of them, those that it knew before among them.
-    missing : tuple of Path
-        Those named that are not there, and never were.
-    recursive : bool
-        Whether folders in folders are looked into.
-    read_options : ReadOptions
-    segment_options : SegmentOptions
+    ``missing`` are those named that are not there, and never were; ``recursive`` is whether folders
+    in folders are looked into.
     """
 
     folder: Path

@@ -88,34 +88,10 @@ def write_sessions(
     names: tuple[str, str] | None = None,
     ends: bool = False,
 ) -> None:
-    """Write a page that compares two sessions; it prints on one sheet.
+    """Write a page (.html) that compares two sessions; it prints on one sheet.
 
-    Parameters
-    ----------
-    first, second : Cycles
-        Of the same channels.
-    path : str or PathLike
-        The page, .html.
-    names : pair of str, optional
-        What the page calls them; by default their recordings.
-    ends : bool
-        Whether the first and the last cycle of an activity count as well.
-
-    Raises
-    ------
-    ParameterError
-        No group is in both, or their channels differ.
-    WriteError
-        Another suffix, or the file cannot be written.
-
-    Examples
-    --------
-    >>> import kineme
-    >>> from kineme.datasets import bundled_truth
-    >>> from kineme.report.sessions import write_sessions
-    >>> motion = kineme.read(kineme.bundled_recording())
-    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
-    >>> write_sessions(cycles, cycles, "changed.html")
+    ``names`` are what the page calls them, by default their recordings. With ``ends`` the first and
+    the last cycle of an activity count as well. ParameterError where they cannot be compared.
     """
     check_path(path, "write_sessions")
     if Path(path).suffix.lower() not in SUFFIXES:
