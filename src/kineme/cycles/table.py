@@ -317,12 +317,11 @@ class Cycles:
             (of the mean, with a confidence of 95 %, by Student's t at each point).
         """
         blocks: list[Columns] = []
-        used, points = self.used(ends=ends), self.curves.shape[2]
+        points = self.curves.shape[2]
         for group in self.groups:
-            for place, channel in enumerate(self.channels):
-                curves = self.curves[used & (self.columns["group"] == group), place]
+            for channel in self.channels:
                 # A gap would make the mean of its points one over fewer cycles.
-                curves = curves[np.isfinite(curves).all(axis=1)]
+                curves = self.layout(channel, group, ends=ends)
                 n = len(curves)
                 missing = np.full(points, np.nan)
                 mean = curves.mean(axis=0) if n else missing
