@@ -19,8 +19,8 @@ import kineme
 from kineme.datasets import bundled_truth
 from kineme.errors import KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.labels import json_table, read_segments, write_segments
-from kineme.labels.bids import sidecar_path
 from kineme.labels.csv_table import provenance_path
+from kineme.labels.event_tables import sidecar_path
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS

@@ -32,7 +32,7 @@ from kineme.synthesis import (
     random_route,
     synthesize,
 )
-from kineme.synthesis.blending import jump_frames, spans_of
+from kineme.synthesis.blending import jump_frames, place_spans
 
 
 def repetitions_in(found: Segmentation, activity: int) -> int:
@@ -125,7 +125,7 @@ def test_far_from_jumps_every_frame_is_one_of_the_recording(
 ) -> None:
     route = action_route(graph, [("run", 9)])
     motion = synthesize(graph, [exercises], route, plant=False)
-    spans = spans_of(graph, route, Placement())
+    spans = place_spans(graph, route, Placement())
     edges = [0, *jump_frames(spans), motion.n_frames]
     half = round(graph.window * graph.fps / 2)
     for piece, (start, stop) in zip(spans, pairwise(edges)):

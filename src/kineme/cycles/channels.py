@@ -30,17 +30,18 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_texts
-from kineme.cycles.angles import (
+from kineme.cycles.events import foot_of, stance_of
+from kineme.cycles.joints import (
+    add_joint_centres,
     bend,
     cardan,
     hinge_axis,
+    landmarks,
     measure_angle,
     measure_turn,
     normalize,
     remove_along,
 )
-from kineme.cycles.events import foot_of, stance_of
-from kineme.cycles.landmarks import add_joint_centres, landmarks
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import body_frame, heading
 from kineme.features.feet import speed_of

@@ -20,7 +20,7 @@ from kineme.cycles.contacts import (
     stands_from_positions,
     swings_from_gyroscope,
 )
-from kineme.cycles.landmarks import OTHER_SIDE, find_feet
+from kineme.cycles.joints import OTHER_SIDE, find_feet
 from kineme.cycles.table import Columns
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Motion, Signals

@@ -1,8 +1,7 @@
 """New motion from primitives: a motion graph, routes through it, and their blending."""
 
-from kineme.synthesis.blending import Placement, synthesize
+from kineme.synthesis.blending import Placement, foot_contacts, plant_feet, synthesize
 from kineme.synthesis.building import check_source, motion_graph
-from kineme.synthesis.feet import foot_contacts, plant_feet
 from kineme.synthesis.graph import (
     Edge,
     MotionGraph,

@@ -1,28 +1,35 @@
-"""ELAN annotations (``.eaf``): a tier per level, whole milliseconds; and its tables of text.
+"""Tiers of annotations: ELAN's documents and tables, and Praat's TextGrids.
 
-Frame rate and length go into document properties (``kineme.fps``,
-``kineme.n_frames``), which ELAN keeps. Clusters are kept where there is no
-label, scores never. Recordings at 1000 frames per second or more are refused:
-a millisecond would hold several frames.
+*ELAN* (``.eaf``): a tier per level, whole milliseconds. Frame rate and length go into document
+properties (``kineme.fps``, ``kineme.n_frames``), which ELAN keeps. Clusters are kept where there is
+no label, scores never. Recordings at 1000 frames per second or more are refused: a millisecond
+would hold several frames.
 
 The video of the recording is named as its medium: that of ``provenance["video"]``, with the second
 of it at which the recording starts, else a file of the recording's name beside it.
 
-Read are the tiers called ``activity`` and ``primitive``; in a file without
-them the only tier that has annotations. Annotations that hang on other ones
-have no time of their own and are ignored.
+Read are the tiers called ``activity`` and ``primitive``; in a file without them the only tier that
+has annotations. Annotations that hang on other ones have no time of their own and are ignored.
 
-pympi-ling reads and writes such files, too, but parses without a guard against
-entities; the tests hold both against each other. A file with a
-document type is refused, so that no entity can grow it.
+pympi-ling reads and writes such files, too, but parses without a guard against entities; the tests
+hold both against each other. A file with a document type is refused, so that no entity can grow it.
 
-ELAN's tab-delimited text (`TABLE`) is read, too. Without a line of names a line is tier,
+ELAN's tab-delimited text (`ELAN_TABLE`) is read, too. Without a line of names a line is tier,
 participant, begin, end and perhaps duration, each in one or more ways of writing times, and the
 text last. With one, columns are ``Begin Time - …`` and ``End Time - …``, and then ``Tier`` or one
 column for each tier. Tiers are chosen as in ``.eaf``.
 
+*Praat* (``.TextGrid``): an interval tier per level, seconds, with the length of the recording.
+Written in Praat's long text form, UTF-8. A TextGrid's tiers tile as segments do; an empty interval
+is a gap and is read as a transition. No frame rate, no scores, clusters only where there is no
+label. Read are both text forms, UTF-8 or UTF-16, by Praat's own rule: numbers that stand alone,
+``"texts"`` with doubled quotes and ``<flags>`` count, all else is decoration. Tiers are chosen as
+in ``.eaf``; point tiers are ignored. praatio reads these files, too; the tests hold both against
+each other. A reader of one's own is shorter than what it takes to turn its many exceptions and its
+silent corrections into one clear error.
+
 Sources: EAF format 3.0, https://www.mpi.nl/tools/elan/EAF_Annotation_Format_3.0_and_ELAN.pdf; ELAN
-manual, "Export as tab-delimited text".
+manual, "Export as tab-delimited text"; Praat manual, "TextGrid file formats".
 """
 
 from __future__ import annotations
@@ -37,7 +44,7 @@ from xml.etree import ElementTree as ET
 from kineme._util.files import NoEntities, atomic_write, find_video
 from kineme.errors import ReadError, WriteError
 from kineme.formats.label_tables import is_elan_table
-from kineme.labels.delimited import head, number
+from kineme.labels.delimited import head, new_text, number
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
@@ -199,7 +206,7 @@ def _milliseconds(row: Segment) -> tuple[int, int]:
     return round(row.start_s * PER_SECOND), round(row.stop_s * PER_SECOND)
 
 
-FORMAT = LabelFormat(
+ELAN = LabelFormat(
     name="elan",
     help="ELAN, both levels",
     suffixes=(".eaf",),
@@ -285,11 +292,114 @@ def _table_seconds(text: str, path: Path, line: int, *, is_ms: bool) -> float:
     return number(text, "a time", path, line) / (1000 if is_ms else 1)
 
 
-TABLE = LabelFormat(
+ELAN_TABLE = LabelFormat(
     name="elan-table",
     help="ELAN's tab-delimited text",
     suffixes=(".txt", ".tsv", ".csv"),
     holds="levels",
     read=read_table,
     recognises=lambda path: is_elan_table(head(path).decode(errors="replace")),
+)
+
+
+TOKEN = re.compile(r'"((?:[^"]|"")*+)"|(?<!\S)([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)%?(?!\S)')
+
+
+def write_textgrid(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave a TextGrid with a tier per level of the rows at ``path``."""
+    length = segmentation.n_frames / segmentation.fps
+    tiers: dict[str, list[Segment]] = {}
+    for row in rows:
+        tiers.setdefault(row.level, []).append(row)
+    with new_text(path, newline="\n") as file:
+        file.write('File type = "ooTextFile"\nObject class = "TextGrid"\n\n')
+        file.write(f"xmin = 0\nxmax = {length!r}\ntiers? <exists>\nsize = {len(tiers)}\nitem []:\n")
+        for place, (name, inside) in enumerate(tiers.items(), 1):
+            file.write(f'    item [{place}]:\n        class = "IntervalTier"\n')
+            file.write(f'        name = "{name}"\n        xmin = 0\n        xmax = {length!r}\n')
+            file.write(f"        intervals: size = {len(inside)}\n")
+            file.writelines(_lines(inside))
+
+
+def read_textgrid(path: Path) -> Labels:
+    """Return the intervals at ``path``."""
+    tokens = _tokens(path)
+    if _text(tokens, path) != "ooTextFile" or _text(tokens, path) != "TextGrid":
+        raise ReadError(path, "is not a TextGrid in text form")
+    _number(tokens, path)
+    length = _number(tokens, path)
+    tiers: dict[str, list[Span]] = {}
+    for _ in range(_count(tokens, path)):
+        kind, name = _text(tokens, path), _text(tokens, path)
+        _number(tokens, path), _number(tokens, path)
+        found = [_interval(tokens, kind, path) for _ in range(_count(tokens, path))]
+        if kind == "IntervalTier" and any(span.text for span in found):
+            tiers[name] = [span for span in found if span.text]
+    levels = chosen_tiers(list(tiers), path)
+    spans = [span._replace(level=level) for name, level in levels.items() for span in tiers[name]]
+    return Labels(spans, "seconds", None, length)
+
+
+def _lines(rows: Sequence[Segment]) -> Iterator[str]:
+    for place, row in enumerate(rows, 1):
+        text = text_of(row).replace('"', '""')
+        yield f"        intervals [{place}]:\n"
+        yield f"            xmin = {row.start_s!r}\n            xmax = {row.stop_s!r}\n"
+        yield f'            text = "{text}"\n'
+
+
+def _tokens(path: Path) -> Iterator[str | float]:
+    """Texts and numbers in order."""
+    data = path.read_bytes()
+    wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
+    for match in TOKEN.finditer(data.decode("utf-16" if wide else "utf-8-sig")):
+        if match[1] is not None:
+            yield match[1].replace('""', '"')
+            continue
+        try:
+            yield float(match[2])
+        except ValueError as error:
+            raise ReadError(path, f"has {match[2]!r:.60} where a number should be") from error
+
+
+def _interval(tokens: Iterator[str | float], kind: str, path: Path) -> Span:
+    start = _number(tokens, path)
+    stop = _number(tokens, path) if kind == "IntervalTier" else start
+    return Span(start, stop, _text(tokens, path))
+
+
+def _text(tokens: Iterator[str | float], path: Path) -> str:
+    token = next(tokens, None)
+    if not isinstance(token, str):
+        raise ReadError(path, f"has {_format_number(token)} where a text in quotes should be")
+    return token
+
+
+def _number(tokens: Iterator[str | float], path: Path) -> float:
+    token = next(tokens, None)
+    if not isinstance(token, float):
+        raise ReadError(path, f"has {_format_number(token)} where a number should be")
+    return token
+
+
+def _count(tokens: Iterator[str | float], path: Path) -> int:
+    """How many follow; a claim beyond what is there ends in an error of `_text` or `_number`."""
+    count = _number(tokens, path)
+    if not 0 <= count < 1e9 or count != int(count):
+        raise ReadError(path, f"has {count} where a count should be")
+    return int(count)
+
+
+def _format_number(token: object) -> str:
+    return "its end" if token is None else f"{token!r:.60}"
+
+
+TEXTGRID = LabelFormat(
+    name="textgrid",
+    help="Praat, both levels",
+    suffixes=(".textgrid",),
+    holds="levels",
+    read=read_textgrid,
+    write=write_textgrid,
+    written_suffix=".TextGrid",
 )
