@@ -33,8 +33,7 @@ from kineme.evaluation.folder import (
     recordings_below,
     worked_out,
 )
-from kineme.evaluation.score import pool_scores, scores
-from kineme.evaluation.tables import markdown
+from kineme.evaluation.score import markdown, pool_scores, scores
 from kineme.formats import ReadOptions
 from kineme.labels.collections import labels_of
 from kineme.recordings import Motion, Signals

@@ -33,7 +33,7 @@ from kineme.evaluation.comparison import Comparison, Spans, best_mapping, runs
 from kineme.evaluation.inputs import comparison
 from kineme.evaluation.label_truth import truth_of
 from kineme.evaluation.measures import border_score, cohen_kappa
-from kineme.evaluation.tables import finite, plain
+from kineme.evaluation.score import finite, plain
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 from kineme.labels.collections import Extent, LabelSource
 from kineme.segments.segmentation import Segmentation

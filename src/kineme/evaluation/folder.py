@@ -25,8 +25,7 @@ from kineme._util.parallel import defer_interrupt, make_process_pool
 from kineme._version import __version__
 from kineme.errors import KinemeError, KinemeWarning, MotionError, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
-from kineme.evaluation.score import Ratio, pool_scores, results_of, scores, value_of
-from kineme.evaluation.tables import plain
+from kineme.evaluation.score import Ratio, plain, pool_scores, results_of, scores, value_of
 from kineme.formats import ReadOptions, read
 from kineme.labels.collections import LabelSource
 from kineme.methods.presets import PRESETS

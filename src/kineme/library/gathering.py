@@ -27,8 +27,7 @@ from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.formats import ReadOptions, read_quietly
 from kineme.library.executors import Executor, InProcess, Progress, watch
-from kineme.library.planning import Plan, analysis_key
-from kineme.library.sources import content_digest, fetch, size_of, states_of
+from kineme.library.planning import Plan, analysis_key, content_digest, fetch, size_of, states_of
 from kineme.library.storage.analyses import has_analysis, write_analysis
 from kineme.library.storage.layout import STATES, read_json, write_json
 from kineme.library.storage.places import is_remote

@@ -21,8 +21,13 @@ from kineme.evaluation.folder import (
     evaluate_folder,
     recordings_below,
 )
-from kineme.evaluation.score import scores
-from kineme.evaluation.tables import explain_disagreement, format_score, score_rows, write_result
+from kineme.evaluation.score import (
+    explain_disagreement,
+    format_score,
+    score_rows,
+    scores,
+    write_result,
+)
 from kineme.formats.options import ReadOptions
 from kineme.labels.collections import labels_and_strays
 
