@@ -14,7 +14,7 @@ import kineme
 import naive
 from kineme.errors import MotionError, ParameterError
 from kineme.evaluation import Labelling
-from kineme.evaluation.annotations import read_trials
+from kineme.evaluation.inputs import read_trials
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods import PRESETS
 from kineme_reproduction.baselines._kernels import (
