@@ -1,4 +1,4 @@
-"""Some hundred damaged files, as `python -m benchmarks fuzz` makes them for hours."""
+"""Some damaged files, as `python -m benchmarks fuzz` makes them for hours."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ ROOT = Path(__file__).parents[2]
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="workers are forks")
 @pytest.mark.parametrize("how", [[], ["--structure"]])
-def test_two_hundred_damaged_files(how: list[str]) -> None:
+def test_damaged_files(how: list[str]) -> None:
     ran = subprocess.run(
-        [*FUZZ, "--minutes", "4", "--files", "200", "--seed", "0", *how],
+        [*FUZZ, "--minutes", "4", "--files", "60", "--seed", "0", *how],
         capture_output=True,
         text=True,
         timeout=300,
