@@ -22,7 +22,7 @@ from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.warping import BASIC_STEPS
 
 presets = pytest.mark.parametrize("preset", PUBLISHED.values(), ids=PUBLISHED.keys())
-few = settings(max_examples=10)
+few = settings(max_examples=5)
 
 
 @cache
