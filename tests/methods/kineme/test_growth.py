@@ -32,14 +32,15 @@ parts = []
 for seed in range(6):
     walk = swing(6 + seed, period=1 + seed / 10, axis=seed % 4)
     parts += [walk, with_gestures(seed, [100, 310, 555, 790])]
-frames = round(60 * 40 * KINEME.working_fps)  # ten minutes are a part, done alone
+PRESET = KINEME.replace(part=300.0)  # parts are done alone, so that two and four are compared
+frames = round(60 * 20 * PRESET.working_fps)
 rows = np.tile(np.resize(np.concatenate(parts), (frames, 6)), 2)
 rows = stacked(rows + np.random.default_rng(0).normal(0, 0.01, rows.shape))
-analyze(rows[: round(15 * KINEME.working_fps)], KINEME)
+analyze(rows[: round(15 * PRESET.working_fps)], PRESET)
 before = peak()
 for share in (2, 1):
     start = time.process_time()
-    analyze(rows[: frames // share], KINEME)
+    analyze(rows[: frames // share], PRESET)
     print(time.process_time() - start, peak() - before)
 """
 
