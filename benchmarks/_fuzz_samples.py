@@ -22,7 +22,7 @@ from kineme import formats, labels
 from kineme._util.files import CORRECTED
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import MissingDependencyError
-from kineme.evaluation.annotations import is_annotations, read_trials
+from kineme.evaluation.inputs import is_annotations, read_trials
 from kineme.formats.listing import recordings_in
 from kineme.labels.collections import labels_of
 from kineme.library import Library, build
@@ -45,7 +45,7 @@ from kineme.studio.storage.sidecars import (
 )
 from kineme.studio.storage.tables import saved_table
 from kineme.synthesis import motion_graph
-from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
+from kineme.synthesis.graph import load_sources, read_graph, write_graph
 
 LARGEST = 100_000
 """Bytes of a sample from KINEME_DATA; of longer texts the beginning is taken."""

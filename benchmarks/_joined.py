@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import kineme
 from _options import few
 from kineme.evaluation.comparison import UNLABELLED
-from kineme.evaluation.recordings import recordings_below
+from kineme.evaluation.folder import recordings_below
 from kineme.labels.collections import labels_of
 from kineme.labels.spans import text_of
 from kineme.recordings import Signals

@@ -24,7 +24,7 @@ from _recordings import Case, by_recording, hdm05, subject_86, synthetic
 from _sparse_recordings import SparseCase, found_units, matches, sparse_events
 from kineme.evaluation import evaluate_segmentation
 from kineme.evaluation.comparison import UNLABELLED, Comparison, compare
-from kineme.evaluation.recordings import recordings_below
+from kineme.evaluation.folder import recordings_below
 from kineme.evaluation.score import Ratio, pool_scores, scores
 from kineme.labels.collections import LabelSource, labels_of
 from kineme.recordings import Motion, Signals, Skeleton

@@ -5,11 +5,14 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from kineme._util import parallel
 from labelled_corpus import make_corpus
 
 # How long an example takes is the machine's affair. All else is as hypothesis has it here;
@@ -75,3 +78,14 @@ def data_dir() -> Path:
 def corpus(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder of recordings with labels, which tests only read."""
     return make_corpus(tmp_path_factory.mktemp("corpus"))
+
+
+@pytest.fixture
+def set_threads(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
+    """Set how many threads compute what follows in this test."""
+
+    def change(threads: int) -> None:
+        monkeypatch.setattr(parallel, "_pool", cache(parallel._pool.__wrapped__))
+        monkeypatch.setattr(parallel, "count_threads", lambda: threads)
+
+    return change

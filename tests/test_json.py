@@ -15,10 +15,10 @@ from kineme._util.json import DEEPEST, decode_json, load_json
 from kineme.datasets import bundled_truth
 from kineme.errors import ParameterError, ReadError
 from kineme.evaluation import Truth
-from kineme.evaluation.annotations import is_annotations, read_trials
+from kineme.evaluation.inputs import is_annotations, read_trials
 from kineme.labels.collections import labels_of
 from kineme.synthesis import MotionGraph
-from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
+from kineme.synthesis.graph import load_sources, read_graph, write_graph
 
 DEEP = "[" * 100_000 + "]" * 100_000
 SOUND = {"label": "walk", "end_earliest": 10, "end_mean": 20, "end_latest": 30}

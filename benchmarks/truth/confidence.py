@@ -42,7 +42,7 @@ from _recordings import (
     synthetic,
 )
 from _sources import NEAR_S, session_recordings
-from kineme.evaluation.recordings import recordings_below
+from kineme.evaluation.folder import recordings_below
 from kineme.methods.base import Columns
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.segmenter import segment_and_found

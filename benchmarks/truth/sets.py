@@ -25,10 +25,15 @@ from _figures import add_option, record
 from _options import DATA, command_line, few, needed
 from _rival_presets import register_rivals
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.folder import joined_comparisons
-from kineme.evaluation.recordings import Answer, Job, read_selected, recordings_below, worked_out
-from kineme.evaluation.score import pool_scores, scores
-from kineme.evaluation.tables import markdown
+from kineme.evaluation.folder import (
+    Answer,
+    Job,
+    joined_comparisons,
+    read_selected,
+    recordings_below,
+    worked_out,
+)
+from kineme.evaluation.score import markdown, pool_scores, scores
 from kineme.formats import ReadOptions
 from kineme.labels.collections import labels_of
 from kineme.recordings import Motion, Signals

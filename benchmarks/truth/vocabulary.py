@@ -6,7 +6,8 @@ Three libraries: the five trials of subject 86; six sequences of HDM05 exercises
 three people; all of them. Each cluster of a library stands for one action at most, the same in all
 its recordings; told is the share of frames that are right then, and how many clusters there are
 for how many actions. Then the mean of five more libraries, of six other sequences each; then takes
-of ten exercises of rehabilitation, done rightly and wrongly (UI-PRMD), on which nothing was chosen.
+of ten exercises of rehabilitation, done rightly and wrongly (UI-PRMD), and walks and runs of a game
+studio.
 ``--most`` lets so many local clusters at most be compared pairwise, as in larger libraries.
 ``--keep`` keeps what was found in each recording alone for the next time.
 
@@ -27,7 +28,7 @@ import kineme
 import kineme.library.compiling
 from _figures import add_option, record
 from _libraries import SHAKEN, library_of
-from _options import command_line, few
+from _options import DATA, command_line, few
 from _recordings import Case, hdm05, subject_86
 from _sources import of_bodies
 from kineme import Library
@@ -56,6 +57,17 @@ def takes(name: str) -> list[Case]:
         motion = kineme.read(path)
         said = Labelling.from_frames([rows[0]["label"]] * motion.n_frames, fps=motion.fps)
         cases.append(Case(key, motion, Truth.from_labelling(said)))
+    return cases
+
+
+def gaits() -> list[Case]:
+    """Walks and runs in many styles, as their files are named."""
+    cases = []
+    for path in sorted((DATA / "rigs" / "bandai_namco").glob("*.bvh"))[:: few(1, 20)]:
+        name, motion = path.stem.split("_")[1], kineme.read(path)
+        if name in ("walk", "run"):
+            said = Labelling.from_frames([name] * motion.n_frames, fps=motion.fps)
+            cases.append(Case(path.stem, motion, Truth.from_labelling(said)))
     return cases
 
 
@@ -179,6 +191,7 @@ def main() -> None:
         show_others(home)
         show("uiprmd", home, takes("uiprmd"))
         show("uiprmd_incorrect", home, takes("uiprmd_incorrect"))
+        show("gaits", home, gaits())
         if given.quick:
             show_growth(home, [20], given.most)
 

@@ -29,8 +29,8 @@ from kineme._util.arrays import Ints
 from kineme._util.json import load_json
 from kineme.errors import ReadError
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.frames import one_to_one_accuracy
-from kineme.evaluation.recordings import check_method, segment_by
+from kineme.evaluation.folder import check_method, segment_by
+from kineme.evaluation.measures import one_to_one_accuracy
 from kineme.evaluation.score import evaluate_segmentation, register
 from kineme.evaluation.truth import TRANSITION, Labelling, Truth
 from kineme.methods.base import Preset

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
-from kineme.evaluation.annotations import read_trials
+from kineme.evaluation.inputs import read_trials
 from kineme.evaluation.truth import Truth
 from kineme.recordings import Motion
 

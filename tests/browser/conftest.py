@@ -26,7 +26,7 @@ ARGUMENTS = [
 ]
 
 
-@pytest.fixture(scope="module")  # while it is open, nothing else can use an event loop
+@pytest.fixture(scope="package")  # while it is open, nothing else can use an event loop
 def chromium() -> Iterator:
     if CHROMIUM is None:
         pytest.skip("no chromium: install it, or set KINEME_CHROMIUM to where it is")
@@ -37,7 +37,7 @@ def chromium() -> Iterator:
         browser.close()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def server(chromium, tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioServer]:
     """The studio's server on a folder of its own."""
     with StudioServer(tmp_path_factory.mktemp("takes")) as running:
@@ -61,7 +61,12 @@ def mortal(chromium, take: Path, tmp_path: Path) -> Iterator[StudioServer]:
 @pytest.fixture
 def new_tab(chromium) -> Iterator[Callable]:
     """Opens an address in a tab; the test fails if a page of it fails."""
-    context = chromium.new_context(viewport=DESKTOP, accept_downloads=True)
+    context = chromium.new_context(
+        viewport=DESKTOP,
+        device_scale_factor=0.5,  # a quarter of the pixels to draw in software
+        reduced_motion="reduce",
+        accept_downloads=True,
+    )
     context.set_default_timeout(30_000)
     errors: list[str] = []
 

@@ -49,7 +49,7 @@ def test_the_folder_is_a_page_and_a_review_goes_through_it_with_keys(new_tab, se
 
     page.keyboard.press("j")
     screen.wait("k.name === 'b.bvh' && k.selected?.start_frame === 1000")
-    assert page.locator(".folder-page").count() == 0
+    page.locator(".folder-page").wait_for(state="detached")
     why = page.locator(".queue-why")
     until(page, lambda: "is 20 %" in why.inner_text(), "why it is looked at")
     said = why.inner_text()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from bundled import copy_of_bundled
-from screen import Screen
+from screen import Screen, until
 from studio_server import StudioServer
 
 LABELS = "start_s,stop_s,label\n0,{first},walk\n{first},16,squat\n16,48,jump\n"
@@ -33,10 +33,11 @@ def test_three_people_are_compared_with_two_clicks(labelled, new_tab):
     screen.wait("k.others.length === 3")
     assert screen.state["others"] == ["anna", "ben", "cleo"]
     rows = page.locator(".scores tbody tr")
-    assert rows.filter(has_text="anna, cleo").locator("td").first.inner_text() == "1.000"
+    agreement = rows.filter(has_text="anna, cleo").locator("td").first
+    until(page, lambda: agreement.inner_text() == "1.000", "anna and cleo agree")
     assert 0 < float(rows.filter(has_text="Fleiss").locator("td").first.inner_text()) < 1
     places = page.locator(".differences").first.get_by_role("button")
-    assert places.count() == 1
+    until(page, lambda: places.count() == 1, "one place where they differ")
     places.click()
     screen.wait("Math.abs(k.playhead - 6) < 0.05")
     page.get_by_role("button", name="Compare…").first.click()

@@ -21,7 +21,7 @@ EACH = (
 @pytest.mark.slow
 def test_a_robot_loses_nothing(chromium, tmp_path: Path) -> None:
     takes = [copy_of_bundled(tmp_path) for _ in range(2)]
-    context = chromium.new_context(viewport=SMALL, reduced_motion="reduce")
+    context = chromium.new_context(viewport=SMALL, device_scale_factor=0.5, reduced_motion="reduce")
     context.set_default_timeout(30_000)
     with StudioServer(tmp_path) as server:
         robot = Robot(context, server, takes, seed=1, latency=200)

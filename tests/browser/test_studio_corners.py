@@ -105,12 +105,12 @@ def test_news_go_with_what_they_are_of(new_tab, server, take):
 
 def test_channels_of_the_recording_before_are_not_asked_for(new_tab, server):
     paths = []
-    for name, length in (("left", 60), ("right", 240)):
+    for name, length in (("wrist_1", 60), ("wrist_2", 240)):
         seconds = np.arange(0, length, 0.02)
         waves = [np.sin((i + 1) * seconds) for i in range(6)]
         table = np.column_stack([seconds, *waves])
         heads = ",".join(["time", *(f"acc_{name}_{i}" for i in range(6))])
-        paths.append(server.folder / f"{name}_wrist.csv")
+        paths.append(server.folder / f"{name}.csv")
         np.savetxt(paths[-1], table, delimiter=",", header=heads, comments="")
     page = new_tab(server.address_of(paths[0]))
     screen = Screen(page)

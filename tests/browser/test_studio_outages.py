@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import kineme
-from screen import Screen, two_tabs
+from screen import Screen, two_tabs, until
 
 
 def saved_primitives(path: Path) -> list[tuple[int, str, bool]]:
@@ -49,7 +49,7 @@ def test_edits_on_their_way_when_the_server_dies_are_kept_and_sent_and_no_more_a
     saved = saved_primitives(mortal.folder / "take.segments.json")
     assert saved[2] == (border + 3, "hop", True)
     assert screen.starts()[2] == border + 3
-    assert page.locator("[data-notice]").count() == 0
+    until(page, lambda: page.locator("[data-notice]").count() == 0, "no notice")
     for _ in range(5):
         page.keyboard.press("Control+z")
     screen.wait("k.unsent.length === 0")

@@ -84,13 +84,14 @@ def test_good_loops_come_first_and_are_saved(page):
     for start, stop in zip(bests, [*bests[1:], len(ranks)], strict=True):
         assert ranks[start:stop] == list(range(1, stop - start + 1))
     checked = window.get_by_role("checkbox", checked=True)
-    assert checked.count() == len(bests)
+    until(page, lambda: checked.count() == len(bests), "the best are chosen")
     plays = window.get_by_role("button", name="Play cluster")
     plays.nth(1).click()
     plays.first.click()
     figure = window.get_by_role("img", name="round after round")
     figure.wait_for()
-    assert window.get_by_role("button", name="Play cluster", pressed=True).count() == 1
+    pressed = window.get_by_role("button", name="Play cluster", pressed=True)
+    until(page, lambda: pressed.count() == 1, "one plays")
     first = figure.screenshot()
     until(page, lambda: figure.screenshot() != first, "the loop plays")
     page.screenshot(path=os.environ.get("KINEME_SHOT", "/dev/null"), type="png")
@@ -103,7 +104,7 @@ def test_good_loops_come_first_and_are_saved(page):
     assert loops.value.suggested_filename.endswith(".zip")
     row.nth(1).get_by_role("button", name="Show").click()
     screen.wait("k.selected")
-    assert not window.is_visible()
+    window.wait_for(state="hidden")
 
 
 def test_a_repetition_is_laid_over_another_one(page):

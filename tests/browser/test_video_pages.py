@@ -105,7 +105,7 @@ def test_full_screen_and_the_figure_in_its_place(screen: Screen) -> None:
     assert video.bounding_box()["width"] > 2 * figure.bounding_box()["width"]
     page.keyboard.press("f")
     until(page, lambda: not page.locator(".place-side").is_visible(), "full screen")
-    assert page.locator(".place-timeline").is_visible()
+    page.locator(".place-timeline").wait_for()
     page.keyboard.press("f")
     until(page, page.locator(".place-side").is_visible, "the whole page again")
     page.get_by_role("button", name="Figure large").click()

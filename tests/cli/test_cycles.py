@@ -24,8 +24,8 @@ def rows_of(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_cycles_are_measured_written_and_drawn(kineme_process, take: Path, tmp_path: Path) -> None:
-    done = kineme_process(
+def test_cycles_are_measured_written_and_drawn(kineme, take: Path, tmp_path: Path) -> None:
+    done = kineme(
         "cycles", "take.bvh", "--segments", "truth.json", "--channels", "knee_*", "-o", "c.csv",
         "--plot", "c.png", "--exclude", "6", "--sides", "sides.csv",
     )  # fmt: skip
@@ -131,10 +131,8 @@ def test_what_makes_no_sense_is_refused_as_typed(kineme, take: Path, options: li
     assert options[0] in done.stderr or "--output" in done.stderr
 
 
-def test_events_are_told_and_written(kineme_process, take: Path, tmp_path: Path) -> None:
-    done = kineme_process(
-        "events", "take.bvh", "-o", "e.csv", "--gait", "g.csv", "--labels", "e.TextGrid"
-    )
+def test_events_are_told_and_written(kineme, take: Path, tmp_path: Path) -> None:
+    done = kineme("events", "take.bvh", "-o", "e.csv", "--gait", "g.csv", "--labels", "e.TextGrid")
     assert done.returncode == 0, done.stderr
     assert "left foot: from LeftFoot and LeftToeBase" in done.stdout
     assert "stride_s" in done.stdout
@@ -167,15 +165,16 @@ def test_info_lists_what_can_be_measured(kineme, take: Path) -> None:
     assert "Head.up" in done.stdout
 
 
+@pytest.mark.filterwarnings("ignore::kineme.KinemeWarning")
 def test_force_plates_of_a_c3d_are_measured_at_their_own_rate(
-    kineme_process, data_dir: Path, tmp_path: Path
+    kineme, data_dir: Path, tmp_path: Path
 ) -> None:
     trial = data_dir / "formats" / "Eb015pi.c3d"
-    done = kineme_process("cycles", trial, "--channels", "FZ1,RFT1.speed", "-o", "c.csv")
+    done = kineme("cycles", trial, "--channels", "FZ1,RFT1.speed", "-o", "c.csv")
     assert done.returncode == 0, done.stderr
     rows = rows_of(tmp_path / "c.csv")
     assert all(row["FZ1.range"] for row in rows if row["excluded"] == "")
-    assert "FZ1" in kineme_process("info", "--channels", trial).stdout
+    assert "FZ1" in kineme("info", "--channels", trial).stdout
 
 
 def test_where_no_repetition_is_an_inner_one_it_says_what_to_do(kineme, take: Path) -> None:

@@ -10,8 +10,7 @@ from posed_figures import posed
 
 import kineme
 from kineme._util import rotations as rot
-from kineme.cycles import channels_of, landmarks
-from kineme.cycles.landmarks import add_joint_centres
+from kineme.cycles import channels_of
 from kineme.datasets import Action, synthesize
 from kineme.formats.files import load
 from kineme.formats.markers.c3d_file import parse_c3d
@@ -57,11 +56,6 @@ def test_a_knee_that_is_not_bent_has_no_centre() -> None:
     motion = synthesize([Action("walk", 4)], fps=60, seed=2).motion
     still = markers(motion)[:5]
     assert not any(channel.name.startswith("knee") for channel in channels_of(still))
-
-
-def test_a_body_that_has_knees_stays_as_it_is() -> None:
-    motion = synthesize([Action("walk", 2)], fps=60, seed=2).motion
-    assert add_joint_centres(motion, landmarks(motion))[0] is motion
 
 
 def skin(motion: Motion) -> Motion:

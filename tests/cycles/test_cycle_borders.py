@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kineme.cycles.borders import run_of, sample_at, shift_to_common_phase
+from kineme.cycles.borders import run_of, shift_to_common_phase
 
 RATE = 100.0
 OFFSETS = st.lists(st.floats(-0.02, 0.02), min_size=6, max_size=6)
@@ -108,8 +108,3 @@ def test_one_repetition_stays_as_it_is() -> None:
 def test_where_nothing_moves_nothing_is_certain() -> None:
     (run,) = shift_to_common_phase([run_of(0, np.arange(1.0, 6))], [np.zeros((800, 2))], [RATE])
     assert np.isnan(run.uncertainty).all()
-
-
-def test_values_between_samples_lie_on_lines() -> None:
-    values = np.array([[0.0], [2.0], [4.0]])
-    assert sample_at(values, 2.0, np.array([0.25, 9.0, -1.0])).ravel().tolist() == [1, 4, 0]

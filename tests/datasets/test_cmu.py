@@ -169,7 +169,7 @@ def test_subject_86_comes_with_its_annotations_and_known_lengths(site, tmp_path)
 
 
 def test_the_known_lengths_are_those_of_the_annotations(data_dir):
-    from kineme.evaluation.annotations import read_trials
+    from kineme.evaluation.inputs import read_trials
 
     truths = read_trials(data_dir / "cmu86" / "annotations.json", fps=120.0)
     assert {name: truth.frames for name, truth in truths.items()} == FRAMES

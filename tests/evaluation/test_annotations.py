@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kineme.errors import KinemeWarning, ReadError
-from kineme.evaluation.annotations import read_trials
+from kineme.evaluation.inputs import read_trials
 
 TEXT = """86_01 two actions
 walk 500 550 600
@@ -86,9 +86,3 @@ def test_known_errors_are_mended_and_told(tmp_path):
 def test_broken_texts_are_one_clear_error(tmp_path, text, words):
     with pytest.raises(ReadError, match=words):
         read_trials(write(tmp_path, text, "mocap.txt"))
-
-
-@pytest.mark.parametrize("text", ["[]", "{", '{"trials": {"86_01": [{"label": "walk"}]}}'])
-def test_other_json_is_one_clear_error(tmp_path, text):
-    with pytest.raises(ReadError, match="no annotations.json of the benchmark"):
-        read_trials(write(tmp_path, text, "a.json"))

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
-from kineme.evaluation.folder import evaluate_folder
-from kineme.evaluation.recordings import recordings_below
+from kineme.evaluation.folder import evaluate_folder, recordings_below
+from kineme.evaluation.measures import edit_distance
 from kineme.evaluation.score import (
     SCORES,
     Ratio,
@@ -22,7 +22,6 @@ from kineme.evaluation.score import (
     scores,
     value_of,
 )
-from kineme.evaluation.segments import edit_distance
 from kineme.labels.collections import labels_of
 from kineme.segments.segmentation import Segmentation
 

@@ -13,8 +13,8 @@ from kineme.evaluation.inputs import (
     read_result,
     read_truth,
     score,
-    truth_of,
 )
+from kineme.evaluation.label_truth import truth_of
 from kineme.evaluation.score import results_of, value_of
 from kineme.labels.collections import LabelSource
 from kineme.segments.segmentation import Segmentation

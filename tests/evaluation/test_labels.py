@@ -28,7 +28,7 @@ from kineme.evaluation import (
     one_to_one_accuracy,
     scores,
 )
-from kineme.evaluation.borders import border_frames
+from kineme.evaluation.measures import border_frames
 from kineme.evaluation.score import value_of
 from kineme.segments.segmentation import Segmentation
 
@@ -182,12 +182,6 @@ def test_labels_without_gaps_score_as_a_truth_of_exact_borders(labels, data):
         if name not in ("cohen_kappa", "edit", "f1@10", "f1@25", "f1@50"):
             ours, theirs = (value_of(score.function(one)) for one in (plain, exact))
             assert ours == pytest.approx(theirs, nan_ok=True), name
-
-
-def test_frames_are_cut_out_of_intervals():
-    found = Labelling([0, 3, 5, 9], ("a", "b", "c"), 10.0)
-    kept = found.within(np.array([True, True, False, False, False, True, True, True, False]))
-    assert (kept.borders.tolist(), kept.labels) == ([0, 2, 5], ("a", "c"))
 
 
 def test_a_border_counts_once_and_the_best_matching_is_found():

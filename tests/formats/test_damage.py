@@ -135,7 +135,6 @@ def test_damage_to_bytes_and_to_what_they_mean(
     survives(folder, name, data)
 
 
-@settings(max_examples=100)
 @given(st.binary(max_size=300), st.sampled_from(SUFFIXES))
 def test_any_bytes(folder: Path, data: bytes, suffix: str) -> None:
     survives(folder, f"any{suffix}", data)

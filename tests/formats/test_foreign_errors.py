@@ -15,7 +15,7 @@ from keypoint_samples import as_json, marks, world_landmarks
 
 import kineme
 from kineme.errors import ReadError
-from kineme.synthesis.graph_file import read_graph
+from kineme.synthesis.graph import read_graph
 
 DIGITS = "9" * 5000
 """More than Python makes an integer of."""

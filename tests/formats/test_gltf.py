@@ -230,6 +230,14 @@ def test_a_skeleton_without_a_skin_and_several_characters(tmp_path: Path) -> Non
     assert motion.skeleton.names == ("Hips", "node6")
 
 
+def test_bones_of_one_name_are_told(tmp_path: Path) -> None:
+    nodes = [*LEG[:2], {**LEG[2], "name": "Hips"}, LEG[3]]
+    file = File(nodes, (1, 2, 3)).animate("a", (1, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    with pytest.warns(KinemeWarning, match="several bones have one name: they are read as Hips_2"):
+        motion = kineme.read(file.save(tmp_path / "a.glb"), fps=10)
+    assert motion.skeleton.names == ("Hips", "Hips_2", "Toe_end")
+
+
 def beyond() -> File:
     file = leg().animate("a", (2, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
     file.tree["accessors"][0]["count"] = 10**9

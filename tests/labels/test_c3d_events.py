@@ -1,4 +1,4 @@
-"""Events of C3D files as labels; the files are written by ezc3d."""
+"""Events of C3D files as labels, and written into a copy that other programs read."""
 
 from __future__ import annotations
 
@@ -6,12 +6,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
-from kineme.errors import FileError, ReadError, WriteError
+import kineme
+from kineme.cli.app import app
+from kineme.cycles import foot_events
+from kineme.datasets import Action, synthesize
+from kineme.errors import ParameterError, ReadError, WriteError
+from kineme.formats.files import FileContent, load
+from kineme.formats.markers.c3d_file import BLOCK, MIPS, Layout, parse_c3d, read_header
 from kineme.labels import read_segments, write_segments
-from kineme.labels.c3d_events import read_events
+from kineme.labels.c3d_events import read_events, write_events
 
 ezc3d = pytest.importorskip("ezc3d")
 
@@ -92,23 +99,159 @@ def test_files_without_events_and_other_files(tmp_path) -> None:
         write_segments(found, tmp_path / "new.c3d")
 
 
-@given(st.integers(0, 3000))
-@settings(max_examples=40)
-def test_truncated_files_are_read_or_refused(tmp_path_factory, size) -> None:
-    path = tmp_path_factory.getbasetemp() / "whole.c3d"
-    data = path.read_bytes() if path.exists() else c3d(path, GAIT).read_bytes()
-    cut = path.with_name("cut.c3d")
-    cut.write_bytes(data[:size])
-    try:
-        read_segments(cut)
-    except FileError as error:
-        assert "cut.c3d" in str(error)
-    except Warning:  # frames declared and not there
-        pass
-
-
 def test_events_of_real_files(data_dir) -> None:
     found = read_segments(data_dir / "formats" / "Eb015pi.c3d")
     assert [row.label for row in found.activities if row.label] == ["RIC", "RHS", "RTO"]
     assert found.cuts().tolist() == [136, 270, 366]
     assert found.n_frames == 450
+
+
+TIMES = [0.1, 0.31234, 0.75, 1.1]
+NAMES = ["left foot strike", "right foot off", "Jump", "Right Foot Strike"]
+WRITTEN = ["Left Foot Strike", "Right Foot Off", "Jump", "Right Foot Strike"]
+FILES = ["Dec_real.c3d", "Eb015pi.c3d", "Eb015pr.c3d", "Eb015si.c3d", "sample_propulsion.c3d",
+         "walkingOptiTrack.c3d"]  # fmt: skip
+
+
+def layout_of(path: Path) -> Layout:
+    content = load(path)
+    parameters = parse_c3d(content).parameters
+    return Layout(content, parameters, read_header(content, parameters))
+
+
+def others(path: Path) -> dict[tuple[str, str], object]:
+    """The parameters that writing does not concern."""
+    parameters = parse_c3d(load(path)).parameters
+    kept = [
+        place for place in parameters.places if place[0] != "EVENT" and place[1] != "DATA_START"
+    ]
+    return {place: parameters.stored(*place) for place in kept}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_copy_has_the_events_and_all_else_of_its_source(data_dir, tmp_path, name: str) -> None:
+    source, copy = data_dir / "formats" / name, tmp_path / "copy.c3d"
+    before = parse_c3d(load(source))
+    assert write_events(source, copy, TIMES, NAMES) == len(NAMES)
+    after = parse_c3d(load(copy))
+    np.testing.assert_array_equal(after.points, before.points)
+    np.testing.assert_array_equal(after.analog, before.analog)
+    expected = sorted([*before.events, *zip(TIMES, WRITTEN, strict=True)])
+    assert [name for _, name in after.events] == [name for _, name in expected]
+    np.testing.assert_allclose(
+        [at for at, _ in after.events], [at for at, _ in expected], atol=1e-5
+    )
+    assert others(copy) == others(source)
+    old, new = layout_of(source), layout_of(copy)
+    grown = new.start - old.start
+    assert grown >= 0
+    assert grown % BLOCK == 0
+    assert new.content.data[new.start :] == old.content.data[old.start :]
+    first, second = (bytearray(each.content.data[:BLOCK]) for each in (old, new))
+    first[16:18] = second[16:18] = b""  # the pointer to the data
+    assert first == second
+    if old.parameters.processor != MIPS:  # which ezc3d does not read
+        theirs = ezc3d.c3d(str(copy))
+        ours, known = theirs["parameters"]["EVENT"], ezc3d.c3d(str(source))
+        assert ours["USED"]["value"][0] == len(expected)
+        assert [each for each in ours["LABELS"]["value"] if each in ("Foot Off", "Jump")] == [
+            "Foot Off", "Jump"]  # fmt: skip
+        minutes, seconds = ours["TIMES"]["value"]
+        skipped = (before.first_frame - 1) / before.rate
+        for at in TIMES:
+            assert np.abs(60 * minutes + seconds - skipped - at).min() < 1e-5
+        np.testing.assert_array_equal(theirs["data"]["points"], known["data"]["points"])
+        np.testing.assert_array_equal(theirs["data"]["analogs"], known["data"]["analogs"])
+        start = theirs["parameters"]["POINT"]["DATA_START"]["value"][0]
+        assert start in (0, 1 + new.start // BLOCK)  # 0: the file has none
+
+
+@given(
+    st.lists(st.tuples(st.floats(0, 1.99), st.sampled_from(NAMES)), max_size=60),
+    st.booleans(),
+)
+@settings(max_examples=25)
+def test_writing_twice_adds_nothing(tmp_path_factory, events, marked: bool) -> None:
+    folder = tmp_path_factory.getbasetemp()
+    source = c3d(folder / "source.c3d", GAIT if marked else [])
+    times, names = [at for at, _ in events], [name for _, name in events]
+    added = write_events(source, folder / "once.c3d", times, names)
+    assert len(parse_c3d(load(folder / "once.c3d")).events) == added + len(GAIT) * marked
+    assert write_events(folder / "once.c3d", folder / "twice.c3d", times, names) == 0
+    assert (folder / "twice.c3d").read_bytes() == (folder / "once.c3d").read_bytes()
+
+
+def test_what_people_marked_stands(tmp_path: Path) -> None:
+    source, copy = c3d(tmp_path / "gait.c3d", GAIT), tmp_path / "copy.c3d"
+    added = write_events(source, copy, [0.21, 0.25, 1.6], ["right foot strike", "jump", "jump"])
+    assert added == 2
+    events = parse_c3d(load(copy)).events
+    assert sum(name == "Right Foot Strike" for _, name in events) == 2
+    parameters = ezc3d.c3d(str(copy))["parameters"]["EVENT"]
+    assert parameters["CONTEXTS"]["value"] == ["Right", "Left", "Right", "Right", "", ""]
+    assert len(parameters["ICON_IDS"]["value"]) == 6
+
+
+def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
+    source = c3d(tmp_path / "gait.c3d", GAIT)
+    before = source.read_bytes()
+    with pytest.raises(WriteError, match="is the recording itself: name another file"):
+        write_events(source, source, TIMES, NAMES)
+    with pytest.raises(WriteError, match=r"must end in \.c3d"):
+        write_events(source, tmp_path / "copy.csv", TIMES, NAMES)
+    with pytest.raises(WriteError, match="cannot take 304 events: a C3D file holds 255 at most"):
+        write_events(source, tmp_path / "copy.c3d", [0.001 * i for i in range(300)], ["hop"] * 300)
+    with pytest.raises(ParameterError, match="1 times and 2 names"):
+        write_events(source, tmp_path / "copy.c3d", [0.5], ["hop", "hop"])
+    with pytest.raises(ReadError, match="is no C3D file, of which a copy"):
+        write_events(tmp_path / "walk.bvh", tmp_path / "copy.c3d", TIMES, NAMES)
+    (tmp_path / "text.c3d").write_text("no recording")
+    with pytest.raises(ReadError):
+        write_events(tmp_path / "text.c3d", tmp_path / "copy.c3d", TIMES, NAMES)
+    assert source.read_bytes() == before
+    assert not (tmp_path / "copy.c3d").exists()
+
+
+@example(1049, 0)  # the record of labels is lost
+@given(st.integers(1, 3000), st.integers(0, 255))
+@settings(max_examples=60)
+def test_a_damaged_file_is_refused_or_read_as_before(tmp_path_factory, place, value) -> None:
+    folder = tmp_path_factory.getbasetemp()
+    data = bytearray(c3d(folder / "sound.c3d", GAIT).read_bytes())
+    data[place] = value
+    source, copy = folder / "odd.c3d", folder / "copy.c3d"
+    source.write_bytes(data)
+    try:
+        before = parse_c3d(FileContent(source, bytes(data)))
+        write_events(source, copy, [1.5], ["Jump"])
+    except (kineme.errors.KinemeError, ValueError, OverflowError):
+        return
+    after = parse_c3d(load(copy))
+    np.testing.assert_array_equal(after.points, before.points)
+    assert len(after.events) == len(before.events) + 1
+
+
+def test_the_command_writes_them(tmp_path: Path) -> None:
+    walk = synthesize([Action("walk", 4)], fps=100, seed=1).motion
+    names = {"LeftFoot": "LHEE", "LeftToeBase": "LTOE", "RightFoot": "RHEE", "RightToeBase": "RTOE",
+             "LeftUpLeg": "LASI", "RightUpLeg": "RASI", "Head": "HEAD"}  # fmt: skip
+    joints = [walk.skeleton.names.index(name) for name in names]
+    file = ezc3d.c3d()
+    file["parameters"]["POINT"]["RATE"]["value"] = [100.0]
+    file["parameters"]["POINT"]["UNITS"]["value"] = ["m"]
+    file["parameters"]["POINT"]["LABELS"]["value"] = [*names.values()]
+    points = walk.positions[:, joints][..., [2, 0, 1]].transpose(2, 1, 0)
+    file["data"]["points"] = np.concatenate([points, np.ones((1, *points.shape[1:]))])
+    source, copy = tmp_path / "walk.c3d", tmp_path / "copy.c3d"
+    file.write(str(source))
+    done = CliRunner().invoke(app, ["events", str(source), "--c3d", str(copy)])
+    assert done.exit_code == 0, done.output
+    assert "copy.c3d" in done.output
+    events = foot_events(kineme.read(source))
+    found = parse_c3d(load(copy)).events
+    np.testing.assert_allclose([at for at, _ in found], events.times, atol=1e-5)
+    assert sorted(name.lower() for _, name in found) == sorted(events.names.tolist())
+    for wrong, code in ((str(source), 2), (str(tmp_path / "copy.csv"), 1)):
+        assert CliRunner().invoke(app, ["events", str(source), "--c3d", wrong]).exit_code == code
+    timed = ["events", str(source), "--fps", "50", "--c3d", str(copy)]
+    assert CliRunner().invoke(app, timed).exit_code == 2

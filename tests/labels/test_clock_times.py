@@ -14,7 +14,7 @@ import kineme
 from growth import LINEAR, times_longer
 from kineme._util.checks import format_count
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.labels.collections import LabelSource, convert_to_frames, labels_of
+from kineme.labels.collections import convert_to_frames, labels_of
 from kineme.labels.spans import Labels, Span, convert_clock_times
 from kineme.recordings.clock import Clock
 from kineme.segments.segmentation import Segmentation
@@ -102,12 +102,6 @@ def test_labels_that_meet_nothing_are_named(tmp_path) -> None:
     assert note == "meeting no frame, left out: 'rest' 100 to 130 s, 'after' 20100 to 20110 s"
     with pytest.raises(ReadError, match="has no labels of this recording .*'b' 900000 to 900001 s"):
         truth(tmp_path, "walk,900000,900001,b", path)
-
-
-def test_they_are_named_where_there_is_no_clock_too() -> None:
-    source = LabelSource(Path("a.csv"), Labels([Span(0, 2, "walk"), Span(9, 12, "run")]))
-    found = source.of(n_frames=60, fps=20)
-    assert found.provenance["notes"] == ["meeting no frame, left out: 'run' 9 to 12 s"]
 
 
 def test_a_pause_costs_a_folder_no_label(tmp_path) -> None:

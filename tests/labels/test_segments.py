@@ -19,8 +19,8 @@ import kineme
 from kineme.datasets import bundled_truth
 from kineme.errors import KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.labels import json_table, read_segments, write_segments
-from kineme.labels.bids import sidecar_path
 from kineme.labels.csv_table import provenance_path
+from kineme.labels.event_tables import sidecar_path
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
@@ -172,19 +172,6 @@ def test_tables_without_the_optional_columns_are_read(
     else:
         parquet.write_table(parquet.read_table(path).drop_columns(optional), path)
     assert read_segments(path) == small
-
-
-def test_the_action_of_a_row_is_the_cluster_of_its_activity() -> None:
-    columns = {
-        "level": ["activity", "primitive", "activity", "primitive", "primitive"],
-        "kind": ["activity", "activity", "transition", "transition", "activity"],
-        "start_frame": [0, 0, 50, 50, 20],
-        "stop_frame": [50, 20, 120, 120, 50],
-        "cluster": [3, 7, -1, -1, 8],
-        "action": [9, 9, 9, 9, 9],  # computed, whatever is given
-    }
-    table = Segmentation.from_columns(columns, n_frames=120, fps=30).table
-    assert table.action.tolist() == [3, -1, 3, 3, -1]
 
 
 def test_names_a_reader_does_not_know_are_ignored(tmp_path: Path, small: Segmentation) -> None:
@@ -387,11 +374,3 @@ def test_labels_may_be_edited(tmp_path: Path, name: str, form: str, beside: Besi
     edited = kineme.read_segments(path, format=form)
     assert edited.activities.label.tolist() == ["jump", "squat"]
     assert beside(path).name not in str(edited.provenance.get("notes", ""))
-
-
-def test_an_odd_number_of_frames_is_told_on_one_line(tmp_path: Path) -> None:
-    path = table(tmp_path / "a", "a.csv", "csv", 60.0, "walk")
-    head = json.loads(provenance_path(path).read_text())
-    provenance_path(path).write_text(json.dumps({**head, "n_frames": "a\nb"}))
-    with pytest.raises(ReadError, match=r"speaks of 'a\\nb' frames"):
-        kineme.read_segments(path)

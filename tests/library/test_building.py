@@ -20,7 +20,6 @@ from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.formats import ReadOptions
 from kineme.library import Library, build, gathering
 from kineme.library.gathering import Group
-from kineme.library.planning import Plan
 from kineme.methods.segmenter import SegmentOptions
 
 
@@ -260,18 +259,6 @@ def test_clusters_whose_recordings_leave_and_come_back_keep_number_and_name(
     (own / "walk.bvh").unlink()
     with pytest.raises(ReadError, match=r"left.json: is damaged: remove it"):
         build((), folder)
-
-
-def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:
-    paths = [tmp_path / name for name in "abcdefgh"]
-    plan = Plan(tmp_path, (), (), False, ReadOptions(), SegmentOptions())
-    for size, jobs in ((10, 1), (gathering.PER_WORKER, 4)):
-        for path in paths:
-            path.write_bytes(b" " * size)
-        paths[5].write_bytes(b" " * (size + 1))
-        tasks = gathering.tasks_for(paths, plan)
-        assert tasks[0].path == paths[5]  # the largest is worked on first
-        assert min(gathering.workers_for(tasks), 4) == jobs
 
 
 def pieces_in(folder: Path) -> list[str]:

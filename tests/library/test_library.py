@@ -20,12 +20,9 @@ import kineme
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.descriptions import describe
-from kineme.library.storage.layout import as_column
 from kineme.library.storage.tables import DESCRIBED
 from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.table import COLUMNS
-from kineme.transfer.clusters import CONSTANTS
-from kineme.transfer.subsequences import THRESHOLD
 
 
 def test_columns_are_those_described(library: Library) -> None:
@@ -282,10 +279,6 @@ def test_each_cluster_has_a_picture(library: Library, tmp_path: Path) -> None:
     assert imread(written[0]).shape[0] > imread(written[1]).shape[0]
 
 
-def test_clusters_are_joined_as_far_as_a_search_reaches() -> None:
-    assert CONSTANTS.join == THRESHOLD
-
-
 def test_tables_are_made_and_read_without_pandas(folder: Path) -> None:
     # It takes a third of a second to load, in each process of a build.
     code = (
@@ -298,12 +291,6 @@ def test_tables_are_made_and_read_without_pandas(folder: Path) -> None:
         [sys.executable, "-c", code, str(folder)], capture_output=True, text=True, check=True
     )
     assert done.stdout.strip() == "False"
-
-
-def test_columns_hold_any_text_and_number_or_none() -> None:
-    for values, kind in ((["", "Zürich", "歩く\n"], str), ([3, -1], int), ([0.5], float)):
-        assert as_column(values, kind).to_pylist() == values
-        assert as_column([], kind).to_pylist() == []
 
 
 def test_an_example_that_stops_beyond_its_end_is_said_to_be_cut(library: Library) -> None:

@@ -13,7 +13,7 @@ from agreement import CONFIGURATIONS
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.evaluation import Labelling
-from kineme.evaluation.tables import write_records
+from kineme.evaluation.score import write_records
 from kineme.methods.region_growing.preset import VOEGELE2014
 from kineme_reproduction.benchmark import (
     METHODS,

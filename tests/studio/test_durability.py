@@ -33,8 +33,8 @@ from kineme.studio.open_recordings import OpenRecordings
 
 @pytest.mark.slow
 def test_kills_at_any_moment_lose_nothing_that_was_acknowledged(start) -> None:
-    kills = edit_and_kill(start, edits=25, seed=1)
-    assert kills > 0
+    kills = edit_and_kill(start, edits=12, seed=1)
+    assert kills > 1
 
 
 def edit_and_kill(start: Callable[[], Process], *, edits: int, seed: int) -> int:
@@ -228,14 +228,6 @@ def test_news_come_over_the_line_and_ctrl_c_ends_it_at_once(start) -> None:
     assert not page.is_alive()
     assert (code, said, errors) == (0, "", "")
     assert [news["revision"] for news in heard] == [revision + 1, 0]
-
-
-def test_a_port_in_use_is_passed_over_or_said(start) -> None:
-    first = start("--port", "0")
-    with socket.socket() as probe:
-        probe.connect(("127.0.0.1", first.port))
-    with pytest.raises(RuntimeError, match=f"port {first.port} is not free"):
-        start("--port", str(first.port))
 
 
 def test_an_upload_that_is_too_large_or_breaks_off_leaves_nothing(start) -> None:

@@ -9,6 +9,7 @@ import threading
 import time
 import weakref
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -30,6 +31,7 @@ from kineme.web.requests import EditRequest, Split
 from kineme.web.tables import table_change
 
 COST = kineme.PRESETS["kineme"].segment_cost
+News = queue.Queue[tuple[str, int]]
 
 
 def held_back(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
@@ -41,13 +43,20 @@ def held_back(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
     return wanted
 
 
+def open_take(folder: Path) -> tuple[OpenRecordings, str, News]:
+    """Open a studio of the bundled recording alone; the recording's id, and the news of it."""
+    if not (folder / "take.bvh").exists():
+        shutil.copy(kineme.bundled_recording(), folder / "take.bvh")
+    told: News = queue.Queue()
+    recordings = OpenRecordings(Folder(folder), lambda *news: told.put(news))
+    (name,) = recordings.folder.recordings()
+    return recordings, name, told
+
+
 def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatch):
-    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
     wanted = held_back(monkeypatch)
     monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
-    told: queue.Queue[tuple[str, int]] = queue.Queue()
-    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
-    (name,) = recordings.folder.recordings()
+    recordings, name, told = open_take(tmp_path)
     shown = recordings.message(name)
     assert shown.finding
     assert [row.kind for row in shown.segmentation.segments] == ["transition"]
@@ -65,10 +74,7 @@ def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatc
 def test_a_long_recording_that_is_read_otherwise_says_when_its_segments_are_there(
     tmp_path, monkeypatch
 ):
-    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
-    told: queue.Queue[tuple[str, int]] = queue.Queue()
-    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
-    (name,) = recordings.folder.recordings()
+    recordings, name, told = open_take(tmp_path)
     before = recordings.message(name).revision
     wanted = held_back(monkeypatch)
     monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
@@ -81,11 +87,9 @@ def test_a_long_recording_that_is_read_otherwise_says_when_its_segments_are_ther
 
 
 def test_segments_that_take_long_are_waited_for_by_files_and_not_by_pages(tmp_path, monkeypatch):
-    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
     wanted = held_back(monkeypatch)
     monkeypatch.setattr("kineme.studio.open_recording.SOON", 0.1)
-    recordings = OpenRecordings(Folder(tmp_path), lambda *_: None)
-    (name,) = recordings.folder.recordings()
+    recordings, name, _ = open_take(tmp_path)
     assert recordings.message(name).finding
     threading.Timer(0.2, wanted.set).start()
     _, content = export_download(recordings.get(name), "csv", None)
@@ -94,9 +98,7 @@ def test_segments_that_take_long_are_waited_for_by_files_and_not_by_pages(tmp_pa
 
 
 def test_an_edit_of_found_segments_waits_for_a_server_that_finds_them_again(tmp_path, monkeypatch):
-    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
-    before = OpenRecordings(Folder(tmp_path), lambda *_: None)
-    (name,) = before.folder.recordings()
+    before, name, _ = open_take(tmp_path)
     seen = before.message(name)
     wanted = held_back(monkeypatch)
     monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
@@ -109,7 +111,6 @@ def test_an_edit_of_found_segments_waits_for_a_server_that_finds_them_again(tmp_
 
 
 def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypatch):
-    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
 
     wanted = threading.Event()
 
@@ -119,9 +120,7 @@ def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypa
 
     monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
     monkeypatch.setattr(LoadedRecording, "first_table", fail)
-    told: queue.Queue[tuple[str, int]] = queue.Queue()
-    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
-    (name,) = recordings.folder.recordings()
+    recordings, name, told = open_take(tmp_path)
     assert recordings.message(name).finding
     wanted.set()
     assert told.get(timeout=600)[0] == name
@@ -131,16 +130,13 @@ def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypa
 @pytest.fixture
 def large_take(tmp_path, monkeypatch):
     """A recording that is read once ``wanted`` is set: its folder, id and news."""
-    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
     wanted, read = threading.Event(), RecordingCache.read
     monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
     monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
     monkeypatch.setattr(
         RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
     )
-    told: queue.Queue[tuple[str, int]] = queue.Queue()
-    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
-    (name,) = recordings.folder.recordings()
+    recordings, name, told = open_take(tmp_path)
     return recordings, name, told, wanted
 
 
@@ -207,9 +203,7 @@ def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypa
     (tmp_path / "take.bvh").write_text("\n".join(text))
     monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
     monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
-    told: queue.Queue[tuple[str, int]] = queue.Queue()
-    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
-    (name,) = recordings.folder.recordings()
+    recordings, name, told = open_take(tmp_path)
     assert recordings.message(name).finding
     assert told.get(timeout=600)[0] == name
     with pytest.raises(ReadError, match="not a number"):

@@ -6,6 +6,7 @@ import socket
 from pathlib import Path
 
 import httpx2 as httpx
+import pytest
 from typer.testing import CliRunner
 
 import kineme
@@ -44,7 +45,7 @@ def test_what_no_file_could_mean_is_said_at_once(folder: Path) -> None:
     assert "feet" in done.stderr
 
 
-def test_pages_from_their_sources_may_ask_where_it_is_allowed(start) -> None:
+def test_pages_from_their_sources_may_ask_and_a_port_in_use_is_refused(start) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     studio = start("--dev", "--port", str(port))
@@ -52,3 +53,5 @@ def test_pages_from_their_sources_may_ask_where_it_is_allowed(start) -> None:
     headers = {"x-kineme-token": studio.token, "origin": DEVELOPMENT}
     answer = httpx.get(f"http://127.0.0.1:{port}/api/state", headers=headers, timeout=300)
     assert answer.status_code == 200
+    with pytest.raises(RuntimeError, match=f"port {port} is not free"):
+        start("--port", str(port))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+import kineme
 from kineme.transfer import clusters as transfer_clusters
 from kineme.transfer.clusters import (
     CONSTANTS,
@@ -15,8 +17,10 @@ from kineme.transfer.clusters import (
     ClusterSet,
     Features,
     LocalCluster,
+    group_by_distance,
     link_clusters,
 )
+from kineme.transfer.sharing import share_clusters
 
 KINDS, RECORDINGS = 6, 30
 RARE = 3
@@ -97,3 +101,25 @@ def test_one_local_cluster_or_none_is_linked_to_nothing() -> None:
     assert (one.cluster.tolist(), one.next_cluster.tolist()) == ([0], [-1])
     assert np.isnan(one.confidence).all()
     assert link(clusters.select(np.empty(0, np.int64))).cluster.tolist() == []
+
+
+def test_groups_that_are_apart_are_not_joined_if_both_are_large_enough() -> None:
+    points = np.random.default_rng(0).normal([[0.0]] * 6 + [[0.7]] * 5, 0.05)
+    distances = np.abs(points - points.T)
+    assert group_by_distance(distances).tolist() == [0] * 6 + [1] * 5
+    assert group_by_distance(distances[:8, :8]).tolist() == [0] * 8  # two members may be chance
+    alike = np.random.default_rng(0).uniform(0.5, 0.6, (11, 11))
+    assert group_by_distance(np.triu(alike, 1) + np.triu(alike, 1).T).tolist() == [0] * 11
+
+
+def test_walking_and_running_of_many_takes_are_two_clusters(data_dir: Path) -> None:
+    paths = sorted((data_dir / "rigs" / "bandai_namco").glob("dataset-2_*_00[14].bvh"))
+    paths = [path for path in paths if path.name.split("_")[1] in ("walk", "run")]
+    if not paths:
+        pytest.skip("no rigs/bandai_namco")
+    motions = [kineme.read(path) for path in paths]
+    shared = share_clusters(motions, [kineme.segment(motion) for motion in motions])
+    clusters: dict[str, set[int]] = {"walk": set(), "run": set()}
+    for path, found in zip(paths, shared, strict=True):
+        clusters[path.name.split("_")[1]] |= {row.cluster for row in found.activities} - {-1}
+    assert clusters["walk"].isdisjoint(clusters["run"])

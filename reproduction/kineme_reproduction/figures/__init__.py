@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.tables import format_score, markdown, score_rows
+from kineme.evaluation.score import format_score, markdown, score_rows
 from kineme.evaluation.truth import Labelling
 from kineme_reproduction.benchmark import (
     PublishedCuts,

@@ -17,7 +17,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Rectangle
 
-from kineme.evaluation.comparison import Comparison, labelling_of
+from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.label_truth import labelling_of
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 from kineme.segments.colors import PALETTE
 from kineme_reproduction.benchmark import Result

@@ -112,7 +112,7 @@ def cycles(
     """
     from kineme.cli.tables import show_written
     from kineme.cli.terminal import Console
-    from kineme.cycles import compare_sides, write_cycles, write_table
+    from kineme.cycles import channels_of, compare_sides, write_cycles, write_table
     from kineme.cycles.measure import cycles as measured
 
     batch = Batch(files, recursive=recursive, quiet=quiet)
@@ -129,8 +129,8 @@ def cycles(
     def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
         with batch.progress(path) as stage:
             part = read_and_segment(path, options, table, segment_options, stage)
-            found = _channels_of(part[0], names) if len(batch.paths) > 1 else ()
-            parts.append(_Part(path, *part, found))
+            found = channels_of(part[0], names) if len(batch.paths) > 1 else ()
+            parts.append(_Part(path, *part, tuple(channel.name for channel in found)))
 
     for path in batch.paths:
         batch.each_person(path, read_options, read_one, tables=("--segments", segments))
@@ -143,16 +143,14 @@ def cycles(
             if sides is not None:
                 names = _choose_channels(recordings, names)
             found = measured(
-                recordings,
-                tables,
-                channels=names,
-                anchor=anchor,
-                beside=analog,
-                common=common,
+                recordings, tables, channels=names, anchor=anchor, beside=analog, common=common,
                 align=align,
-            )
+            )  # fmt: skip
             found = _count_excluded(found, exclude or [])
-            sessions = _sessions(found) if compare is not None else []
+            # The cycles of each recording that has some.
+            owners = found.columns["recording"]
+            named = dict.fromkeys(owners.tolist()) if compare is not None else ()
+            sessions = [found.select(owners == name) for name in named]
             if output is not None:
                 write_cycles(found, output, ends=ends)
             if plot is not None:
@@ -162,13 +160,8 @@ def cycles(
             if sides is not None:
                 write_table(compare_sides(found, ends=ends), sides)
             if not quiet:
-                _show(
-                    found,
-                    sessions,
-                    chosen=channels is not None,
-                    ends=ends,
-                    given=segments is not None,
-                )
+                chosen, given = channels is not None, segments is not None
+                _show(found, sessions, chosen=chosen, ends=ends, given=given)
                 show_written(Console(highlight=False), [output, plot, compare, sides])
     batch.exit()
     failures.exit()
@@ -179,12 +172,6 @@ class _Part(NamedTuple):
     recording: Motion | Signals
     segments: Segmentation
     channels: tuple[str, ...]
-
-
-def _channels_of(recording: Motion | Signals, names: list[str] | None) -> tuple[str, ...]:
-    from kineme.cycles import channels_of
-
-    return tuple(channel.name for channel in channels_of(recording, names))
 
 
 def _keep_common_channels(parts: list[_Part], batch: Batch) -> list[_Part]:
@@ -245,12 +232,6 @@ def _count_excluded(cycles: Cycles, rules: list[str]) -> Cycles:
                 ) from None
             cycles = cycles.exclude(rows)
     return cycles
-
-
-def _sessions(cycles: Cycles) -> list[Cycles]:
-    """Return the cycles of each recording that has some."""
-    names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
-    return [cycles.select(cycles.columns["recording"] == name) for name in names]
 
 
 def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:

@@ -92,7 +92,7 @@ def show_written(console: Console, paths: Iterable[Path | None]) -> None:
 
 def show_scores(title: str, columns: Mapping[str, Mapping[str, float]]) -> None:
     """Print scores by the columns that have them."""
-    from kineme.evaluation.tables import explain_disagreement, score_rows
+    from kineme.evaluation.score import explain_disagreement, score_rows
 
     show_table(title, list(columns), score_rows(columns), note=explain_disagreement(columns))
 

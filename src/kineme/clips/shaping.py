@@ -23,7 +23,7 @@ from kineme.clips.root_motion import (
 )
 from kineme.clips.tags import Tag, Travel, travel_of
 from kineme.cycles.contacts import stands_from_positions
-from kineme.cycles.landmarks import find_feet
+from kineme.cycles.joints import find_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import PARTS, body_frame, end_effectors
 from kineme.recordings import Motion

@@ -7,7 +7,6 @@ import sys
 from types import ModuleType
 from typing import Any
 
-from kineme.cycles.angles import bend, cardan, measure_angle
 from kineme.cycles.channels import Channel, channels_of
 from kineme.cycles.comparison import compare_curves, compare_sessions, compare_sides
 from kineme.cycles.contacts import (
@@ -17,7 +16,7 @@ from kineme.cycles.contacts import (
 )
 from kineme.cycles.events import Events, foot_events, gait, strides
 from kineme.cycles.export import write_cycles, write_table
-from kineme.cycles.landmarks import landmarks
+from kineme.cycles.joints import bend, cardan, landmarks, measure_angle
 from kineme.cycles.measure import cycles
 from kineme.cycles.table import Cycles
 

@@ -16,6 +16,7 @@ What is measured, such as when a channel is largest, is that of the cycle as it 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import pairwise
 
 import numpy as np
@@ -45,11 +46,8 @@ def align_curves(curves: Floats, alignment: str) -> Floats:
     if alignment == LINEAR or complete.sum() < 2:
         return curves
     # Positions of the points in a cycle, 0 to 1.
-    shares = np.linspace(0, 1, curves.shape[2])
-    grid = np.linspace(0, 1, GRID)
-    sampled = _sample_curves(
-        curves[complete], shares, np.broadcast_to(grid, (int(complete.sum()), GRID))
-    )
+    shares, grid = np.linspace(0, 1, curves.shape[2]), np.linspace(0, 1, GRID)
+    sampled = _sample_curves(curves[complete], shares, [grid] * int(complete.sum()))
     phases = _align_landmarks(sampled[:, 0]) if alignment == LANDMARKS else _warp_to_mean(sampled)
     # Warps are found on GRID points; curves may have any other number of points.
     phases = np.array([np.interp(shares, grid, each) for each in phases])
@@ -58,7 +56,7 @@ def align_curves(curves: Floats, alignment: str) -> Floats:
     return moved
 
 
-def _sample_curves(curves: Floats, shares: Floats, phases: Floats) -> Floats:
+def _sample_curves(curves: Floats, shares: Floats, phases: Iterable[Floats]) -> Floats:
     """Return the curves, known at shares of the cycle, at a phase of each for each point."""
     return np.array(
         [[np.interp(phase, shares, channel) for channel in curve]
@@ -87,8 +85,7 @@ def _align_landmarks(curves: Floats) -> Floats:
     phases = np.tile(grid, (len(curves), 1))
     for row, each in enumerate(extremes.tolist()):
         places = [0.0, *each, 1.0]
-        # A cycle whose landmarks are too close or swapped would be stretched too much: it stays as
-        # it is.
+        # A cycle whose landmarks are too close or swapped would be stretched too much: it stays.
         if all(b - a >= INSIDE for a, b in [*pairwise(places), *pairwise(common)]):
             phases[row] = np.interp(grid, common, places)
     return phases

@@ -52,18 +52,10 @@ differ all over the window. Chosen on synthetic recordings (`python -m benchmark
 
 @dataclass(frozen=True)
 class Run:
-    """Repetitions of one cluster back to back.
+    """Repetitions of one cluster back to back, with n + 1 ``borders`` in seconds.
 
-    Attributes
-    ----------
-    recording : int
-        Which of the recordings.
-    borders : (n + 1,) array
-        Seconds, of n repetitions.
-    uncertainty : (n + 1,) array
-        Standard deviations in seconds; nan where nothing tells.
-    turned : float
-        By how much of a cycle its phase was moved.
+    ``uncertainty``: standard deviations of the borders; nan where nothing tells. ``turned``: by how
+    much of a cycle its phase was moved.
     """
 
     recording: int
@@ -112,29 +104,8 @@ def run_of(recording: int, borders: Floats) -> Run:
 def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
     """Return the runs of one cluster with borders at one phase, between two frames.
 
-    Parameters
-    ----------
-    runs : list of Run
-    features : list of (samples, dims) array
-        Of each recording, all of as many dimensions.
-    rates : list of float
-        Samples per second.
-
-    Returns
-    -------
-    list of Run
-
-    Examples
-    --------
-    Two runs of a swing, cut on a grid of 0.1 s, the second one a quarter later:
-
-    >>> t = np.arange(0, 20, 0.01)
-    >>> swing = np.stack([np.sin(2 * np.pi * t), np.cos(2 * np.pi * t)], axis=1)
-    >>> grid = np.array([1, 2, 3.1, 3.9, 5])
-    >>> runs = [run_of(0, grid), run_of(0, grid + 8.25)]
-    >>> first, second = shift_to_common_phase(runs, [swing], [100.0])
-    >>> np.diff(first.borders)[1:-1].round(3), round(second.turned, 2)
-    (array([1., 1.]), -0.25)
+    ``features`` has an array (samples, dims) of each recording, all of as many dimensions;
+    ``rates`` their samples per second.
     """
     runs = _turn_borders(runs, features, rates)
     inner = sum(len(run.borders) - 2 for run in runs)
@@ -147,16 +118,7 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
         # Halved with each step: the windows become narrower.
         reach = FARTHEST / 2**step
         moved = [
-            _move_borders(
-                run,
-                features[run.recording],
-                rates[run.recording],
-                template,
-                weights,
-                offsets,
-                reach,
-            )
-            for run in runs
+            _move_borders(run, features, rates, template, weights, offsets, reach) for run in runs
         ]
         # The mean move, in cycles: the template must not wander.
         drift = float(np.mean(np.concatenate([
@@ -291,17 +253,12 @@ def _template(
     runs: list[Run], features: list[Floats], rates: list[float], offsets: Floats
 ) -> tuple[Floats, Floats]:
     """(window, dims): the mean about all inner borders; and (dims,): what share it explains."""
-    windows = [
-        sample_at(
-            features[run.recording],
-            rates[run.recording],
-            np.array(
-                [run.borders[i] + run.pace(i, offsets) for i in range(1, len(run.borders) - 1)]
-            ),
-        )
-        for run in runs
-        if len(run.borders) > 2
-    ]
+    windows = []
+    for run in runs:
+        times = [run.borders[i] + run.pace(i, offsets) for i in range(1, len(run.borders) - 1)]
+        if times:
+            values, rate = features[run.recording], rates[run.recording]
+            windows.append(sample_at(values, rate, np.array(times)))
     # (borders, window, dims).
     every = np.concatenate(windows)
     template = np.asarray(every.mean(axis=0))
@@ -313,16 +270,16 @@ def _template(
 
 def _move_borders(
     run: Run,
-    features: Floats,
-    rate: float,
+    features: list[Floats],
+    rates: list[float],
     template: Floats,
     weights: Floats,
     offsets: Floats,
     reach: float,
 ) -> Run:
     """Return the run with each border where the recording is most similar to the template."""
-    # The gradient per cycle; square roots of the weights go with differences that are squared
-    # later.
+    values, rate = features[run.recording], rates[run.recording]
+    # The gradient per cycle; square roots of the weights go with differences squared later.
     slope, roots = np.gradient(template, axis=0) * POINTS, np.sqrt(weights)
     shifts = np.linspace(-reach, reach, 13)
     borders, uncertainty = run.borders.copy(), np.full(len(run.borders), np.nan)
@@ -337,14 +294,14 @@ def _move_borders(
         # (shifts, window): times of the window for each tried shift.
         times = border + shifts[:, None] * run.period + pace
         # (shifts,): weighted squared difference to the template.
-        left = ((sample_at(features, rate, times) - template[used]) ** 2).sum(axis=1) @ weights
+        left = ((sample_at(values, rate, times) - template[used]) ** 2).sum(axis=1) @ weights
         best = int(left.argmin())
         shift = shifts[best]
         if 0 < best < len(shifts) - 1:
             # Vertex of the parabola through the three best shifts, in units of their spacing.
             shift += vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
         borders[i] = border + shift * run.period
-        window = sample_at(features, rate, borders[i] + pace)
+        window = sample_at(values, rate, borders[i] + pace)
         # Differences that remain at the new border give its uncertainty.
         left = roots * (window - template[used])
         uncertainty[i] = _deviation(left, roots * slope[used]) * run.period
@@ -370,17 +327,5 @@ def vertex(left: float, middle: float, right: float) -> float:
 
 
 def sample_at(values: Floats, rate: float, times: Floats) -> Floats:
-    """Values at any times in seconds, on straight lines between samples; the ends go on.
-
-    Parameters
-    ----------
-    values : (samples, dims) array
-    rate : float
-        Samples per second.
-    times : array
-
-    Returns
-    -------
-    array of the shape of the times, and dims
-    """
+    """Values (samples, dims) at times in seconds, between samples on lines; the ends go on."""
     return interpolate_frames(values, np.clip(times * rate, 0, len(values) - 1))

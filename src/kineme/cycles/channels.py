@@ -30,18 +30,18 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_texts
-from kineme.cycles.angles import (
+from kineme.cycles.events import foot_of, stance_of
+from kineme.cycles.joints import (
+    add_joint_centres,
     bend,
     cardan,
-    continuous,
     hinge_axis,
+    landmarks,
     measure_angle,
     measure_turn,
     normalize,
     remove_along,
 )
-from kineme.cycles.events import foot_of, stance_of
-from kineme.cycles.landmarks import add_joint_centres, landmarks
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import body_frame, heading
 from kineme.features.feet import speed_of
@@ -138,25 +138,22 @@ def channels_of(
     >>> [channel.name for channel in channels_of(motion, ["knee_*", "Head.up"])]
     ['knee_l', 'knee_r', 'Head.up']
     """
-    every = (
-        make_motion_channels(recording)
-        if isinstance(recording, Motion)
-        else _make_signal_channels(recording)
-    )
+    if isinstance(recording, Motion):
+        every = make_motion_channels(recording)
+    else:
+        every = _make_signal_channels(recording)
     # Contacts follow, unless a channel of this name is there already.
     every += [each for each in contacts_of(recording) if each.name not in {c.name for c in every}]
     for signals in beside:
         every += _make_signal_channels(signals)
+    usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
     if names is None:
-        usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
         return usual or [channel for channel in every if channel.group == "speed"]
     chosen: dict[str, Channel] = {}
     for pattern in as_texts(names, "names of channels"):
         matching = [each for each in every if fnmatchcase(each.name, pattern)]
         if not matching:
-            choices = [each.name for each in every if each.group in (ANGLE, CHANNEL)] or [
-                each.name for each in every
-            ]
+            choices = [each.name for each in usual or every]
             more = ", …" if len(choices) > _SHOWN else ""
             raise ParameterError(
                 f"no channel {pattern!r}; there are {', '.join(choices[:_SHOWN])}{more} "
@@ -195,11 +192,17 @@ def make_motion_channels(motion: Motion) -> list[Channel]:
         source = ", ".join(each if isinstance(each, str) else names[each] for each in of)
         channels.append(Channel(name, unit, group, source, fps, compute, gaps))
 
-    faces = _faces(motion)
+    try:
+        # Without jumps by 360 degrees.
+        facing = np.degrees(np.unwrap(heading(motion)[1]))
+    except (EndEffectorError, MotionError):
+        facing = None  # nothing tells where the body faces
+    _add_bends(extended.positions, parts, add)
     _add_angles(extended, parts, add)
-    if faces:
-        add("heading", DEGREES, "direction", ["the line of the hips"], partial(_heading, motion))
-    _add_joints(motion, faces, add)
+    if facing is not None:
+        source = ["the line of the hips"]
+        add("heading", DEGREES, "direction", source, partial(np.asarray, facing))
+    _add_joints(motion, facing is not None, add)
     return channels
 
 
@@ -207,51 +210,33 @@ def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
     """Rotation, position and speed of each joint."""
     places, rotations = motion.positions, motion.rotations
     joints = [*enumerate(motion.skeleton.names)]
+
+    def add_axes(name: str, axes: Iterable[str], unit: str, group: str, joint: int,
+                 compute: Compute) -> None:  # fmt: skip
+        for place, axis in enumerate(axes):
+            add(f"{name}.{axis}", unit, group, [joint], partial(_column, compute, place))
+
     for joint, name in joints:
         if rotations is not None and joint not in motion.skeleton.end_sites:
-            for place, axis in enumerate("xzy"):
-                compute = partial(_rotation, rotations, joint, place)
-                add(f"{name}.r{axis}", DEGREES, "rotation", [joint], compute)
+            compute = partial(cardan, rotations[:, joint])
+            add_axes(name, ("rx", "rz", "ry"), DEGREES, "rotation", joint, compute)
     for joint, name in joints:
-        for place, axis in enumerate("xyz"):
-            add(f"{name}.{axis}", "m", "position", [joint], partial(_place, places, joint, place))
+        add_axes(name, "xyz", "m", "position", joint, partial(np.asarray, places[:, joint]))
     for joint, name in joints if faces else []:
-        for place, axis in enumerate(("left", "up", "ahead")):
-            compute = partial(_from_pelvis, motion, joint, place)
-            add(f"{name}.{axis}", "m", "from the pelvis", [joint], compute)
+        compute = partial(body_frame, motion, (joint,))
+        add_axes(name, ("left", "up", "ahead"), "m", "from the pelvis", joint, compute)
     for joint, name in joints:
         compute = partial(speed_of, places[:, joint], motion.fps)
         add(f"{name}.speed", "m/s", "speed", [joint], compute)
 
 
-def _faces(motion: Motion) -> bool:
-    """Return whether anything tells where the body faces."""
-    try:
-        heading(motion)
-    except (EndEffectorError, MotionError):
-        return False
-    return True
+def _column(compute: Compute, place: int) -> Floats:
+    """Return one number of each frame, of the several that a function gives."""
+    return np.asarray(compute()[..., place]).ravel()
 
 
-def _heading(motion: Motion) -> Floats:
-    return continuous(np.degrees(heading(motion)[1]))
-
-
-def _rotation(rotations: Floats, joint: int, place: int) -> Floats:
-    return np.asarray(cardan(rotations[:, joint])[:, place])
-
-
-def _place(places: Floats, joint: int, axis: int) -> Floats:
-    return places[:, joint, axis]
-
-
-def _from_pelvis(motion: Motion, joint: int, axis: int) -> Floats:
-    return np.asarray(body_frame(motion, (joint,))[:, 0, axis])
-
-
-def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
-    """Knees, elbows, hips, ankles, shoulders and the trunk, as far as their joints are there."""
-    places = motion.positions
+def _add_bends(places: Floats, joints: Mapping[str, int], add: Add) -> None:
+    """Knees, elbows and ankles, as far as their joints are there."""
     bent = (
         ("knee", ("hip", "knee", "ankle"), 0.0),
         ("elbow", ("shoulder", "elbow", "wrist"), 0.0),
@@ -269,16 +254,29 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
                 compute = partial(_flexion, places, chain, thigh, hips)
             if min(chain) >= 0:
                 add(f"{name}_{side[0]}", DEGREES, ANGLE, chain, compute)
+
+
+def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
+    """Hips, shoulders and the trunk."""
+    places = motion.positions
     hips = [joints.get(f"{side}_hip", -1) for side in SIDES]
     shoulders = [joints.get(f"{side}_shoulder", -1) for side in SIDES]
     if min(hips) < 0:
         return
-    has_trunk = min(shoulders) >= 0
     for side, hip in zip(SIDES, hips, strict=True):
         if f"{side}_knee" in joints:
-            knee = joints[f"{side}_knee"]
-            _add_hip(motion, f"hip_{side[0]}", (hip, knee), hips, shoulders, add)
-    if not has_trunk:
+            thigh = hip, joints[f"{side}_knee"]
+            pelvis = motion.skeleton.parents[hip]
+            if motion.rotations is not None and pelvis >= 0:
+                against = f"against {motion.skeleton.names[pelvis]}"
+                compute = partial(_against_pelvis, motion, *thigh, hips)
+            elif min(shoulders) >= 0:
+                against = "against the trunk"
+                compute = partial(_against_trunk, places, *thigh, hips, shoulders)
+            else:
+                continue
+            add(f"hip_{side[0]}", DEGREES, ANGLE, [against, *thigh], compute)
+    if min(shoulders) < 0:
         return
     for side, shoulder in zip(SIDES, shoulders, strict=True):
         elbow = joints.get(f"{side}_elbow")
@@ -289,27 +287,6 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     for name, sideways in (("trunk_lean", False), ("trunk_side", True)):
         compute = partial(_lean, places, hips, shoulders, sideways=sideways)
         add(name, DEGREES, ANGLE, [*hips, *shoulders], compute)
-
-
-def _add_hip(
-    motion: Motion,
-    name: str,
-    thigh: tuple[int, int],
-    hips: Sequence[int],
-    shoulders: Sequence[int],
-    add: Add,
-) -> None:
-    """A thigh against the pelvis, where its rotation is there, else against the trunk."""
-    pelvis = motion.skeleton.parents[thigh[0]]
-    if motion.rotations is not None and pelvis >= 0:
-        against = f"against {motion.skeleton.names[pelvis]}"
-        compute = partial(_against_pelvis, motion, *thigh, hips)
-    elif min(shoulders) >= 0:
-        against = "against the trunk"
-        compute = partial(_against_trunk, motion.positions, *thigh, hips, shoulders)
-    else:
-        return
-    add(name, DEGREES, ANGLE, [against, *thigh], compute)
 
 
 def _bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
@@ -350,10 +327,8 @@ def _trunk(places: Floats, hips: Sequence[int], shoulders: Sequence[int]) -> Flo
 def _against_trunk(
     places: Floats, hip: int, knee: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
-    to_left = places[:, hips[0]] - places[:, hips[1]]
-    return -measure_turn(
-        to_left, -_trunk(places, hips, shoulders), places[:, knee] - places[:, hip]
-    )
+    to_left, thigh = places[:, hips[0]] - places[:, hips[1]], places[:, knee] - places[:, hip]
+    return -measure_turn(to_left, -_trunk(places, hips, shoulders), thigh)
 
 
 def _measure_arm_raise(

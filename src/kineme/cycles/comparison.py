@@ -20,7 +20,16 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import check_flag, check_type
-from kineme.cycles.table import CONFIDENCE, Columns, Cycles, is_phase, mean_phase, phase_differences
+from kineme.cycles.table import (
+    CONFIDENCE,
+    Columns,
+    Cycles,
+    as_columns,
+    half_width,
+    is_phase,
+    mean_phase,
+    phase_differences,
+)
 from kineme.errors import ParameterError
 
 MEASURES = ("range", "min", "max", "mean", "min_at", "max_at")
@@ -78,35 +87,25 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
                 lines.append((group, left, right, measure, *compared))
     names = ("group", "left_channel", "right_channel", "measure", "n", "left", "right",
              "difference", "low", "high", "symmetry_index")  # fmt: skip
-    columns = zip(*lines, strict=True) if lines else [()] * len(names)
-    return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
+    return as_columns(names, lines)
 
 
 def sides_of(channels: tuple[str, ...]) -> list[tuple[str, str]]:
-    """Return the channels of left sides with those of the right.
-
-    Without those that have no other side.
-    """
-    pairs = ((name, right_of(name)) for name in channels)
-    return [(left, right) for left, right in pairs if right != left and right in channels]
-
-
-def right_of(name: str) -> str:
-    """Return the channel of the right side to one of the left.
-
-    The name itself where it is of no side.
-    """
-    # The case of the word is kept; a name that has no `left` may end in `_l`.
-    turned = re.sub("left", lambda found: _RIGHT.get(found[0], "right"), name, flags=re.IGNORECASE)
-    return turned if turned != name else re.sub("_l$", "_r", name)
+    """Return the channels of left sides, each with that of the right, where both are there."""
+    pairs = []
+    for left in channels:
+        # The case of the word is kept; a name that has no `left` may end in `_l`.
+        right = re.sub("left", lambda word: _RIGHT.get(word[0], "right"), left, flags=re.IGNORECASE)
+        right = right if right != left else re.sub("_l$", "_r", left)
+        if right != left and right in channels:
+            pairs.append((left, right))
+    return pairs
 
 
 def _compare_values(
     left: Floats, right: Floats, measure: str, *, indexed: bool
 ) -> tuple[float, ...]:
     """Number, means, difference with bounds, symmetry index."""
-    from scipy.special import stdtrit
-
     both = np.isfinite(left) & np.isfinite(right)
     n = int(both.sum())
     if n == 0:
@@ -117,11 +116,7 @@ def _compare_values(
     if is_phase(measure):
         apart = phase_differences(apart)
         of_left, of_right = mean_phase(left[both]), mean_phase(right[both])
-    mean = apart.mean()
-    half = np.nan
-    if n > 1:
-        # Student's t with n - 1 degrees of freedom times the standard error of the mean difference.
-        half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * apart.std(ddof=1) / np.sqrt(n)
+    mean, half = apart.mean(), half_width(apart.std(ddof=1) if n > 1 else np.nan, n)
     total = of_left + of_right
     # Per cent of the mean of both sides: 100 / (total / 2).
     index = 200 * mean / total if indexed and total > 0 else np.nan
@@ -161,19 +156,12 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
     >>> table["group"][0].item(), table["measure"][0].item(), table["difference"][0].item()
     ('walk', 'duration_s', 0.0)
     """
-    groups = _common(first, second)
-    sides = [each.summary(ends=ends) for each in (first, second)]
-    rows = [np.isin(side["group"], groups) for side in sides]
-    keys = [list(zip(s["group"][r].tolist(), s["measure"][r].tolist(), strict=True))
-            for s, r in zip(sides, rows, strict=True)]  # fmt: skip
-    # Rows of the second summary, in the order of the first.
-    order = [keys[1].index(key) for key in keys[0]]
-    one = {name: column[rows[0]] for name, column in sides[0].items()}
-    two = {name: column[rows[1]][order] for name, column in sides[1].items()}
-    compared = _join_sessions(("group", "measure"), one, two)
+    _check_comparable(first, second)
+    summaries = (each.summary(ends=ends) for each in (first, second))
+    compared = _join_sessions(("group", "measure"), *summaries)
     # A difference of phases goes the shorter way round; its bounds are moved as much.
     difference = compared["difference"]
-    turned = np.where([is_phase(m) for m in one["measure"].tolist()],
+    turned = np.where([is_phase(measure) for measure in compared["measure"].tolist()],
                       phase_differences(difference) - difference, 0.0)  # fmt: skip
     return compared | {name: compared[name] + turned for name in ("difference", "low", "high")}
 
@@ -209,48 +197,44 @@ def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Colu
     >>> len(compare_curves(cycles, cycles)["percent"]) == 101 * len(cycles.groups)
     True
     """
-    groups = _common(first, second)
+    _check_comparable(first, second)
     if first.curves.shape[2] != second.curves.shape[2]:
         raise ParameterError(
             f"curves of {first.curves.shape[2]} and of {second.curves.shape[2]} points cannot be "
             "compared: measure both with the same points="
         )
-    one, two = (each.mean_curves(ends=ends) for each in (first, second))
-    # Curves are blocks of channels times points, one block for each group in order.
-    rows = np.isin(one["group"], groups)
-    place = {group: i for i, group in enumerate(second.groups)}
-    size = first.curves.shape[2] * len(first.channels)
-    # Rows of the second in the order of the groups of the first.
-    order = np.concatenate([np.arange(size) + size * place[group] for group in first.groups
-                            if group in place])  # fmt: skip
-    return _join_sessions(
-        ("group", "channel", "percent"),
-        {name: column[rows] for name, column in one.items()},
-        {name: column[order] for name, column in two.items()},
-    )
+    curves = (each.mean_curves(ends=ends) for each in (first, second))
+    return _join_sessions(("group", "channel", "percent"), *curves)
 
 
-def _common(first: Cycles, second: Cycles) -> list[str]:
-    """Return the groups that are in both; ParameterError where nothing can be compared."""
+def _check_comparable(first: Cycles, second: Cycles) -> None:
+    """Raise ParameterError where nothing can be compared."""
     for each in (first, second):
         check_type(
             each, Cycles, "comparing sessions", "kineme.cycles(recording, segments) gives them"
         )
     if first.channels != second.channels:
         raise ParameterError("two sessions are compared by the same channels: choose them by name")
-    groups = [group for group in first.groups if group in second.groups]
-    if not groups:
+    if not {*first.groups} & {*second.groups}:
         raise ParameterError(
             f"no group is in both sessions: {', '.join(first.groups) or 'none'} and "
             f"{', '.join(second.groups) or 'none'}; name clusters alike, or say with --common "
             "(common=True) that equal numbers are equal movements: in the studio, or by `kineme "
             "library name` and `export`, whose table --segments takes"
         )
-    return groups
 
 
 def _join_sessions(keys: Sequence[str], first: Columns, second: Columns) -> Columns:
-    """Return the rows of both side by side: keys, numbers, differences and their bounds."""
+    """Return the rows whose keys are in both: keys, numbers, differences and their bounds."""
+    places, others = (
+        {key: row for row, key in enumerate(zip(*(each[k].tolist() for k in keys), strict=True))}
+        for each in (first, second)
+    )
+    # In the order of the first.
+    rows = [row for key, row in places.items() if key in others]
+    order = [others[key] for key in places if key in others]
+    first = {name: column[rows] for name, column in first.items()}
+    second = {name: column[order] for name, column in second.items()}
     numbers = ("n", "mean", "sd")
     difference, low, high = _welch(*(each[name] for each in (first, second) for name in numbers))
     return {

@@ -79,7 +79,7 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     """
     from scipy.ndimage import gaussian_filter1d
 
-    turning = _columns(rates, "rates", 3)
+    turning = _points(rates, "rates")
     # Remove the constant bias of the sensor.
     turning = turning - np.median(turning, axis=0)
     turning = gaussian_filter1d(turning, SMOOTH_S * fps, axis=0, mode="nearest")
@@ -98,11 +98,12 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     rises = sum(float(pitch[a : a + max(1, int(FIRST * (b - a)))].sum()) for a, b in moves)
     if rises > 0:
         pitch = -pitch  # the heel rises with a negative turn, the foot swings with a positive one
-    parts = [
-        part for a, b in _join_movements(moves, pitch, fps) for part in _parts(pitch, a, b, fps)
+    swings = [
+        (start + swing[0], start + swing[1])
+        for move in _join_movements(moves, pitch, fps)
+        for start, stop in _parts(pitch, *move, fps)
+        if (swing := _swing(pitch[start:stop])) is not None
     ]
-    found = [(a, _swing(pitch[a:b])) for a, b in parts]
-    swings = [(a + each[0], a + each[1]) for a, each in found if each is not None]
     seconds = np.array(swings, np.float64).reshape(-1, 2) / fps
     # The shortest spans are no swings, but jerks of a standing foot.
     return seconds[np.diff(seconds, axis=1)[:, 0] >= SWING_S]
@@ -172,10 +173,9 @@ def _crossing(values: Floats, start: int, stop: int, level: float) -> float:
     changed = np.flatnonzero(np.signbit(span) != np.signbit(span[0]))
     if len(changed) == 0:
         return float(stop)
-    at = int(changed[0])
-    before, after = span[at - 1], span[at]
+    before = int(changed[0]) - 1
     # Straight line between the frames before and after the crossing.
-    return start + at - 1 + float(before / (before - after))
+    return start + before + float(span[before] / (span[before] - span[before + 1]))
 
 
 def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
@@ -203,7 +203,7 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     """
     if not points:
         raise ParameterError("a foot needs one point at least: its heel, its toe or its ankle")
-    paths = [_columns(each, "points", 3) for each in points]
+    paths = [_points(each, "points") for each in points]
     if len({len(path) for path in paths}) > 1:
         raise ParameterError("the points of a foot must be of the same frames")
     # (frames, 3): how far the ground has moved since the start.
@@ -218,27 +218,8 @@ def ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
     """Return the velocity of what carries a foot: of the belt of a treadmill, else 0.
 
     A foot is low mostly while it stands, so the median velocity of its low points is the ground's.
-    On a belt the foot comes back to where it was; overground it travels with the body.
-
-    Parameters
-    ----------
-    points : sequence of (frames, 3) array
-        Heel and toe of one foot in metres, y up.
-    fps : float
-        Frames per second.
-
-    Returns
-    -------
-    (3,) array
-        Metres per second; level.
-
-    Examples
-    --------
-    >>> t = np.arange(0, 4, 0.01)
-    >>> forward = 0.6 - 0.5 * (t % 1)  # carried back for a second, lifted forward at once
-    >>> path = np.stack([forward, 0 * t, 0 * t], axis=1)
-    >>> ground_velocity([path], 100.0).round(3).tolist()
-    [-0.5, 0.0, 0.0]
+    On a belt the foot comes back to where it was; overground it travels with the body. The points
+    are (frames, 3), metres, y up; the result (3,), metres per second, is level.
     """
     if len(points[0]) < 2:
         return np.zeros(3)
@@ -298,10 +279,10 @@ def _lasting(stands: NDArray[np.bool_], fps: float) -> Floats:
     return np.array(lasting, np.float64).reshape(-1, 2) / fps
 
 
-def _columns(values: ArrayLike, name: str, n: int) -> Floats:
+def _points(values: ArrayLike, name: str) -> Floats:
     array = as_floats(values, name)
-    if array.ndim != 2 or array.shape[1] != n or len(array) == 0:
-        raise ParameterError(f"{name} must be frames x {n}, not of shape {array.shape}")
+    if array.ndim != 2 or array.shape[1] != 3 or len(array) == 0:
+        raise ParameterError(f"{name} must be frames x 3, not of shape {array.shape}")
     if not np.isfinite(array).all():
         raise ParameterError(f"{name} hold a value that is not finite")
     return array

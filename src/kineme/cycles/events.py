@@ -20,7 +20,7 @@ from kineme.cycles.contacts import (
     stands_from_positions,
     swings_from_gyroscope,
 )
-from kineme.cycles.landmarks import OTHER_SIDE, find_feet
+from kineme.cycles.joints import OTHER_SIDE, find_feet
 from kineme.cycles.table import Columns
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Motion, Signals
@@ -74,11 +74,8 @@ class Events:
         return len(self.times)
 
     def __repr__(self) -> str:
-        events, names = (
-            format_count(len(self), "event"),
-            format_count(len({*self.names}), "name"),
-        )
-        return f"<Events: {events} of {names}>"
+        names = format_count(len({*self.names}), "name")
+        return f"<Events: {format_count(len(self), 'event')} of {names}>"
 
     def at(self, name: str) -> Floats:
         """Return the seconds of all events of a name; none where it does not happen.
@@ -180,16 +177,24 @@ def foot_events(
     times: list[float] = []
     names: list[str] = []
     sources: dict[str, str] = {}
+    is_body = isinstance(recording, Motion)
     for side, pattern in zip(SIDES, (left, right), strict=True):
-        found = (
-            _find_body_events(recording, side, pattern)
-            if isinstance(recording, Motion)
-            else _find_sensor_events(recording, side, pattern)
-        )
-        if found is None:
+        if is_body and pattern is not None:
+            raise ParameterError("left= and right= name channels of signals; this is a body")
+        foot = foot_of(recording, side, pattern)
+        if not foot:
             continue
-        strikes, offs, sources[side] = found
-        for seconds, event in ((strikes, STRIKE), (offs, OFF)):
+        sources[side] = (" and " if is_body else ", ").join(foot)
+        spans, are_stands = _contact_spans(recording, foot)
+        starts, stops = spans.T.tolist()
+        if are_stands:
+            # At an end of the recording or in a gap nobody saw the foot move.
+            starts, stops = (
+                [at for at in found if _is_recorded(at * recording.fps, recording)]
+                for found in (starts, stops)
+            )
+        for seconds, event in zip((starts, stops), (STRIKE, OFF) if are_stands else (OFF, STRIKE),
+                                  strict=True):  # fmt: skip
             times += seconds
             names += [f"{side} {event}"] * len(seconds)
     if not sources:
@@ -209,98 +214,15 @@ def foot_events(
     )
 
 
-Found = tuple[list[float], list[float], str]
-"""Seconds at which a foot comes down, at which it leaves the ground, and what they are from."""
+def foot_of(recording: Motion | Signals, side: str, pattern: str | None = None) -> list[str]:
+    """Return the joints or channels that tell whether the foot of a side stands; or none.
 
-
-def _find_body_events(motion: Motion, side: str, pattern: str | None) -> Found | None:
-    if pattern is not None:
-        raise ParameterError("left= and right= name channels of signals; this is a body")
-    points = _points(motion, side)
-    if not points:
-        return None
-    strikes, offs = _ends(_stands(motion, points), motion)
-    return strikes, offs, " and ".join(points)
-
-
-def _points(motion: Motion, side: str) -> list[str]:
-    return [motion.skeleton.names[joint] for joint in find_feet(motion).get(side, ())]
-
-
-def _stands(motion: Motion, points: Sequence[str]) -> Floats:
-    return stands_from_positions(_paths(motion, points), motion.fps)
-
-
-def _paths(motion: Motion, points: Sequence[str]) -> list[Floats]:
-    return [motion.positions[:, motion.skeleton.joint(name)] for name in points]
-
-
-def _find_sensor_events(signals: Signals, side: str, pattern: str | None) -> Found | None:
-    chosen = _channels(signals.names, side, pattern)
-    if chosen is None:
-        return None
-    source = ", ".join(chosen)
-    # One channel is a force, three are the axes of a gyroscope.
-    if len(chosen) == 1:
-        force = signals.values[:, signals.names.index(chosen[0])]
-        strikes, offs = _ends(stands_from_force(force, signals.fps), signals)
-    else:
-        offs, strikes = _swings(signals, chosen).T.tolist()
-    return strikes, offs, source
-
-
-def _swings(signals: Signals, chosen: Sequence[str]) -> Floats:
-    """Seconds from when and to when a foot swings whose gyroscope has these three axes."""
-    values = signals.values[:, [signals.names.index(name) for name in chosen]]
-    found = [
-        # Each span between gaps on its own; its times are counted from its start.
-        swings_from_gyroscope(values[start:stop], signals.fps) + start / signals.fps
-        for start, stop in signals.spans()
-    ]
-    # The empty array keeps the shape (0, 2) where there is no span.
-    return np.concatenate([np.empty((0, 2)), *found])
-
-
-def foot_of(recording: Motion | Signals, side: str) -> list[str]:
-    """Return the joints or channels that tell whether the foot of a side stands; or none."""
-    if isinstance(recording, Motion):
-        return _points(recording, side)
-    return _channels(recording.names, side, None) or []
-
-
-def stance_of(recording: Motion | Signals, side: str) -> Floats:
-    """100 in each frame in which the foot of a side stands, 0 in which it swings."""
-    chosen = foot_of(recording, side)
-    if isinstance(recording, Motion):
-        # Points give stands and gyroscopes give swings: the other state fills the rest.
-        stands, spans = 100.0, _stands(recording, chosen)
-    else:
-        stands, spans = 0.0, _swings(recording, chosen)
-    values = np.full(recording.n_frames, 100.0 - stands)
-    for start, stop in np.rint(spans * recording.fps).astype(np.intp).tolist():
-        values[start:stop] = stands
-    return values
-
-
-def _ends(stands: Floats, recording: Motion | Signals) -> tuple[list[float], list[float]]:
-    """Starts and stops of stands, but those at an end of the recording or in a gap."""
-
-    def inside(second: float) -> bool:
-        # At an end of the recording or in a gap nobody saw the foot move.
-        frame = second * recording.fps
-        return 0 < frame < recording.n_frames and not any(
-            a <= frame <= b for a, b in recording.gaps
-        )
-
-    starts, stops = stands.T.tolist() if len(stands) else ([], [])
-    return [*filter(inside, starts)], [*filter(inside, stops)]
-
-
-def _channels(names: Sequence[str], side: str, pattern: str | None) -> list[str] | None:
-    """Return the three axes of the gyroscope of a foot, else of a shank.
-
-    Or what a pattern names.
+    Channels are those that a pattern names, else the three axes of a gyroscope at the foot, else
+    at the shank.
     """
+    if isinstance(recording, Motion):
+        return [recording.skeleton.names[joint] for joint in find_feet(recording).get(side, ())]
+    names = recording.names
     if pattern is not None:
         chosen = [name for name in names if fnmatchcase(name, pattern)]
         if len(chosen) not in (1, 3):
@@ -310,16 +232,52 @@ def _channels(names: Sequence[str], side: str, pattern: str | None) -> list[str]
             )
         return chosen
     for place in ("*_foot_sensor", "*_shank_sensor"):
-        chosen = [name for name in names if _is_gyroscope(name, place, side)]
+        # An axis of a gyroscope, as ``lf_gyr_x``.
+        chosen = [
+            name
+            for name in names
+            if COORDINATE.fullmatch(name)
+            and has_word(name, GYROSCOPE)
+            and mentions(name, place, side=side)
+        ]
         if len(chosen) == 3:
             return chosen
-    return None
+    return []
 
 
-def _is_gyroscope(name: str, place: str, side: str) -> bool:
-    """Return whether a name is an axis of a gyroscope at this place, as ``lf_gyr_x``."""
-    is_axis = COORDINATE.fullmatch(name) is not None
-    return is_axis and has_word(name, GYROSCOPE) and mentions(name, place, side=side)
+def stance_of(recording: Motion | Signals, side: str) -> Floats:
+    """100 in each frame in which the foot of a side stands, 0 in which it swings."""
+    spans, are_stands = _contact_spans(recording, foot_of(recording, side))
+    inside = 100.0 if are_stands else 0.0
+    values = np.full(recording.n_frames, 100.0 - inside)
+    for start, stop in np.rint(spans * recording.fps).astype(np.intp).tolist():
+        values[start:stop] = inside
+    return values
+
+
+def _contact_spans(recording: Motion | Signals, foot: Sequence[str]) -> tuple[Floats, bool]:
+    """(spans, 2), seconds from when and to when a foot stands (True), or swings."""
+    if isinstance(recording, Motion):
+        joints = [recording.skeleton.joint(name) for name in foot]
+        return stands_from_positions(
+            [*recording.positions.swapaxes(0, 1)[joints]], recording.fps
+        ), True
+    values = recording.values[:, [recording.names.index(name) for name in foot]]
+    # One channel is a force, three are the axes of a gyroscope.
+    if len(foot) == 1:
+        return stands_from_force(values, recording.fps), True
+    swings = [
+        # Each span between gaps on its own; its times are counted from its start.
+        swings_from_gyroscope(values[start:stop], recording.fps) + start / recording.fps
+        for start, stop in recording.spans()
+    ]
+    # The empty array keeps the shape (0, 2) where there is no span.
+    return np.concatenate([np.empty((0, 2)), *swings]), False
+
+
+def _is_recorded(frame: float, recording: Motion | Signals) -> bool:
+    gaps = recording.gaps
+    return 0 < frame < recording.n_frames and not any(a <= frame <= b for a, b in gaps)
 
 
 def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
@@ -368,16 +326,16 @@ def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
 
 def _warn_implausible(gait: Columns) -> None:
     """Warn of means that no walk has, so that missed contacts do not pass for a finding."""
-    means = zip(gait["measure"].tolist(), gait["left_mean"].tolist(), gait["right_mean"].tolist(),
-                gait["asymmetry_percent"].tolist(), strict=True)  # fmt: skip
     said, unequal = [], []
-    for measure, left, right, asymmetry in means:
+    for i, measure in enumerate(gait["measure"].tolist()):
         if measure == "stance_percent":
-            said += [f"the {side} foot stands for {stance:.0f} % of a stride"
-                     for side, stance in (("left", left), ("right", right))
-                     if stance < STANCE[0] or stance > STANCE[1]]  # fmt: skip
-        if abs(asymmetry) > ASYMMETRY:
-            unequal.append(f"{measure} differs by {abs(asymmetry):.0f} % between the feet")
+            said += [
+                f"the {side} foot stands for {mean:.0f} % of a stride"
+                for side in SIDES
+                if (mean := gait[f"{side}_mean"][i]) < STANCE[0] or mean > STANCE[1]
+            ]
+        if (asymmetry := abs(gait["asymmetry_percent"][i])) > ASYMMETRY:
+            unequal.append(f"{measure} differs by {asymmetry:.0f} % between the feet")
     said += unequal[:1]
     if said:
         warnings.warn(
@@ -412,8 +370,8 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
     ['foot', 'start_s', 'stop_s', 'stride_s', 'stance_s', 'swing_s', 'stance_percent', ...]
     """
     check_type(events, Events, "gait", "foot_events(recording) gives them")
-    sides = [_strides(events, side, recording) for side in SIDES]
-    return {name: np.concatenate([side[name] for side in sides]) for name in sides[0]}
+    left, right = (_strides(events, side, recording) for side in SIDES)
+    return {name: np.concatenate([left[name], right[name]]) for name in left}
 
 
 def _strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:
@@ -453,7 +411,8 @@ def _strides(events: Events, side: str, recording: Motion | Signals | None) -> C
                          recording.n_frames - 1).astype(np.intp)  # fmt: skip
         # (2, strides, 3): the foot at both strikes.
         ends = recording.positions[frames, foot[0]]
-        ground = ground_velocity(_paths(recording, _points(recording, side)), recording.fps)
+        paths = [recording.positions[:, joint] for joint in foot]
+        ground = ground_velocity(paths, recording.fps)
         # On a treadmill the belt carried the foot back meanwhile.
         walked = (ends[1] - ends[0]) - stride[:, None] * ground
         # Axes 0 and 2 are level.

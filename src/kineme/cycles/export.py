@@ -96,7 +96,10 @@ def write_table(columns: Columns, path: str | PathLike[str]) -> None:
     check_path(path, "write_table")
     target = Path(path)
     if target.suffix.lower() == ".parquet":
-        _write_parquet(columns, target)
+        with require_extra("pyarrow", "tables"):
+            from pyarrow import parquet, table
+        with atomic_write(target) as draft:
+            parquet.write_table(table(columns), draft)
     elif target.suffix.lower() == ".csv":
         with atomic_write(target) as draft, draft.open("w", encoding="utf-8", newline="") as file:
             write_rows(file, [*columns], zip(*map(_cells, columns.values()), strict=True))
@@ -106,18 +109,9 @@ def write_table(columns: Columns, path: str | PathLike[str]) -> None:
 
 def _cells(column: np.ndarray[Any, Any]) -> list[Any]:
     """Return the cells of a column; an empty one where a number is not known."""
-    cells = column.tolist()
-    if column.dtype.kind == "f":
-        # Cells without a number are empty, as spreadsheets expect.
-        return ["" if isnan(cell) else cell for cell in cells]
-    return list(cells)
-
-
-def _write_parquet(columns: Columns, path: Path) -> None:
-    with require_extra("pyarrow", "tables"):
-        from pyarrow import parquet, table
-    with atomic_write(path) as draft:
-        parquet.write_table(table(columns), draft)
+    if column.dtype.kind != "f":
+        return list(column.tolist())
+    return ["" if isnan(cell) else cell for cell in column.tolist()]
 
 
 def _tables(cycles: Cycles, ends: bool) -> dict[str, Columns]:
@@ -145,11 +139,8 @@ def _write_excel(cycles: Cycles, path: Path, ends: bool) -> None:
         sheet = book.create_sheet(name)
         sheet.append([*columns])
         # Excel stores None as an empty cell, and "" as a text.
-        cells = [
-            [None if cell == "" else cell for cell in _cells(each)] for each in columns.values()
-        ]
-        for row in zip(*cells, strict=True):
-            sheet.append(row)
+        for row in zip(*map(_cells, columns.values()), strict=True):
+            sheet.append([None if cell == "" else cell for cell in row])
     sheet = book.create_sheet("provenance")
     for key, value in cycles.provenance.items():
         # A cell holds one value: structures become JSON.

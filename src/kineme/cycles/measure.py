@@ -2,29 +2,34 @@
 
 Segments say which repetitions there are and how many. Their borders are moved to one phase of
 their cluster and to a place between two frames (`kineme.cycles.borders`), and end where a pause
-begins (`kineme.cycles.runs`), or at an event (`kineme.cycles.anchors`). Then every channel is
-measured from border to border.
+begins, or at an event (`kineme.cycles.repetitions`). Then every channel is measured from border to
+border.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_indices, check_flag, check_one_of, check_type
 from kineme._util.files import as_display_name, make_person_suffix
 from kineme._version import __version__
 from kineme.cycles.align import ALIGNMENTS, LINEAR, align_curves
-from kineme.cycles.anchors import anchor_repetitions
 from kineme.cycles.channels import Channel, channels_of
-from kineme.cycles.runs import Repetition, movement, repetitions
-from kineme.cycles.table import BY_HAND, INCOMPLETE, STATISTICS, Columns, Cycles
+from kineme.cycles.repetitions import (
+    Repetition,
+    anchor_repetitions,
+    find_repetitions,
+    movement,
+)
+from kineme.cycles.table import BY_HAND, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
@@ -108,11 +113,7 @@ def cycles(
     >>> squats.columns["knee_l.max"][squats.columns["group"] == "squat"].round().tolist()
     [113.0, 102.0, 103.0, 111.0]
     """
-    given = _as_list(recordings)
-    check_type(segments, (Segmentation, Sequence), "cycles", "kineme.segment(recording) gives one")
-    tables = [segments] if isinstance(segments, Segmentation) else list(segments)
-    check_type(beside, Sequence, "cycles", "beside= takes a list of signals")
-    _check(given, tables, beside, points)
+    given, tables = _check_inputs(recordings, segments, beside, points)
     check_flag(common, "common")
     check_one_of(align, ALIGNMENTS, "align")
     names = _names(given)
@@ -120,24 +121,22 @@ def cycles(
     groups = [_groups(table, "" if common or len(given) == 1 else f"{name}: ")
               for table, name in zip(tables, names, strict=True)]  # fmt: skip
     measured = [channels_of(recording, channels, beside=beside) for recording in given]
-    _check_same(measured, names)
-    found = repetitions(given, tables, groups)
+    first = [channel.name for channel in measured[0]]
+    for each, name in zip(measured, names, strict=True):
+        if other := sorted({*first} ^ {channel.name for channel in each}):
+            raise ParameterError(
+                f"{names[0]} and {name} do not have the same channels: {', '.join(other[:8])}; "
+                "choose such as both have with channels="
+            )
+    found = find_repetitions(given, tables, groups)
     if anchor is not None:
         if not isinstance(anchor, str) and len(given) > 1:
             raise ParameterError("seconds of events belong to one recording: name them instead")
         found = anchor_repetitions(found, given, groups, anchor, beside)
     columns = _columns(found, tables, names, groups)
-    # Repetitions, channels, points.
-    curves = np.empty((len(found), len(measured[0]), points))
-    _measure([(each.recording, each.start, each.stop) for each in found], measured, columns, curves)
-    cycles = Cycles(
-        columns,
-        tuple(channel.name for channel in measured[0]),
-        tuple(channel.unit for channel in measured[0]),
-        _align_groups(curves, columns, align),
-        _provenance(given, tables, measured[0], found, columns, align),
-    )
-    return drop_left_out(cycles, tables)
+    provenance = _provenance(given, tables, found, columns)
+    spans = [(each.recording, each.start, each.stop) for each in found]
+    return drop_left_out(_measure(spans, measured, columns, align, points, provenance), tables)
 
 
 def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
@@ -154,80 +153,52 @@ def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
 
 
 def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
-    """Return the same cycles of one recording with other channels, from the borders that they have.
+    """Return the same cycles of one recording with other channels of it.
 
-    Parameters
-    ----------
-    cycles : Cycles
-    channels : sequence of Channel
-        Of the same recording, see `kineme.cycles.channels_of`.
-
-    Returns
-    -------
-    Cycles
-        As if `kineme.cycles` had measured these channels, without all that finds the borders. Of
-        curves in step (``align``) the first of these channels says where they are.
+    As if `kineme.cycles` had measured these, without all that finds the borders.
     """
     # Columns of the former channels make way for those of the new ones.
     former = {f"{channel}.{name}" for channel in cycles.channels for name in STATISTICS}
     columns = {name: column for name, column in cycles.columns.items() if name not in former}
-    spans = zip(columns["start_s"].tolist(), columns["stop_s"].tolist(), strict=True)
-    curves = np.empty((len(cycles), len(channels), cycles.curves.shape[2]))
-    _measure([(0, start, stop) for start, stop in spans], [channels], columns, curves)
-    return Cycles(
-        columns,
-        tuple(channel.name for channel in channels),
-        tuple(channel.unit for channel in channels),
-        _align_groups(curves, columns, cycles.provenance.get("align", LINEAR)),
-        {**cycles.provenance, "channels": {channel.name: channel.source for channel in channels}},
-    )
+    times = zip(columns["start_s"].tolist(), columns["stop_s"].tolist(), strict=True)
+    spans = [(0, start, stop) for start, stop in times]
+    align, points = cycles.provenance.get("align", LINEAR), cycles.curves.shape[2]
+    return _measure(spans, [channels], columns, align, points, cycles.provenance)
 
 
-def _as_list(recordings: Recordings) -> list[Motion | Signals]:
-    if isinstance(recordings, Motion | Signals):
-        return [recordings]
-    check_type(recordings, Sequence, "cycles", "kineme.read(path) gives a recording")
-    for each in recordings:
-        check_type(each, (Motion, Signals), "cycles", "kineme.read(path) gives one")
-    return list(recordings)
-
-
-def _check(
-    recordings: Sequence[Motion | Signals],
-    tables: Sequence[Segmentation],
+def _check_inputs(
+    recordings: Recordings,
+    segments: Segmentation | Sequence[Segmentation],
     beside: Sequence[Signals],
     points: int,
-) -> None:
+) -> tuple[list[Motion | Signals], list[Segmentation]]:
+    """Return recordings and tables as lists; an error where they do not belong together."""
+    given = [recordings] if isinstance(recordings, Motion | Signals) else recordings
+    check_type(given, Sequence, "cycles", "kineme.read(path) gives a recording")
+    tables = [segments] if isinstance(segments, Segmentation) else segments
+    check_type(tables, Sequence, "cycles", "kineme.segment(recording) gives one")
+    check_type(beside, Sequence, "cycles", "beside= takes a list of signals")
+    for recording in given:
+        check_type(recording, (Motion, Signals), "cycles", "kineme.read(path) gives one")
     for table in tables:
         check_type(table, Segmentation, "cycles", "kineme.segment(recording) gives one")
-    if not recordings or len(recordings) != len(tables):
+    for signals in beside:
+        check_type(signals, Signals, "cycles", "beside= takes a list of signals")
+    if not given or len(given) != len(tables):
         raise ParameterError(
-            f"cycles takes a segmentation of each recording, not {len(tables)} of {len(recordings)}"
+            f"cycles takes a segmentation of each recording, not {len(tables)} of {len(given)}"
         )
-    for recording, table in zip(recordings, tables, strict=True):
+    for recording, table in zip(given, tables, strict=True):
         if (table.n_frames, table.fps) != (recording.n_frames, recording.fps):
             raise ParameterError(
                 f"the segments are of {table.n_frames} frames at {table.fps:g} Hz, "
                 f"the recording has {recording.n_frames} at {recording.fps:g} Hz"
             )
-    for signals in beside:
-        check_type(signals, Signals, "cycles", "beside= takes a list of signals")
-    if beside and len(recordings) > 1:
+    if beside and len(given) > 1:
         raise ParameterError("beside= belongs to one recording: measure several one by one")
     if not 2 <= as_indices([points], "points")[0] <= MOST_POINTS:
         raise ParameterError(f"points is {points}: give 2 to {MOST_POINTS}")
-
-
-def _check_same(measured: Sequence[Sequence[Channel]], names: Sequence[str]) -> None:
-    """ParameterError unless all recordings have the same channels."""
-    first = [channel.name for channel in measured[0]]
-    for each, name in zip(measured, names, strict=True):
-        if (channel_names := [channel.name for channel in each]) != first:
-            other = sorted(set(first) ^ set(channel_names))
-            raise ParameterError(
-                f"{names[0]} and {name} do not have the same channels: {', '.join(other[:8])}; "
-                "choose such as both have with channels="
-            )
+    return list(given), list(tables)
 
 
 def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
@@ -251,19 +222,16 @@ def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
 
 def _groups(table: Segmentation, prefix: str) -> dict[int | str, str]:
     """By `movement` what its repetitions are summarised with: the label, or the cluster."""
-    found: dict[int | str, str] = {}
-    labels: dict[int | str, Counter[str]] = {}
-    activities = table.activities
+    labels: defaultdict[int | str, Counter[str]] = defaultdict(Counter)
     for row in table.primitives:
         if row.kind == "primitive":
-            label = row.label or str(activities.label[row.activity])
-            labels.setdefault(movement(row), Counter())[label] += 1
-    for what, counts in labels.items():
-        # The most frequent label of a movement names all of its repetitions.
-        label = counts.most_common(1)[0][0]
-        unnamed = "no cluster" if what == "" else f"cluster {what}"
-        found[what] = label or f"{prefix}{unnamed}"
-    return found
+            labels[movement(row)][row.label or str(table.activities.label[row.activity])] += 1
+    # The most frequent label of a movement names all of its repetitions.
+    return {
+        what: counts.most_common(1)[0][0]
+        or prefix + ("no cluster" if what == "" else f"cluster {what}")
+        for what, counts in labels.items()
+    }
 
 
 def _columns(
@@ -273,36 +241,42 @@ def _columns(
     groups: Sequence[dict[int | str, str]],
 ) -> Columns:
     """Return the columns of the table that are the same whatever is measured."""
-    fps = np.array([tables[each.recording].fps for each in found])
-    start = np.array([each.start for each in found])
-    stop = np.array([each.stop for each in found])
-    rows = [each.segment for each in found]
+
+    def column(kind: type, value: Callable[[Repetition], Any]) -> NDArray[Any]:
+        return np.array([value(each) for each in found], kind)
+
+    # Repetitions of an activity so far.
+    counts: Counter[tuple[int, int]] = Counter()
+    numbers = []
+    for each in found:
+        numbers.append(counts[each.recording, each.segment.activity])
+        counts[each.recording, each.segment.activity] += 1
+    fps = column(float, lambda each: tables[each.recording].fps)
+    start, stop = column(float, lambda each: each.start), column(float, lambda each: each.stop)
     return {
         "row": np.arange(len(found)),
-        "recording": np.array([names[each.recording] for each in found], np.str_),
-        "activity": np.array([row.activity for row in rows], np.int64),
-        "number": np.array([each.number for each in found], np.int64),
-        "cluster": np.array([row.cluster for row in rows], np.int64),
-        "label": np.array([row.label for row in rows], np.str_),
-        "group": np.array([groups[e.recording][movement(e.segment)] for e in found], np.str_),
-        "place": np.array([each.place for each in found], np.str_),
+        "recording": column(str, lambda each: names[each.recording]),
+        "activity": column(int, lambda each: each.segment.activity),
+        "number": np.array(numbers, int),
+        "cluster": column(int, lambda each: each.segment.cluster),
+        "label": column(str, lambda each: each.segment.label),
+        "group": column(str, lambda each: groups[each.recording][movement(each.segment)]),
+        "place": column(str, lambda each: each.place),
         "start_frame": start * fps,
         "stop_frame": stop * fps,
         "start_s": start,
         "stop_s": stop,
         "duration_s": stop - start,
-        "pause_s": np.array([each.pause for each in found], np.float64),
-        "start_deviation_s": np.array([each.start_deviation for each in found], np.float64),
-        "stop_deviation_s": np.array([each.stop_deviation for each in found], np.float64),
-        "confidence": np.array([row.confidence for row in rows], np.float64),
-        "border_confidence": np.array([row.border_confidence for row in rows], np.float64),
-        "activity_confidence": np.array(
-            [tables[e.recording].activities.confidence[e.segment.activity] for e in found],
-            np.float64,
+        "pause_s": column(float, lambda each: each.pause),
+        "start_deviation_s": column(float, lambda each: each.start_deviation),
+        "stop_deviation_s": column(float, lambda each: each.stop_deviation),
+        "confidence": column(float, lambda each: each.segment.confidence),
+        "border_confidence": column(float, lambda each: each.segment.border_confidence),
+        "activity_confidence": column(
+            float,
+            lambda each: tables[each.recording].activities.confidence[each.segment.activity],
         ),
-        "excluded": np.array(
-            [each.missing or ("" if each.complete else INCOMPLETE) for each in found], np.str_
-        ),
+        "excluded": column(str, lambda each: each.lacking),
     }
 
 
@@ -310,33 +284,40 @@ def _measure(
     spans: Sequence[tuple[int, float, float]],
     measured: Sequence[Sequence[Channel]],
     columns: Columns,
-    curves: Floats,
-) -> None:
-    """Fill in the statistics and the curves of each channel, one channel at a time.
+    align: str,
+    points: int,
+    provenance: Mapping[str, Any],
+) -> Cycles:
+    """Return the cycles with statistics and curves of each channel.
 
-    ``spans`` has of each cycle its recording, start and stop in seconds.
+    ``spans`` has of each cycle its recording, start and stop in seconds; ``measured`` the channels
+    of each recording.
     """
+    channels = measured[0]
+    curves = np.empty((len(spans), len(channels), points))
     # Values of a channel are computed for one channel at a time, so memory stays small.
-    for place, channel in enumerate(measured[0]):
+    for place, channel in enumerate(channels):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
         for number, of_one in enumerate(measured):
             values, fps = of_one[place].values(), of_one[place].fps
             for row, (recording, start, stop) in enumerate(spans):
                 if recording == number:
                     curves[row, place], statistics[row] = _measure_cycle(
-                        values, fps, start, stop, curves.shape[2]
+                        values, fps, start, stop, points
                     )
         for name, column in zip(STATISTICS, statistics.T, strict=True):
             columns[f"{channel.name}.{name}"] = column
-
-
-def _align_groups(curves: Floats, columns: Columns, align: str) -> Floats:
-    """Return the curves, those of each group in step; where nothing is measured, as they are."""
-    if curves.shape[1]:
-        for group in set(columns["group"].tolist()):
-            rows = columns["group"] == group
-            curves[rows] = align_curves(curves[rows], align)
-    return curves
+    for group in set(columns["group"].tolist()) if channels else ():
+        rows = columns["group"] == group
+        curves[rows] = align_curves(curves[rows], align)
+    sources = {channel.name: channel.source for channel in channels}
+    return Cycles(
+        columns,
+        tuple(channel.name for channel in channels),
+        tuple(channel.unit for channel in channels),
+        curves,
+        {**provenance, "channels": sources, "align": align},
+    )
 
 
 def _measure_cycle(
@@ -372,22 +353,16 @@ def _measure_cycle(
 def _provenance(
     recordings: Sequence[Motion | Signals],
     tables: Sequence[Segmentation],
-    channels: Sequence[Channel],
     found: Sequence[Repetition],
     columns: Columns,
-    align: str,
 ) -> dict[str, Any]:
     # One entry for each run: its repetitions were turned by the same share.
-    moved: dict[tuple[str, int, str], float] = {}
-    for each, name, group in zip(
-        found, columns["recording"].tolist(), columns["group"].tolist(), strict=True
-    ):
-        if abs(each.turned) >= TURNED:
-            moved[name, each.segment.activity, group] = each.turned
-    turned: list[dict[str, Any]] = [
-        {"recording": name, "activity": activity, "group": group, "by": round(by, 4)}
-        for (name, activity, group), by in moved.items()
-    ]
+    names, groups = columns["recording"].tolist(), columns["group"].tolist()
+    moved = {
+        (name, each.segment.activity, group): each.turned
+        for each, name, group in zip(found, names, groups, strict=True)
+        if abs(each.turned) >= TURNED
+    }
     return {
         "kineme": __version__,
         "recordings": [
@@ -398,13 +373,13 @@ def _provenance(
             }
             for each, table in zip(recordings, tables, strict=True)
         ],
-        "channels": {channel.name: channel.source for channel in channels},
-        "align": align,
-        "turned": turned,
+        "turned": [
+            {"recording": name, "activity": activity, "group": group, "by": round(by, 4)}
+            for (name, activity, group), by in moved.items()
+        ],
         "notes": [
-            "{group} in activity {activity} of {recording} begins ".format_map(each)
-            + f"{abs(each['by']):.0%} of a cycle {'later' if each['by'] > 0 else 'earlier'} "
-            "than its segments, where others of it begin"
-            for each in turned
+            f"{group} in activity {activity} of {name} begins {abs(round(by, 4)):.0%} of a cycle "
+            f"{'later' if by > 0 else 'earlier'} than its segments, where others of it begin"
+            for (name, activity, group), by in moved.items()
         ],
     }

@@ -9,7 +9,7 @@ section 2.2), and differences go the shorter way round.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -36,13 +36,7 @@ def is_phase(measure: str) -> bool:
 
 
 def mean_phase(phases: Floats) -> float:
-    """Return the mean direction, from 0 to 100; nan of none.
-
-    Examples
-    --------
-    >>> round(mean_phase(np.array([98.0, 4.0])), 6), round(mean_phase(np.array([40.0, 50.0])), 6)
-    (1.0, 45.0)
-    """
+    """Return the mean direction, from 0 to 100, as 1 of 98 and 4; nan of none."""
     if not len(phases):
         return np.nan
     # Unit vectors on a circle that is one cycle long.
@@ -51,13 +45,7 @@ def mean_phase(phases: Floats) -> float:
 
 
 def phase_differences(differences: Floats) -> Floats:
-    """Differences of places in a cycle, from -50 to 50.
-
-    Examples
-    --------
-    >>> phase_differences(np.array([96.0, -3.0, 50.0])).tolist()
-    [-4.0, -3.0, -50.0]
-    """
+    """Differences of places in a cycle, from -50 to 50."""
     # Shifted by half a cycle, so that the modulo leaves -50 to 50 instead of 0 to 100.
     return np.asarray((differences + CYCLE / 2) % CYCLE - CYCLE / 2)
 
@@ -230,11 +218,9 @@ class Cycles:
             if len(rows) < FEWEST:
                 continue
             curves, duration = self.curves[rows], self.columns["duration_s"][rows]
-            # (rows, channels): distance of each cycle from the median curve; a mean would follow
-            # outliers.
+            # (rows, channels): distance from the median curve; a mean would follow outliers.
             apart = _distances(curves - np.median(curves, axis=0))
-            # The factor turns the median deviation into standard deviations of a normal
-            # distribution.
+            # The factor makes a median deviation the standard one of a normal distribution.
             for values in (DEVIATION * np.abs(duration - np.median(duration)), *apart.T):
                 far |= set(rows[values > deviations * np.median(values)].tolist())
         return self.exclude(sorted(far), FAR)
@@ -308,18 +294,13 @@ class Cycles:
             for channel in self.channels
             for name in STATISTICS
         }
-        lines = [
-            (
-                group,
-                measure,
-                *_describe_values(values[used & (self.columns["group"] == group)], measure),
-            )
-            for group in self.groups
-            for measure, values in measures.items()
-        ]
+        lines: list[tuple[object, ...]] = []
+        for group in self.groups:
+            rows = used & (self.columns["group"] == group)
+            lines += [(group, measure, *_describe_values(values[rows], measure))
+                      for measure, values in measures.items()]  # fmt: skip
         names = ("group", "measure", "n", "mean", "sd", "cv", "median", "q25", "q75")
-        columns = zip(*lines, strict=True) if lines else [()] * len(names)
-        return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
+        return as_columns(names, lines)
 
     def mean_curves(self, *, ends: bool = False) -> Columns:
         """Mean curve, deviation and confidence band of each channel of each group, tidy.
@@ -335,21 +316,17 @@ class Cycles:
             Columns: ``group``, ``channel``, ``percent``, ``n``, ``mean``, ``sd``, ``low``, ``high``
             (of the mean, with a confidence of 95 %, by Student's t at each point).
         """
-        from scipy.special import stdtrit
-
         blocks: list[Columns] = []
-        used, points = self.used(ends=ends), self.curves.shape[2]
+        points = self.curves.shape[2]
         for group in self.groups:
-            for place, channel in enumerate(self.channels):
-                curves = self.curves[used & (self.columns["group"] == group), place]
+            for channel in self.channels:
                 # A gap would make the mean of its points one over fewer cycles.
-                curves = curves[np.isfinite(curves).all(axis=1)]
+                curves = self.layout(channel, group, ends=ends)
                 n = len(curves)
                 missing = np.full(points, np.nan)
                 mean = curves.mean(axis=0) if n else missing
                 sd = curves.std(axis=0, ddof=1) if n > 1 else missing
-                # Student's t at each point, n - 1 degrees of freedom.
-                half = stdtrit(n - 1, (1 + CONFIDENCE) / 2) * sd / np.sqrt(n) if n > 1 else missing
+                half = half_width(sd, n)
                 blocks.append(
                     {
                         "group": np.full(points, group),
@@ -455,6 +432,22 @@ class Cycles:
                 },
             },
         )
+
+
+def half_width(sd: Floats | float, n: int) -> Floats:
+    """Return by how much a mean of n may be off, with `CONFIDENCE`; nan of fewer than two."""
+    from scipy.special import stdtrit
+
+    # Student's t with n - 1 degrees of freedom times the standard error.
+    return np.asarray(
+        stdtrit(n - 1, (1 + CONFIDENCE) / 2) * sd / np.sqrt(n) if n > 1 else sd * np.nan
+    )
+
+
+def as_columns(names: Sequence[str], lines: Sequence[Sequence[object]]) -> Columns:
+    """Return lines of a table as columns by name."""
+    columns = zip(*lines, strict=True) if lines else [()] * len(names)
+    return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
 
 
 def count_confidence(confidence: Floats, borders: Floats) -> float:

@@ -12,20 +12,22 @@ from kineme.evaluation.annotators import (
     annotator_agreement,
     fleiss_kappa,
 )
-from kineme.evaluation.borders import (
+from kineme.evaluation.comparison import Comparison, Spans, compare
+from kineme.evaluation.label_truth import labelling_of
+from kineme.evaluation.measures import (
     BorderScore,
     border_ratio,
     border_score,
     cluster_ratio,
+    cohen_kappa,
+    count_errors,
     covering,
     cut_ratio,
-)
-from kineme.evaluation.comparison import Comparison, Spans, compare, labelling_of
-from kineme.evaluation.frames import (
-    cohen_kappa,
+    edit_score,
     frames_right,
     mutual_information,
     one_to_one_accuracy,
+    overlap_f1,
     rand_index,
 )
 from kineme.evaluation.score import (
@@ -36,7 +38,6 @@ from kineme.evaluation.score import (
     register,
     scores,
 )
-from kineme.evaluation.segments import count_errors, edit_score, overlap_f1
 from kineme.evaluation.truth import TRANSITION, Labelling, Truth
 
 __all__ = [

@@ -29,11 +29,11 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Ints
 from kineme._version import __version__
 from kineme.errors import KinemeError, ParameterError
-from kineme.evaluation.borders import border_score
 from kineme.evaluation.comparison import Comparison, Spans, best_mapping, runs
-from kineme.evaluation.frames import cohen_kappa
-from kineme.evaluation.inputs import comparison, truth_of
-from kineme.evaluation.tables import finite, plain
+from kineme.evaluation.inputs import comparison
+from kineme.evaluation.label_truth import truth_of
+from kineme.evaluation.measures import border_score, cohen_kappa
+from kineme.evaluation.score import finite, plain
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 from kineme.labels.collections import Extent, LabelSource
 from kineme.segments.segmentation import Segmentation
@@ -67,18 +67,9 @@ class Difference(NamedTuple):
 
 @dataclass(frozen=True)
 class RecordingAgreement:
-    """How far those who labelled a recording agree about it.
+    """How far those who labelled a recording agree about it, and where they differ.
 
-    Parameters
-    ----------
-    recording : str
-        Its name.
-    annotators : tuple of str
-        Who labelled it.
-    fleiss_kappa : float
-        Of these.
-    differences : tuple of Difference
-        In order; none is shorter than the tolerance of borders.
+    No difference is shorter than the tolerance of borders.
     """
 
     recording: str
@@ -122,31 +113,21 @@ class AnnotatorAgreement:
 
     def records(self) -> list[dict[str, Any]]:
         """One record for each pair, one for all, and one for each recording."""
-        over_all = {"recording": "*", "by": self.by}
-        return [
-            *(
-                {
-                    **over_all,
-                    "annotators": f"{pair.first}, {pair.second}",
-                    "cohen_kappa": pair.cohen_kappa,
-                    "border_f1": pair.border_f1,
-                }
-                for pair in self.pairs
-            ),
+        head = {"recording": "*", "by": self.by}
+        pairs = [
             {
-                **over_all,
-                "annotators": ", ".join(self.annotators),
-                "fleiss_kappa": self.fleiss_kappa,
-            },
-            *(
-                {
-                    "recording": one.recording,
-                    "by": self.by,
-                    "annotators": ", ".join(one.annotators),
-                    "fleiss_kappa": one.fleiss_kappa,
-                }
-                for one in self.recordings
-            ),
+                **head,
+                "annotators": f"{pair.first}, {pair.second}",
+                "cohen_kappa": pair.cohen_kappa,
+                "border_f1": pair.border_f1,
+            }
+            for pair in self.pairs
+        ]
+        kappas = [("*", self.annotators, self.fleiss_kappa)]
+        kappas += [(one.recording, one.annotators, one.fleiss_kappa) for one in self.recordings]
+        return pairs + [
+            {**head, "recording": name, "annotators": ", ".join(who), "fleiss_kappa": kappa}
+            for name, who, kappa in kappas
         ]
 
     def to_json(self) -> str:
@@ -259,21 +240,17 @@ def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
     pairs = tuple(sides_by.pair(first, second) for first, second in combinations(people, 2))
     stacks = sides_by.stacks(people[0])
     all_of = [stacks[name] for name, sides in truths.items() if len(sides) == len(people)]
-    return AnnotatorAgreement(
-        people,
-        by,
-        fleiss_kappa(_counts(np.concatenate(all_of, axis=1))) if all_of else math.nan,
-        pairs,
-        tuple(
-            RecordingAgreement(
-                name,
-                tuple(sides),
-                fleiss_kappa(_counts(stacks[name])),
-                tuple(_differences(tuple(sides.values()), stacks[name])),
-            )
-            for name, sides in truths.items()
-        ),
+    together = fleiss_kappa(_counts(np.concatenate(all_of, axis=1))) if all_of else math.nan
+    recordings = tuple(
+        RecordingAgreement(
+            name,
+            tuple(sides),
+            fleiss_kappa(_counts(stacks[name])),
+            tuple(_differences(tuple(sides.values()), stacks[name])),
+        )
+        for name, sides in truths.items()
     )
+    return AnnotatorAgreement(people, by, together, pairs, recordings)
 
 
 Truths = Mapping[str, Mapping[str, Truth]]
@@ -405,13 +382,6 @@ def _differences(sides: Sequence[Truth], stack: Ints) -> Iterator[Difference]:
             yield Difference(run.start / fps, run.stop / fps, tuple(names))
 
 
-class AnnotatorLabels(NamedTuple):
-    """By recording and annotator what was read, and a sentence on each that could not be."""
-
-    labelled: dict[str, dict[str, Segmentation]]
-    failures: list[str]
-
-
 def extent_of(path: Path) -> Extent:
     """Return the extent of the recording in a file."""
     from kineme.formats import read
@@ -423,11 +393,12 @@ def extent_of(path: Path) -> Extent:
 def labels_of_annotators(
     sources: Mapping[str, Mapping[Path, LabelSource]],
     extent: Callable[[Path], Extent] = extent_of,
-) -> AnnotatorLabels:
+) -> tuple[dict[str, dict[str, Segmentation]], list[str]]:
     """Return the labels of the recordings for which two people or more have some.
 
     The sources are by annotator and recording, see `kineme.labels.collections.labels_of`; the
-    labels by the names of recordings, or by their paths where names come again.
+    labels by recording and annotator: the names of recordings, or their paths where names come
+    again. With them comes a sentence on each that could not be read.
     """
     paths = list(dict.fromkeys(path for places in sources.values() for path in places))
     names = [path.name for path in paths]
@@ -453,7 +424,7 @@ def labels_of_annotators(
                 if "activity" not in sides[who].activities.kind:
                     failures.append(f"{name}, {who}: {source.path} says nothing of it")
                     del sides[who]
-    return AnnotatorLabels(labelled, failures)
+    return labelled, failures
 
 
 def annotator_names(paths: Sequence[Path]) -> list[str]:
@@ -466,9 +437,8 @@ def annotator_names(paths: Sequence[Path]) -> list[str]:
     >>> annotator_names([Path("anna/labels.csv"), Path("ben/labels.csv")])
     ['anna/labels', 'ben/labels']
     """
-    plain = [
-        path.absolute() if path.is_dir() else path.absolute().with_suffix("") for path in paths
-    ]
+    whole = [path.absolute() for path in paths]
+    plain = [path if path.is_dir() else path.with_suffix("") for path in whole]
     # As many folders as it takes to make all names different.
     for parts in range(1, max(len(path.parts) for path in plain) + 1):
         names = ["/".join(path.parts[-parts:]) for path in plain]

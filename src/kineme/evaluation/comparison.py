@@ -30,8 +30,7 @@ from scipy.optimize import linear_sum_assignment
 
 from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
-from kineme.evaluation.label_truth import add_repetitions, truth_of
-from kineme.evaluation.label_truth import labelling_of as labelling_of  # noqa: PLC0414 (others have it from here)
+from kineme.evaluation.label_truth import add_repetitions, labelling_of, truth_of
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling, Truth
 from kineme.labels.spans import text_of
 from kineme.segments.segmentation import Segmentation
@@ -391,8 +390,7 @@ def runs(labels: ArrayLike) -> list[Run]:
     [Run(label=3, start=0, stop=2), Run(label=5, start=2, stop=3)]
     """
     per_frame = np.asarray(labels, np.int64)
-    # A run begins where the number changes; the + 1 since the difference belongs to the frame
-    # before.
+    # A run begins where the number changes: the difference belongs to the frame before.
     borders = [0, *(np.flatnonzero(np.diff(per_frame)) + 1).tolist(), len(per_frame)]
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
 

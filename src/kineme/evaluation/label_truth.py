@@ -42,7 +42,10 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
     groups = _groups(rows, pauses=single)
     inner = list(labels.primitives) or _repetitions(rows, groups, given, single=single)
     # A sum is known only if each row's count is.
-    counts = [_sum([given[i] for i in group if not _is_transition(rows[i])]) for group in groups]
+    known = [[given[i] for i in group if not _is_transition(rows[i])] for group in groups]
+    counts: list[Count] = [
+        sum(count or 0 for count in some) if some and None not in some else None for some in known
+    ]
     starts = [rows[group[0]].start_frame for group in groups]
     found = [row.start_frame for row in inner if not _is_transition(row)]
     # How many repetitions start in each group.
@@ -176,29 +179,18 @@ def _repetitions(
     *,
     single: bool,
 ) -> list[Segment]:
-    """Return the level of primitives that rows of the activity level make up.
-
-    Empty where they do not.
-    """
+    """Return the level of primitives that rows of the activity level make up, if they do."""
     inner: list[Segment] = []
     for group in groups:
         first, last = rows[group[0]], rows[group[-1]]
         cut = not _is_transition(first) and all(given[i] is None for i in group)
         if cut and (single or len(group) > 1):
-            kinds = (kind_of("primitive", transition=_is_transition(rows[i])) for i in group)
-            inner += [
-                replace(rows[i], level="primitive", kind=kind)
-                for i, kind in zip(group, kinds, strict=True)
-            ]
+            for row in (rows[i] for i in group):
+                kind = kind_of("primitive", transition=_is_transition(row))
+                inner.append(replace(row, level="primitive", kind=kind))
         else:  # nobody says
             # Primitives cover the whole recording, so the rest is a transition.
             inner.append(
                 Segment("primitive", "transition", first.start_frame, last.stop_frame, 0.0, 0.0)
             )
     return inner if any(row.kind == "primitive" for row in inner) else []
-
-
-def _sum(counts: Sequence[Count]) -> Count:
-    """Of all; None where one of them is not known, or there is none."""
-    numbers = [count for count in counts if count is not None]
-    return sum(numbers) if numbers and len(numbers) == len(counts) else None

@@ -1,4 +1,4 @@
-"""What a score is, which there are, and all of them of one result.
+"""Define scores, register them, and give all of one result, also as tables and in files.
 
 A score is a function of a `Comparison`: what people say of a recording, and what a method found
 there. It gives a number for one recording, or None where the two do not tell. Over a folder,
@@ -7,23 +7,32 @@ recordings first, so that long recordings weigh more.
 
 Other packages add scores by `register`, or by naming them in the entry point group
 ``kineme.scores``.
+
+nan, which a score is where it cannot be had, is empty in CSV and Markdown and null in JSON.
 """
 
 from __future__ import annotations
 
+import csv
+import json
 import math
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, get_args
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, Protocol, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from kineme._util.checks import Registry, check_one_of
-from kineme.errors import KinemeError, KinemeWarning
-from kineme.evaluation.comparison import Comparison, labelling_of
+from kineme._util.files import atomic_write
+from kineme._version import __version__
+from kineme.errors import KinemeError, KinemeWarning, WriteError
+from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.label_truth import labelling_of
 from kineme.evaluation.truth import Labelling, Truth
+from kineme.formats.delimited import as_text
 from kineme.segments.segmentation import Segmentation
 
 Counted = Literal["frames", "segments", "borders", "repetitions", "clusters", "published protocols"]
@@ -95,7 +104,7 @@ SCORES: Registry[Score] = Registry(
     "score",
     "kineme.scores",
     home="kineme.evaluation",
-    builtins=("frames:SCORES", "segments:SCORES", "borders:SCORES"),
+    builtins=("measures:SCORES",),
 )
 """In the order in which they are shown."""
 
@@ -229,7 +238,7 @@ def evaluate_segmentation(
     --------
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
-    >>> from kineme.evaluation.inputs import truth_of
+    >>> from kineme.evaluation.label_truth import truth_of
     >>> labels = kineme.read_segments(bundled_truth())
     >>> truth = truth_of(labels, n_frames=labels.n_frames, fps=labels.fps)
     >>> evaluate_segmentation(truth, labels)["one_to_one"]
@@ -264,9 +273,8 @@ def comparison_of(
 
 def value_of(result: Value) -> float:
     """Return the number that a score's function gave, be it one or a ratio; nan for None."""
-    if result is None:
-        return math.nan
-    return result.value if isinstance(result, Ratio) else float(result)
+    number = result.value if isinstance(result, Ratio) else result
+    return math.nan if number is None else float(number)
 
 
 def pool_scores(results: Iterable[Value]) -> float:
@@ -308,3 +316,113 @@ def one_of(
         return None if numbers is None else numbers[number]
 
     return function
+
+
+OUTPUTS = (".json", ".csv")
+DISAGREEMENT = 0.2
+"""Border F1 above Edit by more than this is explained under the table."""
+COST = {"seconds": "seconds", "seconds_per_hour": "seconds per hour"}
+"""What a result cost: no score, but shown below them."""
+
+
+def score_rows(
+    columns: Mapping[str, Mapping[str, float]],
+) -> list[tuple[str, list[tuple[str, list[str]]]]]:
+    """Groups of rows ready to print: a group's title, and per row its name and cells.
+
+    ``columns`` are scores by column title; those that are a number in none are left out.
+    """
+    titles: dict[str, dict[str, str]] = {}
+    for name, score in scores().items():
+        titles.setdefault(score.level, {})[name] = score.title
+    groups = []
+    for group, names in {**titles, "cost": COST}.items():
+        rows = [
+            (title, [format_score(values.get(name, math.nan)) for values in columns.values()])
+            for name, title in names.items()
+            if any(math.isfinite(values.get(name, math.nan)) for values in columns.values())
+        ]
+        if rows:
+            groups.append((group, rows))
+    return groups
+
+
+def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
+    """Return why scores of borders and of classes disagree, or "" if they do not."""
+    for values in columns.values():
+        by_class = values.get("edit", math.nan)
+        # False for nan.
+        if values.get("border_f1", math.nan) - by_class > DISAGREEMENT:
+            return (
+                "Borders are better than classes: Edit, F1@k and shares of frames also need the "
+                "right class, and a cluster stands for one label only. Look at labels that share a "
+                "cluster, or one label that has several."
+            )
+    return ""
+
+
+def format_score(value: float) -> str:
+    """Return a score with three digits behind the point, empty for nan."""
+    return f"{value:.3f}" if math.isfinite(value) else ""
+
+
+def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a Markdown table whose first column is left-aligned, the others right."""
+    lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
+    """Write records as JSON (with the version) or CSV, by suffix."""
+    suffix = path.suffix.lower()
+    if suffix not in OUTPUTS:
+        raise WriteError(path, f"scores are written as {' or '.join(OUTPUTS)}")
+    with (
+        atomic_write(path) as draft,
+        draft.open("w", encoding="utf-8", newline="\n" if suffix == ".json" else "") as file,
+    ):
+        if suffix == ".json":
+            file.write(f"{records_json(records)}\n")
+        else:
+            rows = [plain(record) for record in records]
+            names = list(dict.fromkeys(name for record in rows for name in record))
+            table = csv.DictWriter(file, names, lineterminator="\n")
+            table.writeheader()
+            table.writerows(
+                # Texts that look like formulas are protected for spreadsheets.
+                {k: as_text(v) if isinstance(v, str) else v for k, v in record.items()}
+                for record in rows
+            )
+
+
+def records_json(records: Sequence[Mapping[str, Any]]) -> str:
+    """Records as one JSON object, with the version."""
+    content = {"kineme": __version__, "scores": [plain(record) for record in records]}
+    return json.dumps(content, indent=1, ensure_ascii=False)
+
+
+class Result(Protocol):
+    """What a run over a folder gives."""
+
+    def to_json(self) -> str: ...
+
+    def records(self) -> Sequence[Mapping[str, Any]]: ...
+
+
+def write_result(result: Result, path: Path) -> None:
+    """Write all of a result as JSON, or its records as CSV, by suffix."""
+    if path.suffix.lower() != ".json":
+        write_records(result.records(), path)
+        return
+    with atomic_write(path) as draft:
+        draft.write_text(f"{result.to_json()}\n", encoding="utf-8")
+
+
+def finite(value: Any) -> Any:
+    """Return the value; None in place of a number that cannot be had."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def plain(record: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the record with None in place of numbers that cannot be had."""
+    return {name: finite(value) for name, value in record.items()}

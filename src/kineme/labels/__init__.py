@@ -1,4 +1,4 @@
-"""Segments as files: one module per format, chosen by its name, the file's content or suffix.
+"""Segments as files, in a format chosen by its name, the file's content or suffix.
 
 The package's own hold everything:
 
@@ -32,12 +32,13 @@ written unless ``format=`` names another. A format of your own is a `LabelFormat
 by `register` or by the entry point group ``kineme.label_formats``.
 """
 
-from kineme.labels.files import read_segments, write_segments
 from kineme.labels.registry import (
     LabelFormat,
     holds_labels,
     label_formats,
+    read_segments,
     register,
+    write_segments,
     written_suffixes,
 )
 from kineme.labels.spans import Labels, Span

@@ -85,7 +85,7 @@ def labels_of(recording: Mapping[str, Any], path: Path) -> Labels:
         Span(
             0.0 if one_span else _seconds(label, "start_t", path),
             length if one_span else _seconds(label, "end_t", path),
-            _text(label),
+            str(label.get("proc_label") or label.get("raw_label") or ""),
         )
         for label in labels
     ]
@@ -101,15 +101,8 @@ def _seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
     return float(value)
 
 
-def _text(label: Mapping[str, Any]) -> str:
-    return str(label.get("proc_label") or label.get("raw_label") or "")
-
-
 def _apart(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
-    """Return the spans cut where another begins or ends, with all their texts.
-
-    How many have several.
-    """
+    """Return the spans cut where another begins or ends, with all texts; how many have several."""
     solid = [span for span in spans if span.start < span.stop]
     # Empty and backward spans are kept as they are: reading refuses or drops them later.
     apart = [span for span in spans if not span.start < span.stop]

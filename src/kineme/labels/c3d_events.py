@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
@@ -25,9 +24,6 @@ from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
-
-if TYPE_CHECKING:
-    from kineme.formats.markers.c3d_file import C3D
 
 SIDES = ("left", "right", "general")
 """First words of a name that tell of which side an event is."""
@@ -160,7 +156,7 @@ def read(path: Path, names: Collection[str] | None = None) -> Labels:
     from kineme.formats.markers.c3d_file import parse_c3d
 
     file = parse_c3d(load(path))
-    length = _seconds(file)
+    length = len(file.points) / file.rate if file.rate else 0.0
     if not length:
         raise ReadError(path, "has no frame rate, which the times of events need")
     inside = [(at, name) for at, name in file.events if 0 <= at < length]
@@ -180,10 +176,6 @@ def read(path: Path, names: Collection[str] | None = None) -> Labels:
         if start < stop
     ]
     return Labels(spans, "seconds", file.rate, length)
-
-
-def _seconds(file: C3D) -> float:
-    return len(file.points) / file.rate if file.rate else 0.0
 
 
 FORMAT = LabelFormat(

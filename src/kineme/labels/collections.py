@@ -22,11 +22,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 from kineme._util.checks import format_count
+from kineme._util.files import translate_read_errors
 from kineme.errors import ReadError
 from kineme.labels import csv_table
 from kineme.labels.delimited import SAME_RATE, columns
-from kineme.labels.files import read_content, read_segments
-from kineme.labels.registry import format_to_read, holds_labels
+from kineme.labels.registry import format_to_read, holds_labels, read_content, read_segments
 from kineme.labels.spans import (
     TOO_FAR,
     Labels,
@@ -71,14 +71,11 @@ class LabelSource:
             labels = convert_to_frames(timed, rate, n_frames=n_frames)
             return as_segmentation(labels, self.path, name, fps=rate, n_frames=n_frames)[0]
         if content.n_frames != n_frames:
-            raise ReadError(
-                self.path, f"is of {content.n_frames} frames, but the recording has {n_frames}"
-            )
+            claim = f"is of {content.n_frames} frames, but the recording has {n_frames}"
+            raise ReadError(self.path, claim)
         if not isclose(content.fps, fps, rel_tol=SAME_RATE):
-            raise ReadError(
-                self.path,
-                f"is of {content.fps:g} frames per second, but the recording has {fps:g}",
-            )
+            claim = f"is of {content.fps:g} frames per second, but the recording has {fps:g}"
+            raise ReadError(self.path, claim)
         return content
 
 
@@ -183,10 +180,7 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
 
 
 def _first_frame(time: float, n_frames: int) -> int:
-    """Return the first frame at or after a time in frames.
-
-    The end for times beyond, however far.
-    """
+    """Return the first frame at or after a time in frames; the end for times beyond it."""
     # A frame has a label from the frame on whose time it begins: rounded up, with slack for digits.
     return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
@@ -204,22 +198,16 @@ class _Covered:
         meeting = slice(bisect_left(self._stops, start), bisect_right(self._starts, stop))
         starts, stops = self._starts[meeting], self._stops[meeting]
         # These become one span with the new one.
-        self._starts[meeting], self._stops[meeting] = (
-            [min([start, *starts])],
-            [max([stop, *stops])],
-        )
+        self._starts[meeting] = [min([start, *starts])]
+        self._stops[meeting] = [max([stop, *stops])]
         # Free is what lies between the covered spans, and before and after them.
         free = zip([start, *stops], [*starts, stop], strict=True)
         return [(begin, end) for begin, end in free if begin < end]
 
 
 def _find_in_table(path: Path) -> dict[str, LabelSource]:
-    try:
+    with translate_read_errors(path):
         tables = csv_table.intervals(path)
-    except OSError as error:
-        raise ReadError(path, f"cannot be read: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise ReadError(path, f"is not UTF-8 text (byte {error.start})") from error
     if "" in tables:
         raise ReadError(path, "names no recording in the column 'recording', which is needed")
     return {name: LabelSource(path, labels) for name, labels in tables.items()}

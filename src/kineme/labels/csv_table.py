@@ -21,7 +21,7 @@ import csv
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -33,6 +33,8 @@ from kineme.labels.delimited import (
     CUTS_KEY,
     digest_cuts,
     find_differences,
+    level_of,
+    new_text,
     number,
     read_rows,
     separator,
@@ -45,13 +47,7 @@ from kineme.labels.spans import Labels, Span
 from kineme.recordings.times import date_seconds, is_date
 from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import (
-    COLUMNS,
-    COMMENT,
-    Level,
-    Segment,
-    lacking,
-)
+from kineme.segments.table import COLUMNS, COMMENT, Segment, lacking
 
 Unit = Literal["seconds", "frames"]
 SPANS: dict[Unit, tuple[str, str]] = {
@@ -64,19 +60,13 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave the table at ``path`` and the rest beside it."""
     beside = provenance_path(path)
     head = head_of(segmentation) | {CUTS_KEY: _digest(segmentation.table.columns())}
-    with atomic_write(beside) as head_draft, atomic_write(path) as draft:
+    more: dict[str, Sequence[Any]] = {**segmentation.more_columns()}
+    if any(comments := assign_comments(segmentation)):
+        more[COMMENT] = comments
+    rows = zip(map(_cells, segmentation), *more.values(), strict=True)
+    with atomic_write(beside) as head_draft, new_text(path) as file:
         head_draft.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8")
-        with draft.open("w", encoding="utf-8", newline="") as file:
-            names = [*COLUMNS]
-            rows: Iterable[list[Any]] = map(_cells, segmentation)
-            if more := segmentation.more_columns():
-                names += more
-                both = zip(rows, zip(*more.values(), strict=True), strict=True)
-                rows = ([*cells, *others] for cells, others in both)
-            if any(comments := assign_comments(segmentation)):
-                names.append(COMMENT)
-                rows = ([*cells, text] for cells, text in zip(rows, comments, strict=True))
-            write_rows(file, names, rows)
+        write_rows(file, [*COLUMNS, *more], ([*cells, *others] for cells, *others in rows))
 
 
 def read(path: Path) -> Segmentation | Labels:
@@ -115,7 +105,7 @@ def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentatio
             return join_head(columns, head, path)
         notes = [*table.provenance.get("notes", ()), *changes]
         return replace(table, provenance={**table.provenance, "notes": notes})
-    return join_head(columns, _guessed_head(columns, path), path)
+    return join_head(columns, _guess_head(columns, path), path)
 
 
 def provenance_path(path: Path) -> Path:
@@ -131,10 +121,7 @@ def roundest_rate(n_frames: int, seconds: float) -> float:
 
 
 def intervals(path: Path) -> dict[str, Labels]:
-    """Return the labels of a table of intervals, by recording.
-
-    By ``""`` where it has no such column.
-    """
+    """Return the labels of a table of intervals, by recording; by "" without such a column."""
     unit: Unit = "seconds"
     spans: dict[str, list[Span]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
@@ -155,7 +142,9 @@ def intervals(path: Path) -> dict[str, Labels]:
                 for name, cell in cells.items()
             )
             count = _count(row, path, line)
-            span = Span(start, stop, _text(row), _level(row), _cluster(row), repetitions=count)
+            text = "transition" if row.get("kind") == "transition" else row["label"]
+            level = level_of(row.get("level"))
+            span = Span(start, stop, text, level, _cluster(row), repetitions=count)
             spans.setdefault(row.get("recording", ""), []).append(span)
     return {recording: Labels(some, unit) for recording, some in spans.items()}
 
@@ -173,19 +162,8 @@ def _intervals(path: Path) -> Labels:
     return next(iter(found.values()), Labels([]))
 
 
-def _text(row: dict[str, str]) -> str:
-    return "transition" if row.get("kind") == "transition" else row["label"]
-
-
-def _level(row: dict[str, str]) -> Level:
-    return "primitive" if row.get("level") == "primitive" else "activity"
-
-
 def _cluster(row: dict[str, str]) -> int:
-    """Return the number of a cluster, as in an exported library.
-
-    Other words there are people's own.
-    """
+    """Return a cluster's number, as in an exported library; other words are people's own."""
     text = row.get("cluster", "").strip()
     return int(text) if re.fullmatch("[0-9]{1,9}", text) else -1
 
@@ -245,8 +223,8 @@ def _rate(columns: dict[str, list[Any]]) -> float | None:
     return roundest_rate(n_frames, seconds) if valid else None
 
 
-def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
-    """n_frames and fps from the last row."""
+def _guess_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
+    """Return what lies beside a table, with length and frame rate from its last row."""
     n_frames, fps = max(columns["stop_frame"]), _rate(columns)
     if fps is None:
         seconds = max(columns["stop_s"])

@@ -11,15 +11,18 @@ import csv
 import math
 from codecs import BOM_UTF8
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from hashlib import sha256
 from itertools import chain
 from math import isclose
 from pathlib import Path
 from typing import Any, TextIO
 
-from kineme._util.files import read_head, read_tail
+from kineme._util.files import atomic_write, read_head, read_tail
 from kineme.errors import ReadError
 from kineme.formats.delimited import as_text, from_text
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level
 
 
 def read_rows(
@@ -56,6 +59,24 @@ def write_rows(
     writer = csv.writer(file, delimiter=delimiter, lineterminator="\n")
     for cells in chain([header], rows):
         writer.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in cells])
+
+
+@contextmanager
+def new_text(path: Path, *, newline: str = "") -> Iterator[TextIO]:
+    """Open a text file that takes the place of ``path`` once all is written."""
+    with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline=newline) as file:
+        yield file
+
+
+def source_path(segmentation: Segmentation) -> str:
+    """Return the file that was segmented, in characters that UTF-8 can hold."""
+    path = (segmentation.provenance.get("input") or {}).get("path") or ""
+    return str(path).encode(errors="backslashreplace").decode()
+
+
+def level_of(text: str | None) -> Level:
+    """Return the level that a cell names; activity where it names none."""
+    return "primitive" if text == "primitive" else "activity"
 
 
 def number(text: str, name: str, path: Path, line: int) -> float:
@@ -149,10 +170,8 @@ def find_differences(
             f"is of {row_rate:g} frames per second, but {beside.name} speaks of {head_rate:g}, "
             "and was written with another table: remove that file, or write both again",
         )
-    if side[CUTS_KEY] == found:
-        return ()
     note = (
         f"{path.name} is not the table that {beside.name} was written with: its cuts were moved "
         "since, or writing broke off between the two"
     )
-    return (note,)
+    return () if side[CUTS_KEY] == found else (note,)

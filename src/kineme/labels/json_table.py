@@ -1,4 +1,4 @@
-"""Segments as JSON, schema ``kineme.segments/2``.
+"""Segments as JSON, schema ``kineme.segments/2``, and as Parquet with the same schema.
 
 One object:
 
@@ -28,13 +28,16 @@ The columns are those of `kineme.segments.table`; a number that nobody knows is
 readers would misunderstand gets the next number. In ``kineme.segments/1``, which is read as
 well, ``confidence`` is called ``score``, a primitive is of kind ``activity``, and what is in the
 annotation stands in the provenance.
+
+A Parquet file has the table's columns as they are, no index; all but "segments" is JSON in its
+metadata under the key ``kineme.segments``.
 """
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -43,15 +46,19 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
 from kineme._util.json import decode_json
 from kineme.errors import ReadError
-from kineme.labels.delimited import head
+from kineme.formats.channels.parquet import parquet_columns, parquet_file
+from kineme.formats.files import load
+from kineme.labels.delimited import head, tail
 from kineme.labels.registry import LabelFormat
 from kineme.segments.annotation import Annotation
+from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment, SegmentTable, lacking
+from kineme.segments.table import COLUMNS, COMMENT, Segment, SegmentTable, lacking
 
 SCHEMA = "kineme.segments/2"
 INDEPENDENT = tuple(name for name, column in COLUMNS.items() if not column.derived)
@@ -96,7 +103,12 @@ def loads(content: bytes, path: Path) -> Segmentation:
         missing = lacking(row)
         if missing:
             raise ReadError(path, f"segment {number} has no {missing[0]!r}")
-    return join_head({name: _column(rows, name) for name in COLUMNS}, data, path)
+    # Cells that a row lacks are what holds where nothing is known.
+    columns = {
+        name: _replace_null([row.get(name, column.default) for row in rows], name)
+        for name, column in COLUMNS.items()
+    }
+    return join_head(columns, data, path)
 
 
 def head_of(segmentation: Segmentation) -> dict[str, Any]:
@@ -182,12 +194,6 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
     return Hierarchy(tuple(tables), tuple(tables.values()), data["detail"])
 
 
-def _column(rows: Sequence[Mapping[str, Any]], name: str) -> list[Any]:
-    """Return the cells of a column, or what holds where nothing is known."""
-    default = COLUMNS[name].default
-    return _replace_null([row.get(name, default) for row in rows], name)
-
-
 def _replace_null(values: list[Any], name: str) -> list[Any]:
     """Return the cells of a column; a number that nobody knows is null in JSON."""
     if COLUMNS[name].type is not float:
@@ -246,4 +252,52 @@ FORMAT = LabelFormat(
     read=read,
     write=write,
     recognises=lambda path: b'"kineme.segments/' in head(path),
+)
+
+
+KEY = b"kineme.segments"
+
+
+def write_parquet(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave everything at ``path``."""
+    with require_extra("pyarrow", "tables"):
+        import pyarrow as pa
+        from pyarrow import parquet
+    columns: dict[str, Any] = {**segmentation.table.columns()}
+    columns |= segmentation.more_columns()
+    if any(comments := assign_comments(segmentation)):
+        columns[COMMENT] = comments
+    table = pa.table(columns)
+    table = table.replace_schema_metadata({KEY: json.dumps(head_of(segmentation)).encode()})
+    with atomic_write(path) as draft:
+        parquet.write_table(table, draft)
+
+
+def read_parquet(path: Path) -> Segmentation:
+    """Return the segmentation at ``path``."""
+    content = load(path)
+    file = parquet_file(content)
+    metadata = file.schema_arrow.metadata or {}
+    names = file.schema_arrow.names
+    if KEY not in metadata or lacking(names):
+        raise ReadError(path, "is a Parquet file, but not a segment table written by kineme")
+    head = parse(metadata[KEY].decode(errors="replace"), path)
+    present = [name for name in COLUMNS if name in names]
+    table = parquet_columns(content, file, present)
+    columns = {name: table.column(name).to_numpy() for name in present}
+    found = join_head(columns, head, path)
+    if COMMENT not in names:
+        return found
+    comments = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
+    return from_rows(found, [str(text or "") for text in comments])
+
+
+PARQUET = LabelFormat(
+    name="parquet",
+    help="Everything, for pandas and others",
+    suffixes=(".parquet",),
+    holds="all",
+    read=read_parquet,
+    write=write_parquet,
+    recognises=lambda path: KEY in tail(path),
 )

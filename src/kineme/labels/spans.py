@@ -24,14 +24,13 @@ import math
 import re
 import unicodedata
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
@@ -143,10 +142,8 @@ def as_segmentation(
     if n_frames is None and labels.length is not None:
         n_frames = max(last, _frame(labels.length, per_unit, path))
     elif n_frames is None:
-        n_frames = last
-        notes.append(
-            f"length of {format_count(last, 'frame')} taken from the end of the last label"
-        )
+        n_frames, frames = last, format_count(last, "frame")
+        notes.append(f"length of {frames} taken from the end of the last label")
     elif last > n_frames + 1:  # 1: some programs close with the frame after the last
         raise ReadError(
             path,
@@ -160,9 +157,8 @@ def as_segmentation(
     inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
     full = [row for row in inside if row[2] < row[3]]
     if len(full) < len(rows):
-        unusual.append(
-            f"shorter than a frame, left out: {format_count(len(rows) - len(full), 'label')}"
-        )
+        short = format_count(len(rows) - len(full), "label")
+        unusual.append(f"shorter than a frame, left out: {short}")
     tiled = _both_levels(full, n_frames, path)
     source: dict[str, Any] = {"path": str(path), "format": name}
     level = "activity" if any(row[0] == "activity" for row in full) else "primitive"
@@ -302,20 +298,16 @@ def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
 
 def _seconds(times: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
     """Return the seconds of starts and stops, and a note unless they are the clock's own."""
-    candidates: tuple[tuple[Callable[[ArrayLike], Floats], tuple[str, ...]], ...] = (
-        (clock.second, ()),
-        (
-            clock.since_first().second,
-            (f"times counted from the first frame, at which the clock shows {clock.shown(0.0)}",),
-        ),
-        (np.asarray, ("times taken as frames over the rate, without pauses",)),
-    )
-    answers = [(seconds(times), remark) for seconds, remark in candidates]
-    return max(answers, key=lambda answer: _shared_seconds(answer[0], length_s))
+    first = f"times counted from the first frame, at which the clock shows {clock.shown(0.0)}"
+    answers: list[tuple[Floats, tuple[str, ...]]] = [
+        (clock.second(times), ()),
+        (clock.since_first().second(times), (first,)),
+        (times, ("times taken as frames over the rate, without pauses",)),
+    ]
 
+    def shared_s(answer: tuple[Floats, tuple[str, ...]]) -> float:
+        # The parts of labels that lie in the recording, to the millisecond.
+        inside = np.clip(answer[0], 0.0, length_s)
+        return round(float(np.maximum(inside[:, 1] - inside[:, 0], 0.0).sum()), 3)
 
-def _shared_seconds(seconds: Floats, length_s: float) -> float:
-    """Seconds of the recording that labels meet, to the millisecond."""
-    # The part of each label that lies in the recording.
-    inside = np.clip(seconds, 0.0, length_s)
-    return round(float(np.maximum(inside[:, 1] - inside[:, 0], 0.0).sum()), 3)
+    return max(answers, key=shared_s)

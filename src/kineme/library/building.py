@@ -19,8 +19,16 @@ from kineme.formats import ReadOptions
 from kineme.library.edits import read_edits
 from kineme.library.executors import Executor, Progress, connect, processes
 from kineme.library.gathering import gather
-from kineme.library.planning import Entry, Plan, absolute, as_paths, open_folder, plan_of
-from kineme.library.sources import list_recordings, names_of
+from kineme.library.planning import (
+    Entry,
+    Plan,
+    absolute,
+    as_paths,
+    list_recordings,
+    names_of,
+    open_folder,
+    plan_of,
+)
 from kineme.library.storage.analyses import KEY_LENGTH, has_analysis, is_analysis
 from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import (

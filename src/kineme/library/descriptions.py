@@ -39,19 +39,10 @@ NOWHERE = 100.0
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """The features of a recording, for search.
+    """The features (samples, dims) of a recording, for search; they compare within a vocabulary.
 
-    Attributes
-    ----------
-    vocabulary : str
-        Features compare within one; empty where there are none.
-    features : (samples, dims) array
-    fps : float
-        Samples per second.
-    reason : str
-        Why there are none.
-    poses : (samples, 17) array, optional
-        Of a body, for embeddings.
+    ``reason`` says why there are none, and the vocabulary is empty then. A body has ``poses``
+    (samples, 17) for embeddings.
     """
 
     vocabulary: str

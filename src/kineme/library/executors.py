@@ -51,31 +51,14 @@ class Executor(Protocol):
     """Where tasks are worked on."""
 
     def completed(
-        self,
-        work: Callable[[Task], Outcome],
-        tasks: Sequence[Task],
-        *,
-        workers: int | None = None,
+        self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Yield each task and what came of it, as they come.
 
-        Parameters
-        ----------
-        work : callable
-            A function of a module. What it raises ends all.
-        tasks : sequence
-            Each is pickled where it goes to another process.
-        workers : int, optional
-            How many processes are worth to be started for these tasks, any by default; 0: none,
-            but those that are there already may work on them.
-
-        Yields
-        ------
-        task
-            One of the given.
-        outcome
-            None where the process that worked on it died; other tasks are not affected. To close
-            the iterator ends the work on what is left.
+        None comes of a task whose process died; other tasks are not affected. What ``work``, a
+        function of a module, raises ends all; to close the iterator ends the work on what is left.
+        ``workers`` is how many processes are worth to be started for these tasks, any by default;
+        0: none, but those that are there already may work on them.
         """
         ...
 
@@ -84,13 +67,10 @@ class InProcess:
     """The process that asks, one task after the other; a task that ends it ends all."""
 
     def completed(
-        self,
-        work: Callable[[Task], Outcome],
-        tasks: Sequence[Task],
-        *,
-        workers: int | None = None,  # noqa: ARG002 (there is one)
+        self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Yield each task and what came of it, as they come; see `Executor`."""
+        del workers  # there is one
         for task in tasks:
             yield task, work(task)
 
@@ -103,11 +83,7 @@ class Processes:
         self._pool: ProcessPoolExecutor | None = None
 
     def completed(
-        self,
-        work: Callable[[Task], Outcome],
-        tasks: Sequence[Task],
-        *,
-        workers: int | None = None,
+        self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Yield each task and what came of it, as they come; see `Executor`.
 
@@ -190,10 +166,8 @@ class Cluster:
 
     def __init__(self, client: Any):
         if not isinstance(client, _import_distributed().Client):
-            raise ParameterError(
-                f"client takes a dask.distributed.Client or the address of a scheduler, not "
-                f"{client!r:.60}"
-            )
+            taken = "a dask.distributed.Client or the address of a scheduler"
+            raise ParameterError(f"client takes {taken}, not {client!r:.60}")
         self._client = client
         for address, version in client.run(_version, on_error="return").items():
             if version != __version__:
@@ -203,16 +177,12 @@ class Cluster:
                 )
 
     def completed(
-        self,
-        work: Callable[[Task], Outcome],
-        tasks: Sequence[Task],
-        *,
-        workers: int | None = None,  # noqa: ARG002 (they are there already)
+        self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Yield each task and what came of it, as they come; see `Executor`."""
-        distributed = _import_distributed()
+        del workers  # they are there already
+        done = _import_distributed().as_completed(loop=self._client.loop, raise_errors=False)
         waiting, running = iter(tasks), {}
-        done = distributed.as_completed(loop=self._client.loop, raise_errors=False)
 
         def submit(n: int) -> None:
             for task in islice(waiting, n):
@@ -235,11 +205,8 @@ def connect(client: Any) -> Iterator[Executor]:
 
     An executor is taken as it is.
     """
-    if isinstance(client, Executor):
-        yield client
-        return
     if not isinstance(client, str):
-        yield Cluster(client)
+        yield client if isinstance(client, Executor) else Cluster(client)
         return
     try:
         connection = _import_distributed().Client(client, set_as_default=False)
@@ -286,24 +253,20 @@ def _alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
         return work(task)
 
 
-class Watch:
-    """Tells how many things are done, and for how many seconds the work on the others goes on.
+def watch(progress: Progress, things: int, work: float) -> Callable[[int, float], None]:
+    """Return what tells how many things are done, and how long the work on the others will take.
 
-    So many things make so much work, in any unit.
+    So many things make so much work, in any unit. It is called with what was done since.
     """
+    started = time.monotonic()
+    things_done, work_done = 0, 0.0
 
-    def __init__(self, progress: Progress, things: int, work: float):
-        self._progress = progress
-        self._started = time.monotonic()
-        self._things, self._work = things, work
-        self._things_done, self._work_done = 0, 0.0
-
-    def done(self, things: int, work: float) -> None:
-        """So many more are done, and so much work."""
-        self._things_done += things
-        self._work_done += work
-        left = self._work - self._work_done
-        left_s = (time.monotonic() - self._started) * left / max(self._work_done, 1)
+    def done(more_things: int, more_work: float) -> None:
+        nonlocal things_done, work_done
+        things_done, work_done = things_done + more_things, work_done + more_work
+        left_s = (time.monotonic() - started) * (work - work_done) / max(work_done, 1)
         shown = f"{left_s:.0f} s" if left_s < 90 else f"{left_s / 60:.0f} min"
-        more = f", {shown} left" if self._things_done < self._things else ""
-        self._progress(f"{self._things_done} of {self._things}{more}")
+        more = f", {shown} left" if things_done < things else ""
+        progress(f"{things_done} of {things}{more}")
+
+    return done

@@ -16,6 +16,7 @@ from kineme.features.canonical import mirrored_features
 from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
 from kineme.library.open_library import OpenTables, numbers_of
+from kineme.library.planning import read_at
 from kineme.library.searching import (
     Example,
     Hit,
@@ -27,7 +28,6 @@ from kineme.library.searching import (
     merge_overlapping,
     parts_like,
 )
-from kineme.library.sources import read_at
 from kineme.library.storage.analyses import read_features
 from kineme.library.storage.index import open_index
 from kineme.library.storage.layout import ANALYSES, BODIES

@@ -26,9 +26,8 @@ from kineme._util.files import AnyPath, refuse_pipe
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.formats import ReadOptions, read_quietly
-from kineme.library.executors import Executor, InProcess, Progress, Watch
-from kineme.library.planning import Plan, analysis_key
-from kineme.library.sources import content_digest, fetch, size_of, states_of
+from kineme.library.executors import Executor, InProcess, Progress, watch
+from kineme.library.planning import Plan, analysis_key, content_digest, fetch, size_of, states_of
 from kineme.library.storage.analyses import has_analysis, write_analysis
 from kineme.library.storage.layout import STATES, read_json, write_json
 from kineme.library.storage.places import is_remote
@@ -48,14 +47,8 @@ DIED = "the process that worked on it died: it may need more memory than there i
 class Gathered:
     """What there is of the recordings of a build.
 
-    Attributes
-    ----------
-    digests : dict of Path to str
-        Of the files of each recording that has an analysis.
-    failed : dict of Path to str
-        Why the others have none.
-    new : int
-        How many analyses were made.
+    ``digests`` of the files of each recording that has an analysis; ``failed``: why the others have
+    none; how many analyses are ``new``.
     """
 
     digests: dict[Path, str] = field(default_factory=dict)
@@ -105,20 +98,15 @@ def _find_unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> d
 
 
 def _make(
-    plan: Plan,
-    waiting: Sequence[Path],
-    executor: Executor,
-    progress: Progress,
-    into: Gathered,
+    plan: Plan, waiting: Sequence[Path], executor: Executor, progress: Progress, into: Gathered
 ) -> None:
     """Make the analyses of recordings; what came of each is noted."""
     tasks = tasks_for(waiting, plan)
-    groups = {
-        group.tasks[0]: group for group in group_by_content(tasks, plan.read_options.skeleton)
-    }
+    skeleton = plan.read_options.skeleton
+    groups = {group.tasks[0]: group for group in group_by_content(tasks, skeleton)}
     if not isinstance(executor, InProcess):  # what comes next is imported while others work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
-    watch = Watch(progress, len(tasks), sum(task.size for task in tasks))
+    done = watch(progress, len(tasks), sum(task.size for task in tasks))
     alone: list[Task] = []
     for task, outcome in outcomes_of(list(groups), executor):
         _note(plan, task, outcome, into)
@@ -128,10 +116,10 @@ def _make(
         else:  # it failed, and says so of this one, or has changed since
             alone += others
             others = []
-        watch.done(1 + len(others), task.size * (1 + len(others)))
+        done(1 + len(others), task.size * (1 + len(others)))
     for task, outcome in outcomes_of(alone, executor):
         _note(plan, task, outcome, into)
-        watch.done(1, task.size)
+        done(1, task.size)
 
 
 def _note(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
@@ -197,19 +185,7 @@ def _digest(task: Task, skeleton: AnyPath | None) -> str:
 
 @dataclass(frozen=True)
 class Task:
-    """A recording to describe.
-
-    Attributes
-    ----------
-    path : Path
-    analyses : Path
-        Where its analysis goes.
-    read_options : ReadOptions
-    segment_options : SegmentOptions
-    options_digest : str
-    size : int
-        Bytes of the recording.
-    """
+    """A recording of ``size`` bytes to describe, with the analysis going to ``analyses``."""
 
     path: Path
     analyses: Path
@@ -224,22 +200,14 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a task: the digest of its files, whose analysis is there, or why it is not.
-
-    Attributes
-    ----------
-    digest : str
-    new : bool
-        Whether it was not there before.
-    error : str
-    fatal : bool
-        Whether all others will fail, too, as on a full disk.
-    """
+    """What came of a task: the digest of its files, whose analysis is there, or why it is not."""
 
     digest: str = ""
     new: bool = False
+    """Whether it was not there before."""
     error: str = ""
     fatal: bool = False
+    """Whether all others will fail, too, as on a full disk."""
 
 
 def tasks_for(paths: Iterable[Path], plan: Plan) -> list[Task]:

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions
 from kineme.library.edits import Edits, apply_edits, read_edits
-from kineme.library.planning import options_in
-from kineme.library.sources import read_at
+from kineme.library.planning import options_in, read_at
 from kineme.library.storage.layout import (
     LOCK_EDITS,
     arrow,

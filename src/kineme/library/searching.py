@@ -147,15 +147,14 @@ def _union(
     found = [search(example, features, threshold=threshold, top=top) for example in examples]
     if len(found) == 1:
         return found[0]
-    starts, stops, distances = (np.concatenate(column) for column in zip(*found, strict=True))
+    every = _order_matches(found)
     covered = np.zeros(len(features), np.bool_)
     chosen = []
-    for i in np.lexsort((starts, distances)).tolist():
-        span = slice(starts[i], stops[i])
+    for i, span in enumerate(map(slice, every.starts.tolist(), every.stops.tolist())):
         if not covered[span].any():
             covered[span] = True
             chosen.append(i)
-    return Matches(starts[chosen], stops[chosen], distances[chosen])
+    return _select_rows(every, np.array(chosen, np.int64))
 
 
 def _select_rows(found: Matches, rows: slice | Ints) -> Matches:
@@ -186,15 +185,7 @@ class Parts(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Sought:
-    """What is searched for.
-
-    Attributes
-    ----------
-    examples, counterexamples : sequence of (samples, dims) array
-    threshold : float
-    top : int, optional
-        Matches at most, in all parts of a task together.
-    """
+    """What is searched for: features (samples, dims); at most ``top`` matches in all of a task."""
 
     examples: Sequence[Float32s]
     counterexamples: Sequence[Float32s]
@@ -316,7 +307,7 @@ def _matches(outcome: dict[int, Matches] | None) -> dict[int, Matches]:
 
 
 def _order_matches(several: Sequence[Matches]) -> Matches:
-    """Matches of one recording as one, the best first."""
+    """Several matches of one recording as one, the best first."""
     if len(several) == 1:
         return several[0]
     starts, stops, distances = (np.concatenate(column) for column in zip(*several, strict=True))

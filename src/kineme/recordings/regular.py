@@ -226,32 +226,22 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
 
 
 def _split(timing: Timing, at: Floats, ahead: Floats, was_set: Masks | None, most: int) -> Timing:
-    """Return the same with its clock and gaps, and pauses cut that no room is left for.
+    """Return the same with its clock and gaps, and pauses cut that ``most`` frames do not hold.
 
-    Parameters
-    ----------
-    timing : Timing
-        Without these.
-    at, ahead : (rows,) array
-        Seconds of the rows in order of time, and how far the clock was ahead of them.
-    was_set : (rows,) array of bool, optional
-        Right after the clock went back.
-    most : int
-        Frames.
+    ``at`` are the seconds of the rows in order of time, ``ahead`` is how far the clock was ahead of
+    them; ``was_set`` right after the clock went back.
     """
     assert timing.at is not None  # noqa: S101 (for mypy)
     rate, notes = timing.fps, list(timing.notes)
     frames, cut = _shorten_pauses(timing.at, most)
     if cut.any():
         k = int(cut.argmax())
-        notes.append(
-            Note(
-                f"{format_count(int(cut.sum()), 'pause')}, the first of {at[k + 1] - at[k]:.4g} s "
-                f"after second {frames[k] / rate:.4g}: the recording is split there, and its "
-                "seconds do not count them",
-                "warning",
-            )
+        text = (
+            f"{format_count(int(cut.sum()), 'pause')}, the first of {at[k + 1] - at[k]:.4g} s "
+            f"after second {frames[k] / rate:.4g}: the recording is split there, and its seconds "
+            "do not count them"
         )
+        notes.append(Note(text, "warning"))
     # where the clock does not go on as the seconds do
     turns = np.flatnonzero(cut | (np.abs(np.diff(ahead)) > LONGEST_S)) + 1
     starts, clock = np.append(0, turns), None
@@ -276,30 +266,20 @@ def fill_gaps_in_channels(
 ) -> tuple[Floats, list[tuple[int, int]], list[Note | str]]:
     """Return finite values of each frame, the gaps, and what was done.
 
-    A frame in which any channel is missing for long lies in a gap.
-
-    Parameters
-    ----------
-    timing : Timing
-        Of the rows.
-    values : (rows, channels) array_like
-        NaN or infinite where there is nothing.
-    names : sequence of str
-        Of the channels.
-
-    Raises
-    ------
-    ParameterError
-        A channel holds no number, or nothing is left between the gaps.
+    A frame in which any channel is missing for long lies in a gap. ParameterError where a channel
+    holds no number, or nothing is left between the gaps.
     """
     found = timing.resample(values)
     doubts = doubt_channels(found, timing.fps, names)
+    notes: list[Note | str] = []
+    if found.filled:
+        values_filled = format_count(found.filled, "missing value")
+        notes.append(f"{values_filled} filled in a straight line")
+    if found.missing is None:
+        return found.values, list(timing.gaps), [*notes, *doubts]
     jumps = np.zeros(len(found.values), np.bool_)
     for start, stop in timing.gaps:
         jumps[start:stop] = True
-    if found.missing is None:
-        note = [] if not found.filled else [_describe_filled(found.filled)]
-        return found.values, list(timing.gaps), [*note, *doubts]
     if found.missing.all(axis=0).any():
         name = names[int(found.missing.all(axis=0).argmax())]
         raise ParameterError(f"column {name!r} holds no number at all: name the others (--columns)")
@@ -308,7 +288,6 @@ def fill_gaps_in_channels(
         raise ParameterError("in every frame some channel is missing for long: choose columns")
     # where the clock was set, the gap is said already
     holes = spans_of(long & ~jumps)
-    notes: list[Note | str] = [_describe_filled(found.filled)] if found.filled else []
     if len(holes):
         frames = format_count(int((long & ~jumps).sum()), "frame")
         notes.append(f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, {frames}")
@@ -346,14 +325,12 @@ def doubt_channels(found: Resampled, fps: float, names: Sequence[str]) -> list[N
             frozen.append(f"{name} ({lasts:.3g} s at {first[0] / fps:.4g} s)")
         if _is_clipped(track, runs[~long]):
             clipped.append(name)
-    remarks = []
-    if frozen:
-        remarks.append(f"channels that do not change for a while: {join_names(frozen, most=4)}")
-    if clipped:
-        remarks.append(
-            f"channels that are cut off at their largest values: {join_names(clipped, most=4)}"
-        )
-    return [Note(remark, "warning") for remark in remarks]
+    remarks = {
+        "channels that do not change for a while": frozen,
+        "channels that are cut off at their largest values": clipped,
+    }
+    return [Note(f"{remark}: {join_names(named, most=4)}", "warning")
+            for remark, named in remarks.items() if named]  # fmt: skip
 
 
 def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
@@ -377,10 +354,6 @@ def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
         if often and far and np.median(entries[cut]) >= coarse:
             return len(np.unique(track)) >= _LEVELS
     return False
-
-
-def _describe_filled(count: int) -> str:
-    return f"{format_count(count, 'missing value')} filled in a straight line"
 
 
 def _patterns(present: Masks) -> Iterator[tuple[list[int], Masks]]:
@@ -520,14 +493,12 @@ def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Not
 
 def _fastest(moments: Floats, values: Floats | None) -> float:
     """Return the rate of the rows, or of the fastest sensor that fills only some of them."""
-    rates = [_rate(moments)]
+    rates: list[float] = []
     if values is not None:
-        present = np.isfinite(values)
-        parts = [moments[seen] for _, seen in _patterns(present) if 0 < seen.mean() <= _MOST]
-        rest = [seen for _, seen in _patterns(present) if seen.mean() > _MOST]
-        if parts and not rest:
-            rates = [_rate(part) for part in parts if len(part) > 1] or rates
-    return max(rates)
+        rows = [seen for _, seen in _patterns(np.isfinite(values)) if seen.any()]
+        if all(seen.mean() <= _MOST for seen in rows):
+            rates = [_rate(moments[seen]) for seen in rows if seen.sum() > 1]
+    return max(rates, default=_rate(moments))
 
 
 def _rate(moments: Floats) -> float:

@@ -88,34 +88,10 @@ def write_sessions(
     names: tuple[str, str] | None = None,
     ends: bool = False,
 ) -> None:
-    """Write a page that compares two sessions; it prints on one sheet.
+    """Write a page (.html) that compares two sessions; it prints on one sheet.
 
-    Parameters
-    ----------
-    first, second : Cycles
-        Of the same channels.
-    path : str or PathLike
-        The page, .html.
-    names : pair of str, optional
-        What the page calls them; by default their recordings.
-    ends : bool
-        Whether the first and the last cycle of an activity count as well.
-
-    Raises
-    ------
-    ParameterError
-        No group is in both, or their channels differ.
-    WriteError
-        Another suffix, or the file cannot be written.
-
-    Examples
-    --------
-    >>> import kineme
-    >>> from kineme.datasets import bundled_truth
-    >>> from kineme.report.sessions import write_sessions
-    >>> motion = kineme.read(kineme.bundled_recording())
-    >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
-    >>> write_sessions(cycles, cycles, "changed.html")
+    ``names`` are what the page calls them, by default their recordings. With ``ends`` the first and
+    the last cycle of an activity count as well. ParameterError where they cannot be compared.
     """
     check_path(path, "write_sessions")
     if Path(path).suffix.lower() not in SUFFIXES:
@@ -187,8 +163,8 @@ def _count(cycles: Cycles, group: str) -> int:
 
 def _count_and_confidence(cycles: Cycles, group: str) -> str:
     probability = cycles.count_confidence(group)
-    text = "" if isnan(probability) else f" ({100 * probability:.0f} % sure)"
-    return f"{_count(cycles, group)}{text}"
+    sure = "" if isnan(probability) else f" ({100 * probability:.0f} % sure)"
+    return f"{_count(cycles, group)}{sure}"
 
 
 def _row(sheet: Sheet, group: str, measure: str) -> dict[str, float]:
@@ -248,14 +224,9 @@ def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
 
 def _panels(channels: dict[str, list[str]]) -> list[tuple[str, str]]:
     """Return which curves are drawn first: of each group in turn the channel that changed most."""
-    # One panel of each group before any group gets a second.
-    turns = max(len(names) for names in channels.values())
-    return [
-        (group, names[turn])
-        for turn in range(turns)
-        for group, names in channels.items()
-        if turn < len(names)
-    ]
+    # One panel of each group before any group gets a second: all groups have the same channels.
+    columns = ([(group, name) for name in names] for group, names in channels.items())
+    return [panel for turn in zip(*columns, strict=True) for panel in turn]
 
 
 def _pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
@@ -328,15 +299,12 @@ def _sides(sheet: Sheet, groups: Sequence[str]) -> str:
 
 def _ranges(sides: Columns) -> dict[tuple[str, str, str], tuple[float, float, float]]:
     """By group, left and right channel: both ranges and their symmetry index."""
-    names = ("group", "left_channel", "right_channel", "measure", "left", "right",
-             "symmetry_index")  # fmt: skip
-    return {
-        (group, left, right): (of_left, of_right, index)
-        for group, left, right, measure, of_left, of_right, index in zip(
-            *(sides[name].tolist() for name in names), strict=True
-        )
-        if measure == "range"
-    }
+    keys, values = (
+        zip(*(sides[name][sides["measure"] == "range"].tolist() for name in names), strict=True)
+        for names in (("group", "left_channel", "right_channel"),
+                      ("left", "right", "symmetry_index"))
+    )  # fmt: skip
+    return dict(zip(keys, values, strict=True))
 
 
 def _rest(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
@@ -347,12 +315,8 @@ def _rest(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
         omitted.append(f"{format_count(len(groups) - MOST_GROUPS, 'group')} with fewer repetitions")
     if channels > n_channels:
         omitted.append(f"{format_count(channels - n_channels, 'channel')} that changed less surely")
-    more = (
-        f"Not shown: {', '.join(omitted)}; a table has them (--compare NAME.csv). "
-        if omitted
-        else ""
-    )
-    return f"{more}Made by kineme {__version__}."
+    more = f"Not shown: {', '.join(omitted)}; a table has them (--compare NAME.csv). "
+    return f"{more if omitted else ''}Made by kineme {__version__}."
 
 
 def _cells(texts: Sequence[str], tag: str = "td") -> str:

@@ -77,7 +77,7 @@ def annotator_choices(recordings: OpenRecordings) -> list[AnnotatorChoice]:
 def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
     """Return how far some of them agree, over all recordings for which two of them have labels."""
     from kineme.evaluation.annotators import annotator_agreement, labels_of_annotators
-    from kineme.evaluation.tables import finite
+    from kineme.evaluation.score import finite
 
     people = _chosen(recordings, chosen)
     listed = _index_by_file(recordings)

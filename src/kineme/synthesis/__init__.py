@@ -1,10 +1,16 @@
 """New motion from primitives: a motion graph, routes through it, and their blending."""
 
-from kineme.synthesis.blending import Placement, synthesize
+from kineme.synthesis.blending import Placement, foot_contacts, plant_feet, synthesize
 from kineme.synthesis.building import check_source, motion_graph
-from kineme.synthesis.feet import foot_contacts, plant_feet
-from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
-from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
+from kineme.synthesis.graph import (
+    Edge,
+    MotionGraph,
+    Node,
+    Source,
+    load_sources,
+    read_graph,
+    write_graph,
+)
 from kineme.synthesis.line_routes import line_route, parse_line
 from kineme.synthesis.routes import action_route, following, parse_actions, random_route
 

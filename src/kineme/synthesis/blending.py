@@ -4,7 +4,11 @@ Spans of the sources are laid end to end, each turned about the vertical and mov
 its jump says. Around a jump both recordings go on for half a window, and the motion goes over from
 the one to the other. Joint rotations go along the sphere, translations in a line, with the smooth
 weight 3w² - 2w³ (Kovar, Gleicher and Pighin 2002, section 3.2). Last, feet that stand are kept from
-sliding (see `kineme.synthesis.feet`).
+sliding (after Kovar, Schreiner and Gleicher 2002, Footskate cleanup).
+
+A foot stands while its ankle is low and slow. It is then held at one place of the floor, and hip,
+knee and ankle bend to bring it there. This is a two-bone inverse kinematics in closed form. It
+keeps the direction of the foot and the height of the ankle. Before and after, the correction fades.
 """
 
 from __future__ import annotations
@@ -18,11 +22,13 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_indices, check_type, format_count
-from kineme.errors import ParameterError
+from kineme.errors import EndEffectorError, ParameterError
+from kineme.features import end_effectors
+from kineme.features.feet import low_and_slow
 from kineme.recordings import Motion, Provenance
-from kineme.recordings.kinematics import local_translations
+from kineme.recordings.arrays import spans_of
+from kineme.recordings.kinematics import forward_kinematics, local_translations, world_rotations
 from kineme.recordings.motion import check_motion
-from kineme.synthesis.feet import plant_feet
 from kineme.synthesis.graph import MotionGraph
 
 
@@ -123,7 +129,7 @@ def synthesize(
     # Frame counts are a cheap check that the motions are those of the graph.
     if [m.n_frames for m in motions] != [s.n_frames for s in graph.sources]:
         raise ParameterError("the motions are not those the graph was built on: build it anew")
-    spans = spans_of(graph, route, start or Placement())
+    spans = place_spans(graph, route, start or Placement())
     rotations, translations = _blend_spans(spans, motions, round(graph.window * graph.fps / 2))
     jumps = len(spans) - 1
     motion = Motion.from_rotations(
@@ -138,7 +144,7 @@ def synthesize(
     return plant_feet(motion) if plant else motion
 
 
-def spans_of(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[PlacedSpan]:
+def place_spans(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[PlacedSpan]:
     """Return the spans to play; nodes that follow each other in a recording are one."""
     if not route:
         raise ParameterError("a route needs at least one node")
@@ -206,3 +212,196 @@ def _placed_motion(
     shifts[:, roots] = rot.rotate(about_y, shifts[:, roots])
     shifts[:, roots] += [at.shift.real, 0, at.shift.imag]
     return rotations, shifts
+
+
+Spans = list[tuple[int, int]]
+
+HEIGHT = 0.06
+"""Metres above the ankle's lowest 5 % of the motion."""
+SPEED = 0.3
+"""Metres per second."""
+SHORTEST = 0.1
+"""Seconds; shorter stands are not held."""
+REACH = 0.05
+"""Metres; a foot that creeps farther is held anew where it has come to."""
+FADE = 0.15
+"""Seconds over which a correction comes and goes."""
+STRAIGHT = 0.999
+"""Share of the leg's length that it never stretches beyond."""
+
+
+def plant_feet(motion: Motion) -> Motion:
+    """Return the motion with each standing foot held in place; as it is where no feet are found.
+
+    Parameters
+    ----------
+    motion : Motion
+        With rotations.
+
+    Returns
+    -------
+    Motion
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.recordings.operations import cut
+    >>> from kineme.synthesis import plant_feet
+    >>> motion = cut(kineme.read(kineme.bundled_recording()), 0, 120)
+    >>> plant_feet(motion).n_frames
+    120
+    """
+    try:
+        found = end_effectors(motion)
+    except EndEffectorError:
+        return motion
+    for ankle in (found.left_ankle, found.right_ankle):
+        knee = motion.skeleton.parents[ankle]
+        hip = motion.skeleton.parents[knee] if knee >= 0 else -1
+        if hip < 0:
+            continue
+        path = motion.positions[:, ankle]
+        target = path + _corrections(path, foot_contacts(path, motion.fps), motion.fps)
+        # The second leg starts from the motion that the first one has changed.
+        motion = _reach(motion, (hip, knee, ankle), target)
+    return motion
+
+
+def foot_contacts(path: Floats, fps: float) -> Spans:
+    """Return the spans [start, stop) of frames over which an ankle is low and slow.
+
+    Parameters
+    ----------
+    path : (frames, 3) array
+        The ankle, metres, y up.
+    fps : float
+        Frames per second.
+
+    Returns
+    -------
+    list of pairs of int
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kineme.synthesis import foot_contacts
+    >>> foot_contacts(np.zeros((30, 3)), 30.0)
+    [(0, 30)]
+    """
+    if len(path) < 2:
+        return []
+    spans = spans_of(low_and_slow(path, fps, height=HEIGHT, speed=SPEED)).tolist()
+    return [(start, stop) for start, stop in spans if stop - start >= SHORTEST * fps]
+
+
+def _corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
+    """Return what to add to the ankle's path, (frames, 3); nothing along y."""
+    floor = path[:, [0, 2]]
+    fade = round(FADE * fps)
+    # Knots of the correction: 0 one fade before the first frame.
+    frames, values = [-fade], [np.zeros(2)]
+    for start, stop in _holds(floor, contacts, round(SHORTEST * fps)):
+        # To the median place of the hold, which single frames do not draw away.
+        offset = np.median(floor[start:stop], axis=0) - floor[start:stop]
+        # Far from the last hold, the correction fades to 0 in between; else it goes over directly.
+        if start - frames[-1] > 2 * fade:
+            frames += [frames[-1] + fade, start - fade]
+            values += [np.zeros(2), np.zeros(2)]
+        frames += range(start, stop)
+        values += list(offset)
+    # 0 one fade after the last hold.
+    frames.append(frames[-1] + fade)
+    values.append(np.zeros(2))
+    at = np.arange(len(path))
+    x, z = (np.interp(at, frames, column) for column in np.array(values).T)
+    return np.stack([x, np.zeros(len(path)), z], axis=1)
+
+
+def _holds(floor: Floats, contacts: Spans, gap: int) -> Spans:
+    """Contacts, each parted where the foot has crept out of reach, with a gap to step over."""
+    holds: Spans = []
+    for start, stop in contacts:
+        first = start
+        while first < stop:
+            out_of_reach = np.linalg.norm(floor[first:stop] - floor[first], axis=1) > REACH
+            # The first frame out of reach: `argmax` finds the first True.
+            last = first + int(np.argmax(out_of_reach)) if out_of_reach.any() else stop
+            # The gap gives the correction time to move to the next hold; a hold has one frame at
+            # least.
+            holds.append((first, max(last - gap * (last < stop), first + 1)))
+            first = last
+    return holds
+
+
+def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
+    """Return the motion with the ankle at ``target``, or as near as the leg can reach.
+
+    The knee opens or closes about its hinge until the ankle is as far from the
+    hip as the target, then the leg turns about the hip.
+    """
+    world = world_rotations(motion.skeleton, motion.rotations)
+    hip, knee, ankle = (motion.positions[:, j] for j in leg)
+    # Untouched frames must stay exactly as they are.
+    moved = np.linalg.norm(target - ankle, axis=1) > 1e-9
+    if not moved.any():
+        return motion
+    thigh, shin = knee - hip, ankle - knee
+    a, b = np.linalg.norm(thigh, axis=1), np.linalg.norm(shin, axis=1)
+    length = np.linalg.norm(target - hip, axis=1)
+    # A triangle needs its third side between the difference and the sum of the others.
+    length = np.clip(length, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
+    # Angle between the directions of thigh and shin, 0 for a straight leg.
+    now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
+    # Law of cosines for the length wanted.
+    angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
+    bend = _rotate_about(_hinge(thigh, shin, world[:, leg[0]]), angle - now)
+    reached = thigh + rot.rotate(bend, shin)
+    # The bent leg turns about the hip so that the ankle points to the target.
+    swing = _arc(reached, target - hip)
+    still = np.where(moved[:, None], 1.0, 0.0)
+    bend, swing = (still * q + (1 - still) * rot.IDENTITY for q in (bend, swing))
+    # New world rotations: the thigh swings, the shin bends and swings, the foot keeps its own.
+    turned = {
+        leg[0]: rot.multiply(swing, world[:, leg[0]]),
+        leg[1]: rot.multiply(swing, rot.multiply(bend, world[:, leg[1]])),
+        leg[2]: world[:, leg[2]],
+    }
+    rotations = np.array(motion.rotations)
+    for joint, turn in turned.items():
+        parent = motion.skeleton.parents[joint]
+        # Relative to the parent as it is now, which may have been turned as well.
+        above = turned.get(parent, world[:, parent])
+        rotations[:, joint] = rot.multiply(rot.conjugate(above), turn)
+    positions = forward_kinematics(
+        motion.skeleton,
+        rotations,
+        translations=local_translations(motion.skeleton, motion.positions, motion.rotations),
+    )
+    return replace(motion, rotations=rotations, positions=positions)
+
+
+def _hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
+    """Return the knee's axis in the world; that of the whole motion where the leg is straight."""
+    axis = np.cross(thigh, shin)
+    size = np.linalg.norm(axis, axis=1, keepdims=True)
+    # The usual axis in the frame of the thigh; bent frames weigh more, by their longer products.
+    usual = rot.rotate(rot.conjugate(above), axis).sum(axis=0)
+    usual /= max(float(np.linalg.norm(usual)), 1e-12)
+    # In a straight leg the product is too short to have a direction.
+    clear = size > 0.02 * np.linalg.norm(thigh, axis=1, keepdims=True) ** 2
+    hinge: Floats = np.where(clear, axis / np.maximum(size, 1e-12), rot.rotate(above, usual))
+    return hinge
+
+
+def _rotate_about(axis: Floats, angle: Floats) -> Floats:
+    half = angle[:, None] / 2
+    return np.concatenate([np.cos(half), np.sin(half) * axis], axis=1)
+
+
+def _arc(a: Floats, b: Floats) -> Floats:
+    """Return the smallest rotations that turn the direction of a into that of b."""
+    a, b = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (a, b))
+    # (1 + cos, sin axis) is twice cos(half) times the quaternion: normalised, it is the half angle.
+    q = np.concatenate([1 + (a * b).sum(1, keepdims=True), np.cross(a, b)], axis=1)
+    arc: Floats = q / np.linalg.norm(q, axis=1, keepdims=True)
+    return arc

@@ -8,20 +8,48 @@ its start; the next is then turned about the vertical and moved on the floor.
 
 Nodes of one name (a label, else the number of a cluster) form a super-node,
 as in Motion Graphs++ (Min and Chai 2012). Transition phases have no name.
+
+In a file they are JSON, schema ``kineme.motion-graph/1``. One object:
+
+    {
+      "schema": "kineme.motion-graph/1",
+      "fps": 120.0, "threshold": 0.08, "window": 0.333,    as in MotionGraph
+      "sources": [{"path": "86_10.amc", "sha256": "...", "n_frames": 7583, "options": {}}],
+      "nodes": [{"source": 0, "start": 0, "stop": 312, "cluster": 0, "label": ""}],
+      "edges": [{"tail": 0, "head": 1, "leave": 312, "enter": 312, "distance": 0.0,
+                 "angle": 0.0, "shift": [0.0, 0.0], "jump": false}]
+    }
+
+Paths are relative to the graph's folder. The recordings are not in the file:
+they are read again, with ``options``, and must be the same byte for byte. A
+reader must ignore names it does not know, but for those of ``options``; a change
+that old readers would misunderstand gets the next number.
 """
 
 from __future__ import annotations
 
+import json
+import os
 from collections import Counter
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, field, fields, replace
 from functools import cached_property
+from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from kineme._util.arrays import Ints
-from kineme.errors import ParameterError
-from kineme.formats import ReadOptions
+from kineme._util.files import atomic_write, translate_read_errors
+from kineme._util.json import convert_json, load_json, options_from_json, options_to_json
+from kineme.errors import ParameterError, ReadError
+from kineme.formats import ReadOptions, read_motion
+from kineme.recordings import Motion
+
+SCHEMA = "kineme.motion-graph/1"
+_MOST = 1e9  # metres, radians
+_FASTEST = 1e6  # frames per second; also metres and seconds
 
 
 @dataclass(frozen=True)
@@ -221,3 +249,196 @@ class MotionGraph:
         ends = np.array([(e.tail, e.head) for e in self.edges], np.int64).reshape(-1, 2)
         shape = (len(self.nodes), len(self.nodes))
         return csr_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=shape)
+
+
+def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
+    """Leave the graph at ``path``.
+
+    Parameters
+    ----------
+    graph : MotionGraph
+    path : path-like
+
+    Raises
+    ------
+    ParameterError
+        A source came from no file, so that nobody could read it again.
+    WriteError
+        The file cannot be written.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, read_graph, write_graph
+    >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
+    >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
+    >>> graph = MotionGraph((Source("walk.bvh", "0" * 64, 60),), nodes, edges, 30.0, 0.08, 1 / 3)
+    >>> write_graph(graph, "moves.json")
+    >>> read_graph("moves.json").nodes == graph.nodes
+    True
+    """
+    folder = Path(path).absolute().parent
+    head = {
+        "schema": SCHEMA,
+        "fps": graph.fps,
+        "threshold": graph.threshold,
+        "window": graph.window,
+        "sources": [_source_cells(source, folder) for source in graph.sources],
+    }
+    # The rows follow one on a line, so the closing brace comes last.
+    text = json.dumps(head, indent=2).removesuffix("\n}")
+    for name, rows in (("nodes", graph.nodes), ("edges", graph.edges)):
+        lines = ",\n".join(f"    {json.dumps(asdict(row))}" for row in rows)
+        text += f',\n  "{name}": [\n{lines}\n  ]'
+    with atomic_write(path) as draft:
+        draft.write_text(text + "\n}\n", encoding="utf-8")
+
+
+def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
+    """Return the graph at ``path``.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    MotionGraph
+
+    Raises
+    ------
+    ReadError
+        Missing, damaged or of another version.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, read_graph, write_graph
+    >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
+    >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
+    >>> graph = MotionGraph((Source("walk.bvh", "0" * 64, 60),), nodes, edges, 30.0, 0.08, 1 / 3)
+    >>> write_graph(graph, "moves.json")
+    >>> len(read_graph("moves.json").edges)
+    2
+    """
+    home = Path(path).absolute().parent
+    data = load_json(Path(path))
+    schema = data.get("schema") if isinstance(data, dict) else None
+    if not str(schema).startswith("kineme.motion-graph/"):
+        raise ReadError(path, "is not a motion graph: make one with kineme graph FILES")
+    if schema != SCHEMA:
+        raise ReadError(path, f"has schema {schema!r}, but this version reads {SCHEMA!r}")
+    try:
+        graph = _graph(data)
+    except ValueError as error:
+        reason = f"is damaged ({error!s:.120}): build it anew with kineme graph"
+        raise ReadError(path, reason) from error
+    return replace(graph, sources=tuple(_resolve_source(source, home) for source in graph.sources))
+
+
+def load_sources(graph: MotionGraph) -> list[Motion]:
+    """Return the recordings the graph was built on, in order.
+
+    Parameters
+    ----------
+    graph : MotionGraph
+
+    Returns
+    -------
+    list of Motion
+
+    Raises
+    ------
+    ReadError
+        One is missing or was changed since.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> graph = kineme.motion_graph([motion], [truth])
+    >>> len(load_sources(graph))
+    1
+    """
+    motions = []
+    for source in graph.sources:
+        path = Path(source.path or "")
+        with translate_read_errors(path):
+            exists = path.is_file()
+            digest = sha256(path.read_bytes()).hexdigest() if exists else ""
+        if not exists:
+            raise ReadError(path, "is not there, and the graph was built on it: put it back, "
+                            "or build the graph anew")  # fmt: skip
+        # Digests must match: spans of frames mean nothing in a changed file.
+        if digest != source.sha256:
+            raise ReadError(path, "has changed since the graph was built on it: build it anew")
+        motions.append(read_motion(path, **vars(source.options)))
+    return motions
+
+
+def _source_cells(source: Source, folder: Path) -> dict[str, Any]:
+    if source.path is None or source.sha256 is None:
+        raise ParameterError("a graph can be written if its motions were read from files")
+    options = source.options
+    if options.skeleton is not None:
+        options = replace(options, skeleton=_relative(options.skeleton, folder))
+    path = _relative(source.path, folder)
+    return {**vars(source), "path": path, "options": options_to_json(options)}
+
+
+def _relative(path: str, folder: Path) -> str:
+    try:
+        return Path(os.path.relpath(path, folder)).as_posix()
+    except ValueError:  # another drive
+        return str(Path(path).absolute())
+
+
+def _graph(data: dict[str, Any]) -> MotionGraph:
+    """What a file holds; ValueError where parts are missing, or cannot be of its recordings."""
+    _check_complete(data, MotionGraph)
+    graph = convert_json(data, MotionGraph)
+    for name, kind in (("sources", Source), ("nodes", Node), ("edges", Edge)):
+        for row in data[name]:
+            _check_complete(row, kind)
+    for row in data["sources"]:
+        options_from_json(ReadOptions, row["options"])  # refuses options it does not know
+    for part, sound in _sound(graph):
+        if not sound:
+            raise ValueError(str(part))
+    return graph
+
+
+def _check_complete(row: dict[str, Any], kind: Any) -> None:
+    for part in fields(kind):
+        if part.name not in row:
+            raise ValueError(f"no {part.name!r}")
+
+
+def _resolve_source(source: Source, folder: Path) -> Source:
+    """Return a source whose paths, in the file relative to its folder, are found from anywhere."""
+    options = source.options
+    if options.skeleton is not None:
+        options = replace(options, skeleton=str(folder / options.skeleton))
+    return replace(source, path=str(folder / str(source.path)), options=options)
+
+
+def _sound(graph: MotionGraph) -> Iterator[tuple[object, bool]]:
+    """Yield every part of a graph, and whether it can be of its recordings."""
+    for name in ("fps", "threshold", "window"):
+        value = getattr(graph, name)
+        yield f"{name} is {value}", 0 < value < _FASTEST
+    for source in graph.sources:
+        named = isinstance(source.path, str) and isinstance(source.sha256, str)
+        yield source, source.n_frames > 0 and named
+    frames = [source.n_frames for source in graph.sources]
+    for node in graph.nodes:
+        placed = node.source in range(len(frames)) and node.cluster >= -1
+        yield node, placed and 0 <= node.start < node.stop <= frames[node.source]
+    # A jump must not leave a node before its middle, nor enter it after: nodes keep some length.
+    middles = [(node.start + node.stop) / 2 for node in graph.nodes]
+    nodes = range(len(middles))
+    for edge in graph.edges:
+        placed = edge.tail in nodes and edge.head in nodes and 0 <= edge.distance < _MOST
+        moved = placed and max(map(abs, (edge.angle, *edge.shift))) < _MOST
+        left = moved and middles[edge.tail] < edge.leave
+        yield edge, left and 0 <= edge.enter <= middles[edge.head]

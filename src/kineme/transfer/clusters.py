@@ -7,8 +7,9 @@ says which cluster in common each of them belongs to.
 the activity around that: another recording may cut the same cyclic movement at another phase. The
 distance of two local clusters is the mean of the distances at which a search (see
 `kineme.transfer.subsequences`) finds the example of each in the context of the other, 1 at most.
-Average linkage joins them up to the threshold of a search. Local clusters of one recording were
-found to differ there, so their distance is set to 2.
+Average linkage joins them up to the threshold of a search, unless the two groups are clearly apart:
+walking and running, of which each recording has one. Local clusters of one recording were found to
+differ there, so their distance is set to 2.
 
 More local clusters than ``most`` are linked in rounds, so that time grows with their number, not
 with its square. A round links a sample. All others are compared with representatives of the few
@@ -73,6 +74,10 @@ class ClusterConstants:
 
     join: float = THRESHOLD
     """Largest mean distance at which clusters are joined: that of a search."""
+    apart: float = 0.2
+    """Mean silhouette above which two groups are not joined."""
+    fewest: int = 3
+    """Local clusters in a group for which that is asked."""
     longest_example: float = 4.0
     longest_context: float = 12.0
     """Seconds to which longer ones are cut."""
@@ -208,7 +213,7 @@ def link_clusters(
     waiting = np.array(sorted(range(n), key=lambda i: sha256(names[i].encode()).digest()), np.int64)
     while len(waiting):
         sample, others = np.sort(waiting[: constants.most]), waiting[constants.most :]
-        linked = _link(clusters.select(sample), constants.join)
+        linked = _link(clusters.select(sample), constants)
         store(sample, linked)
         # Least spread first within each cluster, of which the first few are typical.
         order = np.lexsort((linked.spread, linked.cluster))
@@ -224,11 +229,8 @@ def link_clusters(
     return _number_by_seconds(result, [each.seconds for each in clusters.local])
 
 
-def _link(clusters: ClusterSet, join: float) -> Assignment:
+def _link(clusters: ClusterSet, constants: ClusterConstants) -> Assignment:
     """Compare local clusters pairwise and join them by average linkage."""
-    from scipy.cluster.hierarchy import fcluster, linkage
-    from scipy.spatial.distance import squareform
-
     rows, recording = np.arange(len(clusters.local)), clusters.recording
     # Distances are symmetric: a block of rows is compared from its own columns on.
     wanted = rows >= rows[:, None] // BLOCK * BLOCK
@@ -236,14 +238,64 @@ def _link(clusters: ClusterSet, join: float) -> Assignment:
     distances = np.where(wanted, distances, distances.T)
     distances[recording[:, None] == recording] = SAME_RECORDING
     np.fill_diagonal(distances, 0.0)
-    cluster = np.zeros(len(rows), np.int64)
-    if len(rows) > 1:
-        tree = linkage(squareform(distances, checks=False), "average")
-        cluster += fcluster(tree, join, "distance") - 1
+    cluster = group_by_distance(distances, constants)
     members = np.eye(int(cluster.max()) + 1)[cluster]
     sums, sizes = distances @ members, members.sum(axis=0)
     spread = sums[rows, cluster] / np.maximum(sizes[cluster] - 1, 1)
     return _compare_with_next(cluster, spread, sums / sizes)
+
+
+def group_by_distance(distances: Floats, constants: ClusterConstants = CONSTANTS) -> Ints:
+    """Return the group of each row of a distance matrix, by average linkage.
+
+    Two groups at a mean distance up to ``join`` are joined, unless both have ``fewest`` members and
+    their mean silhouette [1]_ is above ``apart``.
+
+    References
+    ----------
+    .. [1] Rousseeuw, "Silhouettes: a graphical aid to the interpretation and validation of cluster
+       analysis", Journal of Computational and Applied Mathematics 20 (1987).
+
+    Examples
+    --------
+    >>> points = np.array([0.0, 0.1, 0.2, 0.6, 0.7, 0.8, 5.0])
+    >>> group_by_distance(np.abs(points[:, None] - points)).tolist()
+    [0, 0, 0, 1, 1, 1, 2]
+    """
+    from scipy.cluster.hierarchy import linkage, to_tree
+    from scipy.spatial.distance import squareform
+
+    groups: list[list[int]] = [[*range(len(distances))]]
+    if len(distances) > 1:
+        groups, waiting = [], [to_tree(linkage(squareform(distances, checks=False), "average"))]
+        while waiting:
+            node = waiting.pop()
+            if not node.is_leaf() and (
+                node.dist > constants.join
+                or _are_apart(distances, node.left.pre_order(), node.right.pre_order(), constants)
+            ):
+                waiting += [node.left, node.right]
+            else:
+                groups.append(node.pre_order())
+    result = np.empty(len(distances), np.int64)
+    for number, members in enumerate(sorted(groups, key=min)):
+        result[members] = number
+    return result
+
+
+def _are_apart(
+    distances: Floats, ones: list[int], others: list[int], constants: ClusterConstants
+) -> bool:
+    """Tell whether members of two groups are much nearer to their own group than to the other."""
+    if min(len(ones), len(others)) < constants.fewest:
+        return False
+    silhouettes = []
+    for group, other in ((ones, others), (others, ones)):
+        # The distance of a member from itself is 0 and is not counted.
+        own = distances[np.ix_(group, group)].sum(axis=1) / (len(group) - 1)
+        away = distances[np.ix_(group, other)].mean(axis=1)
+        silhouettes += ((away - own) / np.maximum(np.maximum(away, own), 1e-9)).tolist()
+    return float(np.mean(silhouettes)) > constants.apart
 
 
 class Representatives(NamedTuple):

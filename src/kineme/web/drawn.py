@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme.cycles.angles import bend
 from kineme.cycles.channels import ANGLE, channels_of
+from kineme.cycles.joints import bend
 from kineme.features.feet import speed_of
 from kineme.recordings import Motion, Signals
 

@@ -46,6 +46,17 @@ def dips(row, least):
     return sorted(found, reverse=True)
 
 
+def share_by_times(visits, fps, longest, chance_period, uneven, chance_count, chance_duration):
+    """What evenness leaves, less what chance would explain, by period or number."""
+    durations = np.diff(visits) / fps
+    if len(visits) < 3 or durations.max() > longest:
+        return 0.0
+    fast = min(chance_period / durations.mean(), 1) ** 2
+    even = 1 - min(np.log(durations).std() / uneven, 1) ** 2
+    few = min(chance_count, chance_duration / durations.mean()) / len(visits)
+    return even * (1 - max(fast, min(few, 1)))
+
+
 def matched_lengths(gains, full):
     """The largest sum of a warping path through the gains, and the paths that have it.
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from functools import cache
 from itertools import pairwise
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -17,7 +15,7 @@ from kineme.datasets import random_recording
 from kineme.errors import ParameterError
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.kineme.pipeline import analyze
-from kineme.methods.kineme.preset import KINEME
+from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import resolve_preset
 from loops import swing
@@ -131,39 +129,24 @@ def test_order_signs_and_zeros_of_the_features_change_nothing(seed, turn, shift)
     assert_same(analyze(turned, KINEME), analysis_of(seed))
 
 
-PRINT_DIGEST = """
-import hashlib, numpy as np
-from kineme.datasets import random_recording
-from kineme.methods.kineme.pipeline import analyze
-from kineme.methods.kineme.preset import KINEME, SENSORS
-from kineme.methods.prepare import compute_motion_features
-rows = compute_motion_features(random_recording(2).motion, KINEME)
-for _ in range(2):
-    digest = hashlib.sha256()
-    for preset in (KINEME, KINEME.replace(part=15.0), SENSORS.replace(working_fps=30.0)):
-        found = analyze(rows, preset)
-        for part in (found.features, found.fine, found.borders, found.segments.labels,
-                     found.segments.clusters, found.segments.preference, found.confidence.links,
-                     found.confidence.counts, found.confidence.borders, found.primitives,
-                     found.confidence.cuts):
-            digest.update(np.ascontiguousarray(part).tobytes())
-    print(digest.hexdigest())
-"""
-
-
-def test_threads_and_repetition_change_nothing() -> None:
-    digests = {
-        line
-        for threads in ("1", "5")
-        for line in subprocess.run(
-            [sys.executable, "-c", PRINT_DIGEST],
-            env={**os.environ, "KINEME_THREADS": threads},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout.split()
-    }
-    assert len(digests) == 1
+@pytest.mark.parametrize(
+    "preset",
+    [KINEME, KINEME.replace(part=15.0), SENSORS.replace(working_fps=30.0)],
+    ids=["kineme", "in parts", "sensors"],
+)
+def test_threads_and_repetition_change_nothing(preset, set_threads) -> None:
+    parts_of = attrgetter(
+        *("features", "fine", "borders", "primitives", "segments.labels", "segments.clusters"),
+        *("segments.preference", "confidence.links", "confidence.counts"),
+        *("confidence.borders", "confidence.cuts"),
+    )
+    found = []
+    for threads in (1, 5, 5):
+        set_threads(threads)
+        parts = parts_of(analyze(recorded(2), preset))
+        found.append([np.ascontiguousarray(part).tobytes() for part in parts])
+    assert found[0] == found[1]
+    assert found[1] == found[2]
 
 
 # --- what holds for every input ---------------------------------------------------------------

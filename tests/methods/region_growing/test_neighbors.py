@@ -172,7 +172,7 @@ def test_blocks_of_the_search_join_without_seams(monkeypatch, shape, lag) -> Non
 
 @pytest.mark.parametrize("max_lag", [None, 300])
 def test_memory_grows_with_the_neighbours_found(max_lag: int | None) -> None:
-    points = np.random.default_rng(1).random((20_000, 15))
+    points = np.random.default_rng(1).random((10_000, 15))
     neighbor_graph(points[:100], radius=0.5)
     tracemalloc.start()
     try:
@@ -180,9 +180,9 @@ def test_memory_grows_with_the_neighbours_found(max_lag: int | None) -> None:
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
-    assert len(graph) == 20_000
-    assert graph.n_entries < 100_000
-    assert peak < 64e6  # a matrix of booleans would take 400 MB
+    assert len(graph) == 10_000
+    assert graph.n_entries < 30_000
+    assert peak < 32e6  # a matrix of booleans would take 100 MB
 
 
 def test_a_sparse_matrix_keeps_neighbours_at_distance_zero() -> None:

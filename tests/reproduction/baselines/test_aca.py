@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ import kineme
 import naive
 from kineme.errors import MotionError, ParameterError
 from kineme.evaluation import Labelling
-from kineme.evaluation.annotations import read_trials
+from kineme.evaluation.inputs import read_trials
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods import PRESETS
 from kineme_reproduction.baselines._kernels import (
@@ -23,7 +24,7 @@ from kineme_reproduction.baselines._kernels import (
     window_alignments,
 )
 from kineme_reproduction.baselines.aca import State, aca, improve, majority_segments
-from kineme_reproduction.baselines.haca import haca, haca_levels
+from kineme_reproduction.baselines.haca import haca_levels
 from kineme_reproduction.baselines.reduction import block_starts, frame_kernel
 from kineme_reproduction.baselines.segments import Segments
 from kineme_reproduction.benchmark import OF_TRIALS, aca_accuracy
@@ -45,6 +46,11 @@ def two_movements(rounds: int = 4) -> np.ndarray:
     other = np.stack([0 * t + 4, np.cos(2 * t), np.sin(2 * t)], axis=1)
     noise = np.random.default_rng(0).normal(scale=0.02, size=(rounds * 480, 3))
     return np.concatenate([circle, other] * (rounds // 2)) + noise
+
+
+@cache
+def levels_of_two_movements() -> tuple[Segments, Segments]:
+    return haca_levels(two_movements(), SHORT_HACA)
 
 
 @given(SEEDS, st.integers(3, 14), st.integers(1, 6))
@@ -107,9 +113,8 @@ def test_a_lost_class_is_no_result():
 
 def test_two_movements_in_turn_are_told_apart():
     """Borders may be off by as much as a segment: nothing but its length holds one in place."""
-    features = two_movements()
     truth = np.repeat([0, 1] * 2, 480)
-    for segments in (aca(features, SHORT_ACA), haca(features, SHORT_HACA)):
+    for segments in (aca(two_movements(), SHORT_ACA), levels_of_two_movements()[1]):
         labels = segments.per_frame()
         agreement = np.mean(labels == truth)
         assert max(agreement, 1 - agreement) > 0.85
@@ -128,7 +133,7 @@ def test_equal_seeds_give_equal_segments_and_turned_features_the_same():
 
 
 def test_second_level_segments_are_made_of_first_level_ones():
-    fine, coarse = haca_levels(two_movements(), SHORT_HACA)
+    fine, coarse = levels_of_two_movements()
     assert set(coarse.cuts) <= set(fine.cuts)
     assert coarse.n_frames == fine.n_frames == 1920
 

@@ -14,7 +14,7 @@ import kineme
 import naive
 from kineme.errors import ParameterError
 from kineme.evaluation import Comparison, Labelling, border_score
-from kineme.evaluation.annotations import read_trials
+from kineme.evaluation.inputs import read_trials
 from kineme.features.rotations import joint_quaternions
 from kineme.methods import PRESETS
 from kineme_reproduction.baselines.gmm import gmm

@@ -183,7 +183,7 @@ def evaluate(
 
 
 def _give(records: Sequence[Mapping[str, Any]], output: Path | None, *, as_json: bool) -> None:
-    from kineme.evaluation.tables import records_json, write_records
+    from kineme.evaluation.score import records_json, write_records
 
     if as_json:
         typer.echo(records_json(records))
@@ -207,7 +207,7 @@ def _check_output(output: Path | None) -> None:
     """WriteError before the work for what could not be written after it."""
     if output is None:
         return
-    from kineme.evaluation.tables import OUTPUTS
+    from kineme.evaluation.score import OUTPUTS
 
     if output.suffix.lower() not in OUTPUTS:
         raise WriteError(output, f"scores are written as {' or '.join(OUTPUTS)}")

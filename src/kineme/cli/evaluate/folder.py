@@ -13,10 +13,21 @@ from kineme.cli.messages import progress
 from kineme.cli.tables import show_table
 from kineme.cli.terminal import harmless
 from kineme.errors import ParameterError
-from kineme.evaluation.folder import Evaluated, FolderScores, Mapped, evaluate_folder
-from kineme.evaluation.recordings import check_method, recordings_below
-from kineme.evaluation.score import scores
-from kineme.evaluation.tables import explain_disagreement, format_score, score_rows, write_result
+from kineme.evaluation.folder import (
+    Evaluated,
+    FolderScores,
+    Mapped,
+    check_method,
+    evaluate_folder,
+    recordings_below,
+)
+from kineme.evaluation.score import (
+    explain_disagreement,
+    format_score,
+    score_rows,
+    scores,
+    write_result,
+)
 from kineme.formats.options import ReadOptions
 from kineme.labels.collections import labels_and_strays
 

@@ -18,8 +18,8 @@ from kineme.evaluation.annotators import (
     extent_of,
     labels_of_annotators,
 )
-from kineme.evaluation.recordings import recordings_below
-from kineme.evaluation.tables import format_score, write_result
+from kineme.evaluation.folder import recordings_below
+from kineme.evaluation.score import format_score, write_result
 from kineme.labels.collections import Extent, labels_of
 
 BY = {

@@ -7,8 +7,14 @@ from typing import Any
 
 from kineme.cli.tables import show_scores
 from kineme.errors import ReadError
-from kineme.evaluation.annotations import is_annotations, read_trial
-from kineme.evaluation.inputs import comparison, read_result, read_truth, score
+from kineme.evaluation.inputs import (
+    comparison,
+    is_annotations,
+    read_result,
+    read_trial,
+    read_truth,
+    score,
+)
 
 
 def score_file(

@@ -25,7 +25,7 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme._util.checks import unique
+from kineme._util.checks import join_names, unique
 from kineme._util.rotations import matrices, quaternions
 from kineme.formats.files import MOST_EXPANSION, FileContent
 from kineme.formats.scenes.characters import SceneNode, carriers
@@ -122,7 +122,11 @@ def assemble(
         and np.ptp(rotations[:, j], axis=0).max() < STILL
     ]
     rotations[:, ends] = rot.IDENTITY
-    names = tuple(unique(nodes[node].name for node in joints))
+    given = [nodes[node].name for node in joints]
+    names = tuple(unique(given))
+    if others := [new for new, old in zip(names, given, strict=True) if new != old]:
+        remark = f"several bones have one name: they are read as {join_names(others)}"
+        provenance = provenance.noted(Note(remark, "warning"))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends), rig)
     return place(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
 

@@ -30,6 +30,25 @@ def center(repetitions):
                 repetitions[k, p, d] -= mean / places
 
 
+@njit("float64(int64[::1], float64, float64, float64, float64, float64, float64)", **OPTIONS)
+def share_by_times(
+    visits, fps, max_repetition, chance_period, uneven, chance_count, chance_duration
+):
+    """Return the share that a division saves at most, by number and durations of repetitions."""
+    count = len(visits)
+    # Two visits enclose one repetition, which nothing else can explain.
+    if count < 3:
+        return 0.0
+    durations = np.diff(visits) / fps
+    if durations.max() > max_repetition:
+        return 0.0
+    fast = min(chance_period / durations.mean(), 1.0) ** 2
+    # Logarithms, since twice as long and half as long are equally uneven.
+    even = 1 - min(np.log(durations).std() / uneven, 1.0) ** 2
+    chance = min(chance_count, chance_duration / durations.mean())
+    return even * (1 - max(fast, min(chance / count, 1.0)))
+
+
 @njit("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, :, ::1])", **SUMS)
 def explain_variance(poses, path, visits, centered):
     """Return share of the variance of repetitions that the mean of the others explains, in time.

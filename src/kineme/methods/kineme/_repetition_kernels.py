@@ -75,10 +75,23 @@ def dips(distances, least):
         row = distances[r]
         # Lows are at even turns, highs at odd ones.
         turns = turning_points(row, least[r])
-        n = len(turns)
-        found = np.zeros(n // 2 + 1, np.float32)
-        where = np.zeros(n // 2 + 1, np.int64)
-        count = 0
+        found = np.zeros(len(turns) // 2 + 1, np.float32)
+        where = np.zeros(len(turns) // 2 + 1, np.int64)
+        count = n = 0
+        # A climb smaller than those beside it is a dip whatever else there is. One pass over the
+        # turns takes these away, and leaves few.
+        for t in range(len(turns)):
+            turns[n] = turns[t]
+            n += 1
+            while n > 3:
+                at, climb = n - 3, abs(row[turns[n - 2]] - row[turns[n - 3]])
+                before = abs(row[turns[n - 3]] - row[turns[n - 4]])
+                if climb >= before or climb >= abs(row[turns[n - 1]] - row[turns[n - 2]]):
+                    break
+                found[count], where[count] = climb, turns[at + at % 2]
+                count += 1
+                turns[at] = turns[n - 1]
+                n -= 2
         while n > 1:
             # The smallest climb is the depth of the shallowest dip: take its low and high away.
             at, climb = 0, FAR
@@ -99,15 +112,10 @@ def dips(distances, least):
         found[count], where[count] = top - row[turns[0]], turns[0]
         # Deepest first, without those at an end of the row.
         place = 0
-        for _ in range(len(found)):
-            i = 0
-            for other in range(1, len(found)):
-                i = other if found[other] > found[i] else i
+        for i in np.argsort(-found, kind="mergesort"):
             if found[i] >= least[r] and 0 < where[i] < columns - 1:
                 depths[r, place], lowest[r, place] = found[i], where[i]
                 place += 1
-            # Not to be taken again.
-            found[i] = -FAR
     return depths, lowest
 
 

@@ -15,13 +15,14 @@ Skeletons and sensors are unknown here: features are any array of frames x dims.
 
 from __future__ import annotations
 
+from functools import cache
 from itertools import pairwise
 from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_features
@@ -94,8 +95,14 @@ def analyze(
     ParameterError
         Features of another shape, empty, or not finite.
     """
-    with threadpool_limits(1):  # segments run side by side; sums do not depend on threads
+    with _products().limit(limits=1):  # parts run side by side; sums do not depend on threads
         return _analyze(as_features(features), preset, progress, joints=joints)
+
+
+@cache
+def _products() -> ThreadpoolController:
+    """Return what limits the threads of numpy's products; to find the library takes a while."""
+    return ThreadpoolController()
 
 
 def _analyze(

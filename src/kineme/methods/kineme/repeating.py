@@ -84,7 +84,7 @@ class Repeating:
         )
         share, visits = max(
             divisions,
-            key=lambda each: each[0] * np.ptp(each[1]),
+            key=lambda each: each[0] * (each[1][-1] - each[1][0]),
             default=(0.0, np.empty(0, np.int64)),
         )
         if share <= 0:
@@ -98,21 +98,21 @@ class Repeating:
 
     def _share(self, movement: Movement, visits: Frames) -> float:
         """Return the share that a division saves, 0 to 1."""
-        preset, count = self.preset, len(visits)  # both ends together are about one more
-        durations = np.diff(visits) / preset.working_fps
-        # Two visits enclose one repetition, which nothing else can explain.
-        if count < 3 or durations.max() > preset.max_repetition:
-            return 0.0
-        fast = min(preset.chance_period / float(durations.mean()), 1.0) ** 2
-        # Logarithms, since twice as long and half as long are equally uneven.
-        even = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
-        chance = min(preset.chance_count, preset.chance_duration / float(durations.mean()))
-        share = even * (1 - max(fast, min(chance / count, 1.0)))
+        # The cheap part first: nothing else is asked where it is 0.
+        preset = self.preset
+        share: float = kernels.share_by_times(
+            visits,
+            preset.working_fps,
+            preset.max_repetition,
+            preset.chance_period,
+            preset.uneven,
+            preset.chance_count,
+            preset.chance_duration,
+        )
         if share <= 0:
             return 0.0
         repetitions = repetitions_between(movement.poses, movement.path, visits, PLACES)
         kernels.center(repetitions)
-        # The cheap factors are known to be above 0; these need all repetitions.
         explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
         share *= _beyond(explained, preset.min_explained)
         return share and share * share_of_one_movement(repetitions, preset)

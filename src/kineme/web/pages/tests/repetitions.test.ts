@@ -18,9 +18,9 @@ it("lists each activity with the durations of its repetitions", () => {
   );
   expect(found.map(({ activity }) => activity.start_frame)).toEqual([0, 50]);
   expect(found[0]!.durations).toEqual([1.5, 2]);
-  expect(found[0]!.mean_s).toBe(1.75);
-  expect(found[0]!.deviation_s).toBeCloseTo(0.3536, 4);
-  expect(found[1]!.deviation_s).toBeNull();
+  expect(found[0]!.mean).toBe(1.75);
+  expect(found[0]!.deviation).toBeCloseTo(0.3536, 4);
+  expect(found[1]!.deviation).toBeNull();
 });
 
 it("counts what people left out, and leaves it out of the mean", () => {
@@ -34,6 +34,6 @@ it("counts what people left out, and leaves it out of the mean", () => {
   const [walk] = repetitionsOf(walkWithout(20));
   expect(walk!.durations).toHaveLength(3);
   expect(walk!.leftOut).toEqual([false, true, false]);
-  expect(walk!.mean_s).toBe(2);
-  expect(repetitionsOf(walkWithout(0, 20, 40))[0]!.mean_s).toBeNull();
+  expect(walk!.mean).toBe(2);
+  expect(repetitionsOf(walkWithout(0, 20, 40))[0]!.mean).toBeNull();
 });

@@ -8,7 +8,7 @@ import { Line } from "../canvas/Line";
 import { clusterColor } from "../colors";
 import type { ClusterCurves, CycleChannel, CycleCurve } from "../messages";
 import { BesideSelect, idOf, othersOf, whatIsBeside } from "./Beside";
-import { cycleAt, leftOutOf, selectCycle } from "./cycles";
+import { cycleAt, leftOutOf, selectCycle, summarizeRanges, withUnit } from "./cycles";
 import { Chosen, Farthest, LeftOut } from "./Outliers";
 import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
 import { shownCluster, useClusterCurves } from "./useClusterCurves";
@@ -35,6 +35,9 @@ export function Curves(): JSX.Element {
     );
   const { channels, curves, opposite } = now;
   const color = clusterColor(shownCluster(store));
+  const ranges = summarizeRanges(
+    curves.cycles.filter(({ counts }, i) => counts && !leftOut.value.has(i)),
+  );
   return (
     <div class="curves">
       <div class="curve-choice">
@@ -87,6 +90,7 @@ export function Curves(): JSX.Element {
       <LeftOut curves={curves} leftOut={leftOut.value} />
       <p class="quiet note">
         {whatIsShown(curves)}
+        {ranges && `; range ${withUnit(ranges, curves.unit)}`}
         {beside.value && whatIsBeside(store, beside.value, curves)}
         {opposite && `; ${opposite.channel}${DASHED}`}
         {curves.turned > 0 &&

@@ -2,7 +2,7 @@
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import type { ClusterCurves, CycleCurve } from "../messages";
-import { selectCycle } from "./cycles";
+import { rangeOf, roundTo, selectCycle, withUnit } from "./cycles";
 import { Button } from "../layout/controls";
 
 const FARTHEST = 3; // repetitions named that differ most from the mean
@@ -24,6 +24,7 @@ export function Chosen({ curves, leftOut, at }: Shown & { at: number }): JSX.Ele
   return (
     <p class="chosen" aria-label="At the playhead">
       <span class="number">{cycle.start_s.toFixed(2)} s</span>
+      <span class="quiet">range {withUnit(roundTo(rangeOf(cycle)), curves.unit)}</span>
       <span class="quiet">{isOut ? "left out by hand" : deviationOf(cycle, curves.unit)}</span>
       <span class="spacer" />
       {edit && (
@@ -117,6 +118,6 @@ function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
 /** How far a repetition is from the mean, and why it is not in it. */
 function deviationOf({ distance, note }: CycleCurve, unit: string): string {
   const number = distance?.toPrecision(2);
-  const far = distance === null ? "" : unit === "°" ? `${number}°` : `${number} ${unit}`.trim();
+  const far = number === undefined ? "" : withUnit(number, unit);
   return [far && `${far} from the mean`, note].filter(Boolean).join(", ");
 }

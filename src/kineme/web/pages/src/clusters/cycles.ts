@@ -1,5 +1,6 @@
 /** Which of the repetitions drawn are which segments of the table. */
 import type { CycleCurve } from "../messages";
+import { meanOf } from "../mean";
 import type { Store } from "../store";
 
 /** Selects the segment of a repetition, if it is there still, and goes to where it is measured from. */
@@ -26,4 +27,26 @@ export function cycleAt(store: Store, cycles: readonly CycleCurve[]): number {
   const selected = cycles.findIndex((each) => each.start_frame === start_frame);
   if (selected >= 0 && level === "primitive") return selected;
   return cycles.findIndex((each) => each.start_s <= at && at < each.stop_s);
+}
+
+/** How far a repetition goes in its channel, from the least to the greatest value. */
+export function rangeOf({ values }: CycleCurve): number {
+  const known = values.filter((value) => value !== null);
+  return Math.max(...known) - Math.min(...known);
+}
+
+/** Mean and standard deviation of these ranges, such as "92 ± 3"; empty for none. */
+export function summarizeRanges(cycles: readonly CycleCurve[]): string {
+  const { mean, deviation } = meanOf(cycles.map(rangeOf).filter(Number.isFinite));
+  if (mean === null) return "";
+  return roundTo(mean) + (deviation === null ? "" : ` ± ${roundTo(deviation)}`);
+}
+
+/** A number to three digits, without an exponent. */
+export function roundTo(value: number): string {
+  return `${Number(value.toPrecision(3))}`;
+}
+
+export function withUnit(number: string, unit: string): string {
+  return unit === "°" ? `${number}°` : `${number} ${unit}`.trim();
 }

@@ -6,6 +6,7 @@ import type { Recording } from "../messages";
 import { useStore } from "../context";
 import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
+import { onPaper } from "../theme";
 import { clock } from "../view";
 import { repetitionsOf } from "./repetitions";
 import { Button } from "../layout/controls";
@@ -34,7 +35,7 @@ export function Repetitions({ of }: { of: ReadonlySignal<Recording | undefined> 
         </tr>
       </thead>
       <tbody>
-        {rows.map(({ activity, durations, leftOut, mean_s, deviation_s }) => (
+        {rows.map(({ activity, durations, leftOut, mean, deviation }) => (
           <tr key={activity.start_frame}>
             <th scope="row">
               <Button class="plain" onClick={() => store.select(activity)}>
@@ -46,8 +47,8 @@ export function Repetitions({ of }: { of: ReadonlySignal<Recording | undefined> 
             <td class="number">{durationOf(activity).toFixed(1)} s</td>
             <td class="number">{timesOf(leftOut)}</td>
             <td class="number">
-              {mean_s?.toFixed(2)}
-              {deviation_s !== null && ` ± ${deviation_s.toFixed(2)}`}
+              {mean?.toFixed(2)}
+              {deviation !== null && ` ± ${deviation.toFixed(2)}`}
             </td>
             <td class="each">
               {durations.map((each, i) => [
@@ -90,7 +91,7 @@ export function Paper(): JSX.Element | null {
   );
 }
 
-/** The recording once edits of it have rested: its table is long, and seen on paper alone. */
+/** The recording once edits of it have rested, or at once where it is printed: its table is long. */
 function useRested(
   present: ReadonlySignal<Recording | undefined>,
 ): ReadonlySignal<Recording | undefined> {
@@ -98,7 +99,7 @@ function useRested(
   useSignalEffect(() => {
     const { value } = present;
     const take = (): void => void (rested.value = value);
-    if (!rested.peek()) take();
+    if (!rested.peek() || onPaper.value) take();
     const timer = setTimeout(take, PAUSE);
     return () => clearTimeout(timer);
   });

@@ -1,6 +1,7 @@
-"""Find hip, knee, ankle, heel, toe, shoulder, elbow and wrist of each side.
+"""Joints of a body: which they are, where their centres lie, and the angles between them.
 
-Arms and legs are those of `kineme.features.canonical`. Heels and toes are found by their names (see
+Found are hip, knee, ankle, heel, toe, shoulder, elbow and wrist of each side. Arms and legs are
+those of `kineme.features.canonical`. Heels and toes are found by their names (see
 `kineme.recordings.joint_names`); a toe may also be the end of a foot.
 
 Bodies that are markers on the skin get the centres of hips and knees as well (`add_joint_centres`).
@@ -10,12 +11,18 @@ Bodies that are markers on the skin get the centres of hips and knees as well (`
 magnetic resonance imaging"; or where the file has it (``LHJC``).
 
 *Knee.* A marker on it is beside its centre, which does not matter to an angle about the axis of the
-knee (`kineme.cycles.angles.hinge_axis`), as long as the ankle is a marker at the same side. Without
-one, thigh and shank are rigid bodies, each fitted to its markers. Both have one point in common,
-about which they turn (Ehrig et al. 2006, "A survey of formal methods for determining the centre of
-rotation of ball joints", section 2.2.2). A knee turns about an axis, so that this point may lie
-anywhere on it: that one is taken which is in line with hip and ankle, as seen from the front. A
-knee that is not bent in the recording has no such point.
+knee (`hinge_axis`), as long as the ankle is a marker at the same side. Without one, thigh and shank
+are rigid bodies, each fitted to its markers. Both have one point in common, about which they turn
+(Ehrig et al. 2006, "A survey of formal methods for determining the centre of rotation of ball
+joints", section 2.2.2). A knee turns about an axis, so that this point may lie anywhere on it: that
+one is taken which is in line with hip and ankle, as seen from the front. A knee that is not bent in
+the recording has no such point.
+
+*Angles* are in degrees. From positions of joints an angle is the one between two limbs, by which a
+straight limb is bent: a knee is 0 degrees when thigh and shank are in line, whatever plane it bends
+in. Markers on the skin are beside the joints, so that a straight leg has an angle between its
+limbs, too. There a knee is bent about its axis, and below 0 degrees if it is bent the other way.
+From rotations it is how far a joint is turned from the pose of rest, as the skeleton has it.
 """
 
 from __future__ import annotations
@@ -25,8 +32,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme.cycles.angles import normalize, remove_along
 from kineme.errors import EndEffectorError
 from kineme.features import PARTS, end_effectors
 from kineme.features.canonical.joints import find_limbs
@@ -69,9 +76,11 @@ def landmarks(motion: Motion) -> dict[str, int]:
         skeleton.names, [("*_heel",), ("*_toe", "*_foot")], usable=others, single=True
     )
     joints |= {joint: points[0] for joint, points in named.items()}
+    lengths = np.linalg.norm(skeleton.offsets, axis=1)
     for side, ankle in ankles.items():
-        if (toe := _beyond(skeleton, ankle)) is not None:
-            joints.setdefault(f"{side}_toe", toe)
+        below = [j for j in skeleton.children[ankle] if lengths[j] > 0]
+        if below:
+            joints.setdefault(f"{side}_toe", max(below, key=lambda j: float(lengths[j])))
     return joints
 
 
@@ -85,13 +94,6 @@ def find_feet(motion: Motion) -> dict[str, tuple[int, ...]]:
         for side, heel in heels.items()
         if heel is not None
     }
-
-
-def _beyond(skeleton: Skeleton, ankle: int) -> int | None:
-    """Return the joint below the ankle that is farthest from it."""
-    lengths = np.linalg.norm(skeleton.offsets, axis=1)
-    below = [j for j in skeleton.children[ankle] if lengths[j] > 0]
-    return max(below, key=lambda j: float(lengths[j]), default=None)
 
 
 LEAST = 3
@@ -114,15 +116,9 @@ MOST = 4000
 def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
     """Return motion with centres of hips and knees as more joints, and the joints by part and side.
 
-    Both are as they were where nothing tells where centres are. Of markers on the skin,
-    ``left_thigh`` is the point that tells with hip and knee how a thigh is turned: the marker of
-    the thigh that is farthest from their line, else the other hip.
-
-    Parameters
-    ----------
-    motion : Motion
-    joints : mapping of str to int
-        As `kineme.cycles.landmarks` has them.
+    Both are as they were (joints as `landmarks` has them) where nothing tells where centres are. Of
+    markers on the skin, ``left_thigh`` is the point that tells with hip and knee how a thigh is
+    turned: the marker of the thigh that is farthest from their line, else the other hip.
     """
     names = [simplify_name(name.rpartition(":")[2]) for name in motion.skeleton.names]
     found = find_joints(motion.skeleton.names, MARKERS, exact=True, single=True)
@@ -172,11 +168,8 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     for side in SIDES:
         if f"{side}_knee" in chosen:
             hip, knee = (positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
-            markers = [
-                j
-                for j, name in enumerate(names)
-                if name[:1] == side[0].upper() and "THI" in name[1:] and j not in chosen.values()
-            ]
+            markers = [j for j, name in enumerate(names) if name[:1] == side[0].upper()
+                       and "THI" in name[1:] and j not in chosen.values()]  # fmt: skip
             # Vectors from the line through hip and knee to each marker.
             aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
             far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
@@ -233,27 +226,19 @@ def _knee(
         np.concatenate([both, PULL * pulled]), np.concatenate([apart, PULL * apart / 2])
     )[0]
     # The same point as each body sees it, averaged.
-    at = (_place_point(upper, found[:3]) + _place_point(lower, found[3:])) / 2
+    at = (upper[0] @ found[:3] + upper[1] + lower[0] @ found[3:] + lower[1]) / 2
     # Leftward axis in the frame of the thigh, averaged over time, then turned back with the thigh.
     axis = normalize(
         np.einsum("fji,fj->fi", upper[0], normalize(to_left)).mean(axis=0, keepdims=True)
     )[0]
-    axis = np.einsum("fij,j->fi", upper[0], axis)
+    axis = upper[0] @ axis
     # How far the middle of hip and ankle lies beside the point, along the axis.
     aside = (((ends[0] + ends[1]) / 2 - at) * axis).sum(axis=1)
     return np.asarray(at + float(np.median(aside)) * axis)
 
 
-Poses = tuple[Floats, Floats]
-"""Rotations (frames, 3, 3) and places of the middle (frames, 3) of a rigid body."""
-
-
-def _place_point(poses: Poses, point: Floats) -> Floats:
-    return np.asarray(np.einsum("fij,j->fi", poses[0], point) + poses[1])
-
-
-def _poses(markers: Floats) -> Poses:
-    """How a body is turned against its shape in the middle frame, by least squares (Kabsch)."""
+def _poses(markers: Floats) -> tuple[Floats, Floats]:
+    """Rotations (frames, 3, 3) against the middle frame (Kabsch), and places of the middle."""
     # Centred markers (frames, markers, 3); the middle frame is the reference shape.
     centre = markers.mean(axis=1)
     shape = markers - centre[:, None]
@@ -265,3 +250,125 @@ def _poses(markers: Floats) -> Poses:
     flips[:, 0, 2] = np.sign(np.linalg.det(u @ vt))
     # The index order transposes the product: V D Ut.
     return np.einsum("fij,fjk->fki", u * flips, vt), centre
+
+
+MOVES = 0.1
+"""Radians by which a hinge deviates from its mean, at least, for its axis to be seen."""
+
+
+def bend(before: Floats, joint: Floats, after: Floats) -> Floats:
+    """By how much a chain of three points is bent at the middle one: 0 where they are in line.
+
+    Parameters
+    ----------
+    before, joint, after : (frames, 3) array
+
+    Returns
+    -------
+    (frames,) array
+        Degrees, 0 to 180: 180 less the angle between the two limbs.
+
+    Examples
+    --------
+    >>> bend(np.array([[0, 2.0, 0]]), np.array([[0, 1.0, 0]]), np.array([[0, 1.0, 1]])).round(6)
+    array([90.])
+    """
+    return measure_angle(joint - before, after - joint)
+
+
+def measure_angle(first: Floats, second: Floats) -> Floats:
+    """Return the angle between vectors, degrees from 0 to 180; nan where one has no length.
+
+    Parameters
+    ----------
+    first, second : (frames, 3) array
+
+    Returns
+    -------
+    (frames,) array
+
+    Examples
+    --------
+    >>> measure_angle(np.array([[0, 1.0, 0]]), np.array([[0, 0, 2.0]])).round(6)
+    array([90.])
+    """
+    # The arctangent is exact near 0 and 180 degrees, where an arccosine loses precision.
+    cross = np.linalg.norm(np.cross(first, second), axis=-1)
+    dot = (first * second).sum(axis=-1)
+    angle = np.degrees(np.arctan2(cross, dot))
+    # `arctan2(0, 0)` is 0, but a vector without length has no direction.
+    return np.where((cross == 0) & (dot == 0), np.nan, angle)
+
+
+def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
+    """By how much a vector is turned about an axis to lie in the direction of another.
+
+    Degrees, -180 to 180, right-handed. What the vectors (frames, 3) have in the direction of the
+    axis does not count.
+    """
+    flat = [remove_along(vectors, axis) for vectors in (first, second)]
+    # The triple product with the unit axis: the sine with its sign.
+    sine = (np.cross(flat[0], flat[1]) * normalize(axis)).sum(axis=-1)
+    cosine = (flat[0] * flat[1]).sum(axis=-1)
+    return np.asarray(np.degrees(np.arctan2(sine, cosine)))
+
+
+def hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats) -> Floats | None:
+    """Return the axis (frames, 3) of a hinge such as a knee, which is fixed to the upper limb.
+
+    The lower limb moves in a plane, as seen from the upper one. The axis is what is most at right
+    angles to it in all frames, so markers need not be at the centre of the joint. ``beside`` is a
+    point that tells how the upper limb is turned, such as a marker of the thigh. The axis has
+    either sign; None where the hinge hardly moves.
+    """
+    # Directions of thigh and shank.
+    along, limb = normalize(joint - upper), normalize(lower - joint)
+    aside = normalize(remove_along(beside - joint, along))
+    # (frames, 3, 3): rows are the axes of the upper limb; the shank is then given in them.
+    frame = np.stack([aside, np.cross(along, aside), along], axis=1)
+    seen = np.einsum("fij,fj->fi", frame, limb)
+    # Eigenvalues ascend: the axis has least of the shank in it, the second tells how it swings.
+    spreads, axes = np.linalg.eigh(seen.T @ seen / len(seen))
+    if spreads[1] < MOVES**2:
+        return None
+    # Back to the coordinates of the recording.
+    return np.asarray(np.einsum("fij,i->fj", frame, axes[:, 0]))
+
+
+def remove_along(vectors: Floats, direction: Floats) -> Floats:
+    """Return vectors without what they have in a direction."""
+    direction = normalize(direction)
+    return np.asarray(vectors - (vectors * direction).sum(axis=-1, keepdims=True) * direction)
+
+
+def normalize(vectors: Floats) -> Floats:
+    """Return vectors of length 1; those without a length stay 0."""
+    # The floor avoids a division by 0; a vector of length 0 stays 0.
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12))
+
+
+def cardan(rotations: Floats) -> Floats:
+    """Angles (x, z, y) whose product Rx Rz Ry is the rotation, degrees.
+
+    The first turns about the axis from side to side, as flexion does in a skeleton whose pose of
+    rest faces +z; the second about the axis ahead; the third about the upright one.
+
+    Parameters
+    ----------
+    rotations : (frames, 4) array
+        Unit quaternions (w, x, y, z).
+
+    Returns
+    -------
+    (frames, 3) array
+
+    Examples
+    --------
+    >>> turned = rot.from_euler(np.radians([[40.0, 10.0, -5.0]]), "xzy")
+    >>> cardan(turned).round(6)
+    array([[40., 10., -5.]])
+    """
+    # Rx Rz Ry is Rz Ry Rx with the axes named anew: x for z, z for y, y for x.
+    w, x, y, z = rot.components(rotations)
+    renamed = rot.join(w, y, z, x)
+    return np.degrees(rot.to_euler_zyx(renamed))

@@ -1,0 +1,413 @@
+"""From the segment table to repetitions in seconds: at one phase and without pauses, or at events.
+
+Which repetitions there are is what the segmentation says. Their borders are compared by the pose of
+a body, or by all channels of signals. With an anchor, the event nearest to the usual phase is the
+start of a repetition, and that of the repetition after it its stop. A cycle whose event is missing
+stays in the table and says so.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import ceil
+
+import numpy as np
+
+from kineme._util.arrays import Floats
+from kineme._util.checks import as_floats
+from kineme.cycles.borders import Run, run_of, shift_to_common_phase, vertex
+from kineme.cycles.channels import channels_of
+from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
+from kineme.cycles.table import CYCLE, INCOMPLETE, mean_phase
+from kineme.errors import EndEffectorError, MotionError, ParameterError
+from kineme.features import distance_features, pose_features
+from kineme.labels.c3d_events import SAME_S
+from kineme.recordings import Motion, Signals
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Segment
+
+RATE = 250.0
+"""Samples per second, at most: what is faster is averaged."""
+SMOOTH_S = 0.02
+"""Features are smoothed by a normal curve that deviates by this."""
+STEADY_S = 0.08
+"""Again, before their speed is taken, so that noise is no movement."""
+PAUSE_S = 0.5
+"""Seconds of standing still between two repetitions that are a pause, at least."""
+STILL = 0.1
+"""Of the speed of a cluster, the root of its mean square: what is slower stands still."""
+OUTSIDE = 0.25
+"""Of a cycle: a repetition that is farther outside of its activity is not complete, nor is one at
+its ends that lacks more."""
+_EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
+_CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")
+
+Groups = Sequence[Mapping[int | str, Hashable]]
+"""Of each recording: the group of a `movement`. Repetitions of one group begin at one phase."""
+
+
+@dataclass(frozen=True)
+class Repetition:
+    """One repetition: what the segmentation says of it, and from when to when it is measured.
+
+    Attributes
+    ----------
+    recording : int
+        Which of the recordings.
+    segment : Segment
+        The primitive.
+    place : str
+        ``inner``, or where it touches an end of its run ``first``, ``last`` or ``only``.
+    start, stop : float
+        Seconds.
+    start_deviation, stop_deviation : float
+        How uncertain they are, seconds; nan where nothing tells.
+    pause : float
+        Seconds of standing still between it and the repetition before.
+    turned : float
+        Of a cycle: how much later it begins than its segment, to begin where others do.
+    lacking : str
+        Why it does not count in means: it is incomplete, or the event that it begins with is not
+        there.
+    """
+
+    recording: int
+    segment: Segment
+    place: str
+    start: float
+    stop: float
+    start_deviation: float
+    stop_deviation: float
+    pause: float = 0.0
+    turned: float = 0.0
+    lacking: str = ""
+
+
+def find_repetitions(
+    recordings: Sequence[Motion | Signals], tables: Sequence[Segmentation], groups: Groups
+) -> list[Repetition]:
+    """Return the repetitions of all recordings, in the order of recordings and of time."""
+    fine = [_FineFeatures.of(recording) for recording in recordings]
+    # Runs of one key are shifted to one phase.
+    members: dict[Hashable, list[tuple[Run, list[Segment]]]] = defaultdict(list)
+    for number, table in enumerate(tables):
+        dims, comparable = fine[number].values.shape[1], fine[number].comparable
+        for segments in _back_to_back(table):
+            frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
+            run = run_of(number, np.array(frames) / table.fps)
+            what = movement(segments[0])
+            # A run without cluster or label is alone; features that do not compare stay in their
+            # recording.
+            alone = id(run) if what == "" else -1 if comparable else number
+            members[groups[number].get(what, what), dims, alone].append((run, segments))
+    found: list[Repetition] = []
+    features, rates = [each.values for each in fine], [each.rate for each in fine]
+    for runs in members.values():
+        aligned = shift_to_common_phase([run for run, _ in runs], features, rates)
+        still = _stillness(aligned, fine)
+        for run, (_, segments) in zip(aligned, runs, strict=True):
+            each = _cut_to_activity(run, segments, tables[run.recording])
+            found += _trim_pauses(each, fine[run.recording], still)
+    return sorted(found, key=lambda each: (each.recording, each.segment.start_frame))
+
+
+def movement(segment: Segment) -> int | str:
+    """What repetitions of one movement have in common: the cluster, else the label, if any."""
+    return segment.cluster if segment.cluster >= 0 else segment.label
+
+
+@dataclass(frozen=True)
+class _FineFeatures:
+    """Features (samples, dims) of a recording at its rate, or at most `RATE`.
+
+    ``comparable``: whether those of another recording can be compared with them.
+    """
+
+    values: Floats
+    rate: float
+    comparable: bool
+
+    @classmethod
+    def of(cls, recording: Motion | Signals) -> _FineFeatures:
+        """Return the pose of a body, distances of its points where it has none, or all channels."""
+        from scipy.ndimage import gaussian_filter1d, uniform_filter1d
+
+        # An odd number of frames, so that each mean is centred on a frame.
+        many = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
+        rate, comparable = recording.fps / many, True
+        if isinstance(recording, Signals):
+            values = recording.values
+        else:
+            try:
+                values = pose_features(recording)
+            except (EndEffectorError, MotionError):
+                comparable, positions = False, recording.positions
+                # A single point has no distances: its path is compared.
+                is_point = recording.skeleton.n_joints < 2
+                values = positions[:, 0] if is_point else distance_features(positions)[0]
+        # The mean about each frame, of which every n-th is kept.
+        if many > 1:
+            values = uniform_filter1d(values, many, axis=0, mode="nearest")[::many]
+        # Channels have different units: each counts by its own deviation, a constant one is only 0.
+        if isinstance(recording, Signals):
+            deviation = values.std(axis=0)
+            values = (values - values.mean(axis=0)) / np.where(deviation > 0, deviation, 1)
+        values = gaussian_filter1d(values, SMOOTH_S * rate, axis=0, mode="nearest")
+        return cls(values, rate, comparable)
+
+    @cached_property
+    def speed(self) -> Floats:
+        """How fast they change, per second, smoothed."""
+        from scipy.ndimage import gaussian_filter1d
+
+        if len(self.values) < 2:
+            return np.zeros(len(self.values))
+        # Smoothed once more, since a derivative amplifies noise.
+        steady = gaussian_filter1d(self.values, STEADY_S * self.rate, axis=0, mode="nearest")
+        return np.asarray(np.linalg.norm(np.gradient(steady, axis=0), axis=1) * self.rate)
+
+
+def _back_to_back(table: Segmentation) -> list[list[Segment]]:
+    """Return the repetitions of one movement in one activity, one after the other without a gap."""
+    runs: list[list[Segment]] = []
+    for row in table.primitives:
+        if row.kind != "primitive":
+            continue
+        last = runs[-1][-1] if runs else None
+        if (
+            last is not None
+            and movement(row) != ""
+            and (movement(last), last.activity) == (movement(row), row.activity)
+            and last.stop_frame == row.start_frame
+        ):
+            runs[-1].append(row)
+        else:
+            runs.append([row])
+    return runs
+
+
+def _cut_to_activity(
+    run: Run, segments: Sequence[Segment], table: Segmentation
+) -> list[Repetition]:
+    """Return the repetitions of a run, cut off where its activity ends."""
+    n, found = len(segments), []
+    activity = table.activities[segments[0].activity]
+    least, most, end = activity.start_s, activity.stop_s, table.n_frames / table.fps
+    # Borders were moved, and may lie a little outside of their activity.
+    reach = OUTSIDE * run.period
+    for i, segment in enumerate(segments):
+        start, stop = run.borders[i : i + 2].tolist()
+        complete = least - reach <= start and stop <= most + reach
+        if not complete:
+            start, stop = max(start, least), min(stop, most)
+        start, stop = min(max(start, 0.0), end), min(max(stop, 0.0), end)
+        first, last = i == 0, i == n - 1
+        # Only the first and the last can be cut short by an end.
+        if first or last:
+            complete &= stop - start >= (1 - OUTSIDE) * run.period
+        found.append(
+            Repetition(
+                recording=run.recording,
+                segment=segment,
+                place="only" if n == 1 else "first" if first else "last" if last else "inner",
+                start=start,
+                stop=max(start, stop),
+                start_deviation=float(run.uncertainty[i]),
+                stop_deviation=float(run.uncertainty[i + 1]),
+                turned=run.turned,
+                lacking="" if complete else INCOMPLETE,
+            )
+        )
+    return found
+
+
+def _stillness(runs: Sequence[Run], fine: Sequence[_FineFeatures]) -> float:
+    """Return the speed below which repetitions of these runs stand still."""
+    total, count = 0.0, 0
+    # The root mean square over all frames of all runs; no run is weighed by itself.
+    for run in runs:
+        rate = fine[run.recording].rate
+        frames = slice(max(0, int(run.borders[0] * rate)), int(run.borders[-1] * rate) + 1)
+        speed = fine[run.recording].speed[frames]
+        total, count = total + float(np.square(speed).sum()), count + len(speed)
+    return STILL * float(np.sqrt(total / max(count, 1)))
+
+
+def _trim_pauses(run: list[Repetition], fine: _FineFeatures, still: float) -> list[Repetition]:
+    """Return the repetitions of a run, from where movement begins to where it ends.
+
+    Standing still counts as a pause where it lasts `PAUSE_S`, on both sides of a border together.
+    """
+    trimmed, moves = list(run), [_movement(each, fine, still) for each in run]
+    # Standing still before the first repetition is not a part of it.
+    if moves[0][0] - run[0].start >= PAUSE_S:
+        trimmed[0] = replace(trimmed[0], start=moves[0][0])
+    for i, each in enumerate(run):
+        # A pause reaches from the last movement of one repetition to the first of the next.
+        ends, is_last = moves[i][1], i + 1 == len(run)
+        until = each.stop if is_last else moves[i + 1][0]
+        # `trimmed[i]` may begin later than `each`: the pause before it was cut off already.
+        if ends > trimmed[i].start and until - ends >= PAUSE_S:
+            trimmed[i] = replace(trimmed[i], stop=ends)
+            if not is_last and until < run[i + 1].stop:
+                trimmed[i + 1] = replace(run[i + 1], start=until, pause=until - ends)
+    return trimmed
+
+
+def _movement(each: Repetition, fine: _FineFeatures, still: float) -> tuple[float, float]:
+    """When the first and the last movement of a repetition are; its ends where there is none."""
+    # The frames of `speed` that lie within the repetition.
+    first = max(0, int(np.ceil(each.start * fine.rate)))
+    moves = np.flatnonzero(fine.speed[first : int(each.stop * fine.rate) + 1] > still)
+    if len(moves) == 0:
+        return each.start, each.stop
+    begins, ends = (first + moves[[0, -1]]) / fine.rate
+    return max(each.start, float(begins)), min(each.stop, float(ends))
+
+
+def anchor_repetitions(
+    found: Sequence[Repetition],
+    recordings: Sequence[Motion | Signals],
+    groups: Groups,
+    anchor: str | Sequence[float],
+    beside: Sequence[Signals] = (),
+) -> list[Repetition]:
+    """Return the repetitions from event to event; for ``anchor`` see `kineme.cycles.cycles`."""
+    extreme = _EXTREME.fullmatch(anchor.strip()) if isinstance(anchor, str) else None
+    members: dict[Hashable, list[int]] = {}
+    for i, each in enumerate(found):
+        what = movement(each.segment)
+        members.setdefault(groups[each.recording].get(what, what), []).append(i)
+    starts = np.full(len(found), np.nan)
+    if extreme is not None:
+        sign = 1.0 if extreme["which"] == "max" else -1.0
+        curves = [_curve(each, extreme["channel"], beside) for each in recordings]
+        # Negative for a minimum, so that the largest value is searched in both cases.
+        signed = [(sign * values, fps) for values, fps in curves]
+        for rows in members.values():
+            starts[rows] = _find_largest([found[i] for i in rows], signed)
+    else:
+        times = [_event_times(each, anchor, beside) for each in recordings]
+        for rows in members.values():
+            starts[rows] = _find_nearest([found[i] for i in rows], times)
+    anchored = []
+    for i, each in enumerate(found):
+        # Repetitions are in the order of time, so the next one of the run is the next in the list.
+        start, stop = starts[i], starts[i + 1] if each.place in ("first", "inner") else np.nan
+        lacking = "no event" if np.isnan(start) else "no event ends it" if np.isnan(stop) else ""
+        # Events in the wrong order; False where one of them is nan.
+        if stop <= start:
+            start, stop, lacking = np.nan, np.nan, "no event"
+        anchored.append(
+            Repetition(
+                each.recording, each.segment, each.place, float(start), float(stop), np.nan, np.nan,
+                turned=each.turned, lacking=lacking,
+            )
+        )  # fmt: skip
+    return anchored
+
+
+Curve = tuple[Floats, float]
+"""Values of a channel, and frames per second."""
+
+
+def _curve(recording: Motion | Signals, name: str, beside: Sequence[Signals]) -> Curve:
+    channels = channels_of(recording, [name], beside=beside)
+    if len(channels) > 1:
+        raise ParameterError(f"an anchor is one channel, and {name!r} names {len(channels)}")
+    return channels[0].values(), channels[0].fps
+
+
+def _find_largest(found: Sequence[Repetition], curves: Sequence[Curve]) -> Floats:
+    """When a channel is largest in each repetition, about the phase at which it usually is."""
+    # Without 100 %, which is 0 % of the next cycle.
+    share = np.linspace(0, 1, 101)[:-1]
+    sampled = []
+    for each in found:
+        values, fps = curves[each.recording]
+        at = (each.start + share * (each.stop - each.start)) * fps
+        sampled.append(np.interp(at, np.arange(len(values)), values))
+    usual = np.array(sampled)
+    complete = np.isfinite(usual).all(axis=1)
+    times = np.full(len(found), np.nan)
+    # A repetition with a gap must not hide the usual phase of the others.
+    if not complete.any():
+        return times
+    phase = share[int(usual[complete].mean(axis=0).argmax())]
+    for i, each in enumerate(found):
+        values, fps = curves[each.recording]
+        first, last = _window(each, phase)
+        # Whole frames within the window, limited to the recording.
+        frames = np.arange(max(0, int(np.ceil(first * fps))), min(len(values), int(last * fps) + 1))
+        if len(frames) and np.isfinite(values[frames]).all():
+            frame = int(frames[values[frames].argmax()])
+            # An end of the recording has no neighbour for the parabola, which finds a minimum.
+            inner = 0 < frame < len(values) - 1
+            shift = vertex(*-values[frame - 1 : frame + 2]) if inner else 0.0
+            times[i] = (frame + shift) / fps
+    return times
+
+
+def _find_nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
+    """Return of each repetition the event nearest to the usual phase; nan without one near it."""
+    phases = [np.empty(0)]
+    for each in found:
+        events = times[each.recording]
+        inside = events[(events >= each.start) & (events < each.stop)]
+        phases.append(CYCLE * (inside - each.start) / (each.stop - each.start))
+    # nan where there are no events; then no window holds one.
+    phase = mean_phase(np.concatenate(phases)) / CYCLE
+    chosen = np.full(len(found), np.nan)
+    for i, each in enumerate(found):
+        first, last = _window(each, phase)
+        events = times[each.recording]
+        inside = events[(events >= first) & (events < last)]
+        if len(inside):
+            # The middle of the window is the usual phase.
+            chosen[i] = inside[np.abs(inside - (first + last) / 2).argmin()]
+    return chosen
+
+
+def _window(each: Repetition, phase: float) -> tuple[float, float]:
+    """Seconds within half a cycle of a phase of a repetition."""
+    length = each.stop - each.start
+    return each.start + (phase - 0.5) * length, each.start + (phase + 0.5) * length
+
+
+def _event_times(
+    recording: Motion | Signals, anchor: str | Sequence[float], beside: Sequence[Signals]
+) -> Floats:
+    """Return the seconds of the events of a recording that an anchor names."""
+    if not isinstance(anchor, str):
+        return np.sort(as_floats(anchor, "anchor").ravel())
+    if (crossing := _CROSSING.fullmatch(anchor.strip())) is not None:
+        values, fps = _curve(recording, crossing["channel"], beside)
+        over = (values - float(crossing["level"])) * (1.0 if crossing["sign"] == ">" else -1.0)
+        # Comparisons with nan are False: no crossing is found next to a gap.
+        frames = np.flatnonzero((over[:-1] <= 0) & (over[1:] > 0))
+        # Where the straight line between both frames crosses the level.
+        return (frames + over[frames] / (over[frames] - over[frames + 1])) / fps
+    name, events = plain_name(anchor), recording.provenance.events
+    marked = np.array([at for at, text in events if plain_name(text) == name], np.float64)
+    if name.endswith((STRIKE, OFF)):
+        try:
+            found = foot_events(recording).at(name)
+        except ParameterError:
+            if not len(marked):
+                raise
+            found = np.empty(0)
+        # A laboratory often marks the contacts on its force plates only. Contacts found from the
+        # movement are added where no mark is near.
+        apart = np.abs(found[:, None] - marked).min(axis=1, initial=np.inf)
+        return np.sort(np.concatenate([found[apart >= SAME_S], marked]))
+    if len(marked):
+        return np.sort(marked)
+    names = sorted({text for _, text in events})
+    raise ParameterError(
+        f"no event {anchor!r}; there are {', '.join([*names, 'left foot strike, and so on'])}; "
+        "of a channel give its largest value or a threshold, as in 'knee_r max', 'knee_r > 40'"
+    )

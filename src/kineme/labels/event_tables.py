@@ -1,0 +1,325 @@
+"""Tables of events: BIDS with its sidecar, and BORIS.
+
+*BIDS* (``events.tsv``): both levels, clusters and confidences. Columns ``onset``, ``duration``
+(seconds) and ``trial_type`` are those of the standard; ``level``, ``cluster``, ``confidence``,
+``start_frame``, ``stop_frame``, ``action`` and ``border_confidence`` are described in the sidecar,
+which also has ``SamplingFrequency`` and ``RecordingDuration`` as in Motion-BIDS, and a digest of
+the cuts. A missing value is ``n/a``. What a sidecar already says about columns is kept.
+
+Reading needs ``onset``, ``duration`` and ``trial_type`` only; seconds count.
+
+*BORIS* (CSV): a START and a STOP row per segment, both levels. Written as BORIS's "tabular events":
+``Time`` in seconds beside ``Image index`` (the first frame of a START, one past the last of a STOP,
+counted from 0), frame rate and length of the recording on every row, the level as ``Behavioral
+category``. Scores are not kept.
+
+Read are the tabular events of old and new versions (header line below a preamble or on top; START
+and STOP under ``Behavior type`` or ``Status``) and the aggregated ones (``Start (s)``, ``Stop
+(s)``). POINT events last no time and are left out with a warning. Rows of several subjects or
+observations must not overlap.
+
+Sources: https://bids-specification.readthedocs.io, "Events"; BORIS user guide, "Export events".
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from operator import itemgetter
+from pathlib import Path
+from typing import Any
+
+from kineme._util.files import atomic_write
+from kineme._util.json import load_json
+from kineme.errors import ReadError, WriteError
+from kineme.formats.label_tables import is_boris_table
+from kineme.labels.delimited import (
+    CUTS_KEY,
+    columns,
+    digest_cuts,
+    find_differences,
+    head,
+    integer,
+    level_of,
+    new_text,
+    number,
+    read_rows,
+    source_path,
+    write_rows,
+)
+from kineme.labels.registry import LabelFormat
+from kineme.labels.spans import Labels, Span, text_of
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Segment
+
+NEEDED = ("onset", "duration", "trial_type")
+COLUMNS = {
+    "trial_type": {"Description": "Name of the segment; transition between two activities"},
+    "level": {
+        "Description": "Level of the segment",
+        "Levels": {
+            "activity": "Movement of one kind, or a transition between two",
+            "primitive": "One repetition inside an activity",
+        },
+    },
+    "cluster": {"Description": "Equal numbers are equal movements; n/a: in no cluster"},
+    "confidence": {"Description": "How probable it is that what its kind claims is right"},
+    "start_frame": {"Description": "First frame, counted from 0"},
+    "stop_frame": {"Description": "One past the last frame"},
+    "action": {"Description": "Cluster of the activity that it lies in; n/a: in no cluster"},
+    "border_confidence": {"Description": "How probable it is that its start is right"},
+}
+MISSING = "n/a"
+
+
+def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave the events at ``path`` and the sidecar beside them."""
+    beside = sidecar_path(path)
+    facts = {
+        "SamplingFrequency": segmentation.fps,
+        "RecordingDuration": segmentation.n_frames / segmentation.fps,
+    }
+    cuts = ((row.level, row.start_frame, row.stop_frame) for row in rows)
+    digest = {CUTS_KEY: digest_cuts(cuts)}
+    sidecar = {**COLUMNS, **_sidecar_to_keep(beside), **facts, **digest}
+    with atomic_write(beside) as side_draft, new_text(path) as file:
+        side_draft.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
+        write_rows(file, ["onset", "duration", *COLUMNS], map(_cells, rows), delimiter="\t")
+
+
+def read(path: Path) -> Labels:
+    """Return the events at ``path``, with what a sidecar beside them says."""
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        rows = read_rows(file, path, [NEEDED], delimiter="\t")
+        spans, cuts, rates = [], [], []
+        for line, cells in rows:
+            span = _span(cells, path, line)
+            spans.append(span)
+            rates.append((span.stop, _rate(cells, span.stop)))
+            cuts.append((span.level, cells.get("start_frame"), cells.get("stop_frame")))
+    beside = sidecar_path(path)
+    sidecar = _parse(beside)
+    facts = _facts(sidecar, beside)
+    rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
+    row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
+    notes = find_differences(
+        path, beside, sidecar, digest_cuts(cuts), head_rate=rate, row_rate=row_rate
+    )
+    return Labels(spans, "seconds", rate, length, notes)
+
+
+def sidecar_path(path: Path) -> Path:
+    """Where the description is kept: ``walk_events.tsv`` and ``walk_events.json``."""
+    return path.with_suffix(".json")
+
+
+def _cells(row: Segment) -> list[Any]:
+    cluster, action = (MISSING if each < 0 else each for each in (row.cluster, row.action))
+    confidence, border = (
+        MISSING if math.isnan(each) else each for each in (row.confidence, row.border_confidence)
+    )
+    time = [row.start_s, row.stop_s - row.start_s]
+    frames = [row.start_frame, row.stop_frame]
+    return [*time, text_of(row), row.level, cluster, confidence, *frames, action, border]
+
+
+def _span(cells: dict[str, str], path: Path, line: int) -> Span:
+    onset = number(cells["onset"], "onset", path, line)
+    duration = cells["duration"]
+    length = 0.0 if duration == MISSING else number(duration, "duration", path, line)
+    text = cells["trial_type"] if cells["trial_type"] != MISSING else ""
+    cluster = cells.get("cluster", MISSING)
+    confidence = cells.get("confidence", MISSING)
+    return Span(
+        onset,
+        onset + length,
+        text,
+        level_of(cells.get("level")),
+        -1 if cluster in (MISSING, "") else integer(cluster, "cluster", path, line),
+        math.nan if confidence in (MISSING, "") else number(confidence, "confidence", path, line),
+    )
+
+
+def _rate(cells: dict[str, str], stop_s: float) -> float | None:
+    """Return the frame rate that a row tells by its last frame and second, if it has both."""
+    text = cells.get("stop_frame", MISSING)
+    valid = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
+    return int(text) / stop_s if valid else None
+
+
+def _facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
+    facts: dict[str, float | None] = {}
+    for name in ("SamplingFrequency", "RecordingDuration"):
+        value = sidecar.get(name)
+        if value is not None and (type(value) not in (int, float) or not 0 < value < 1e15):
+            raise ReadError(beside, f"{name} must be a positive number, not {value!r:.60}")
+        facts[name] = value
+    return facts
+
+
+def _sidecar_to_keep(beside: Path) -> dict[str, Any]:
+    try:
+        found = _parse(beside)
+    except ReadError as error:
+        raise WriteError(beside, f"is in the way of the sidecar: {error.reason}") from error
+    if "schema" in found:
+        raise WriteError(beside, "is in the way: it is a segment table, and would be the sidecar")
+    return found
+
+
+def _parse(beside: Path) -> dict[str, Any]:
+    if not beside.is_file():
+        return {}
+    found = load_json(beside)
+    if not isinstance(found, dict):
+        raise ReadError(beside, "a sidecar must be a JSON object")
+    return found
+
+
+BIDS = LabelFormat(
+    name="bids",
+    help="BIDS events with their sidecar",
+    suffixes=(".tsv",),
+    holds="levels",
+    read=read,
+    write=write,
+    recognises=lambda path: set(NEEDED) <= columns(path),
+    several=True,
+)
+
+
+BORIS_COLUMNS = (
+    "Observation id",
+    "Observation date",
+    "Description",
+    "Observation type",
+    "Source",
+    "Time offset (s)",
+    "Media duration (s)",
+    "FPS (frame/s)",
+    "Subject",
+    "Behavior",
+    "Behavioral category",
+    "Behavior type",
+    "Time",
+    "Media file name",
+    "Image index",
+    "Image file path",
+    "Comment",
+)
+RATES = ("FPS (frame/s)", "FPS")
+LENGTHS = ("Media duration (s)", "Observation duration", "Total length")
+Cells = dict[str, str]
+
+
+def write_boris(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave two rows per segment at ``path``, in time order."""
+    media = source_path(segmentation)
+    facts = {
+        "Observation id": Path(media).stem,
+        "Observation type": "Media file(s)",
+        "Source": media,
+        "Time offset (s)": 0.0,
+        "Media duration (s)": segmentation.n_frames / segmentation.fps,
+        "FPS (frame/s)": segmentation.fps,
+        "Subject": "No focal subject",
+        "Media file name": media,
+    }
+    events = [
+        {
+            "Behavior": text_of(row),
+            "Behavioral category": row.level,
+            "Behavior type": kind,
+            "Time": time,
+            "Image index": frame,
+        }
+        for row in rows
+        for kind, time, frame in (
+            ("START", row.start_s, row.start_frame),
+            ("STOP", row.stop_s, row.stop_frame),
+        )
+    ]
+    # What stops at a frame comes before what starts there.
+    events.sort(key=lambda event: (event["Image index"], event["Behavior type"] == "START"))
+    with new_text(path) as file:
+        lines = ({**facts, **event} for event in events)
+        write_rows(
+            file, BORIS_COLUMNS, ([line.get(name, "") for name in BORIS_COLUMNS] for line in lines)
+        )
+
+
+def read_boris(path: Path) -> Labels:
+    """Return the state events at ``path``."""
+    headers = [("Time", "Behavior"), ("Start (s)", "Stop (s)", "Behavior")]
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        rows = list(read_rows(file, path, headers))
+    spans = list(
+        _pair_states(rows, path) if rows and "Time" in rows[0][1] else _read_aggregated(rows, path)
+    )
+    points = Counter(cells["Behavior"] for _, cells in rows if _kind(cells) == "POINT")
+    listed = ", ".join(f"{name} ({count})" for name, count in points.items())
+    notes = (f"point events last no time and are left out: {listed:.200}",) if points else ()
+    return Labels(spans, "seconds", _fact(rows, RATES), _fact(rows, LENGTHS), notes)
+
+
+def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
+    """Yield each STOP with the START of the same behavior before it."""
+    starts: dict[tuple[str, ...], float] = {}
+    for line, cells in rows:
+        kind = _kind(cells)
+        if kind == "POINT":
+            continue
+        same = ("Observation id", "Subject", "Behavior", "Behavioral category")
+        # States of several subjects and observations may be open at once.
+        key = tuple(cells.get(name, "") for name in same)
+        time = number(cells["Time"], "Time", path, line)
+        if kind == "START" and key not in starts:
+            starts[key] = time
+        elif kind == "STOP" and key in starts:
+            yield Span(
+                starts.pop(key), time, cells["Behavior"], level_of(cells.get("Behavioral category"))
+            )
+        else:
+            reason = f"{cells['Behavior']!r:.60} has a {kind!r:.20} where START and STOP alternate"
+            raise ReadError(path, reason, line=line)
+    if starts:
+        raise ReadError(path, f"{next(iter(starts))[2]!r:.60} has a START without a STOP")
+
+
+def _read_aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
+    for line, cells in rows:
+        if _kind(cells) == "POINT":
+            continue
+        start = number(cells["Start (s)"], "Start (s)", path, line)
+        stop = number(cells["Stop (s)"], "Stop (s)", path, line)
+        level = level_of(cells.get("Behavioral category"))
+        yield Span(start, stop, cells["Behavior"], level)
+
+
+def _kind(cells: Cells) -> str:
+    return (cells.get("Behavior type") or cells.get("Status") or "").strip().upper()
+
+
+def _fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | None:
+    """Return what the first row says about the recording, if that is a positive number."""
+    for name in names:
+        try:
+            value = float(rows[0][1][name]) if rows else 0.0
+        except (KeyError, ValueError):
+            continue
+        if 0 < value < 1e15:
+            return value
+    return None
+
+
+BORIS = LabelFormat(
+    name="boris",
+    help="BORIS events",
+    suffixes=(".csv",),
+    holds="levels",
+    read=read_boris,
+    write=write_boris,
+    recognises=lambda path: is_boris_table(head(path).decode(errors="replace")),
+)

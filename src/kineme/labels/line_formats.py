@@ -1,0 +1,194 @@
+"""Text files of one label, frame or clip a line: Audacity, MS-TCN, and clips for motion matching.
+
+*Audacity*: start, stop and text in seconds, tabs between; one level, no frame rate. A label whose
+start is its stop is a point, which is no segment. Lines that begin with a backslash (the
+frequencies of a spectral selection) are skipped.
+https://manual.audacityteam.org/man/importing_and_exporting_labels.html
+
+*MS-TCN*: one label per line and frame, as MS-TCN and its followers keep their data (Abu Farha,
+Gall, CVPR 2019; https://github.com/yabufarha/ms-tcn).
+
+    corpus/mapping.txt              "0 walk", "1 jump", ...: a number per class
+    corpus/groundTruth/take.txt     "walk" once per frame
+
+New classes are added to the mapping; classes that are there keep their numbers. Blanks in a label
+become ``_``: the mapping is split at blanks by all who read it. Neighbours of one class become one
+segment; ``transition``, ``background`` and ``SIL`` are transitions. Reading needs no mapping.
+
+*Clips*: a CSV of ``file``, ``start``, ``stop`` (frames, excluded), ``mirror``, as the list at the
+head of orangeduck's ``generate_database.py`` has them; seconds and text as ``label`` beside them.
+Written are one level, unmirrored; clusters only where there is no label. Read are the rows of one
+file (a mirrored twin of a clip is the clip again); the frame rate follows from frames and seconds.
+https://github.com/orangeduck/Motion-Matching
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from itertools import groupby
+from pathlib import Path
+
+from kineme._util.files import atomic_write
+from kineme.errors import ReadError, WriteError
+from kineme.labels.csv_table import roundest_rate
+from kineme.labels.delimited import (
+    columns,
+    head,
+    integer,
+    new_text,
+    number,
+    read_rows,
+    source_path,
+    write_rows,
+)
+from kineme.labels.registry import LabelFormat
+from kineme.labels.spans import Labels, Span, text_of
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Segment
+
+FOLDER = "groundTruth"
+NOTHING = ("background", "SIL")
+NEEDED = ("file", "start", "stop")
+
+
+def _write_audacity(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
+    with new_text(path, newline="\n") as file:
+        file.writelines(f"{row.start_s!r}\t{row.stop_s!r}\t{text_of(row)}\n" for row in rows)
+
+
+def _read_audacity(path: Path) -> Labels:
+    spans = []
+    with path.open(encoding="utf-8-sig", newline="\n") as file:
+        for line, text in enumerate(file, 1):
+            cells = text.rstrip("\r\n").split("\t", 2)
+            if cells == [""] or cells[0].startswith("\\"):
+                continue
+            if len(cells) < 2:
+                raise ReadError(path, "a label is a start, a stop and a text with tabs", line=line)
+            start = number(cells[0], "the start", path, line)
+            stop = number(cells[1], "the stop", path, line)
+            spans.append(Span(start, stop, cells[2] if len(cells) > 2 else ""))
+    return Labels(spans)
+
+
+def _is_audacity(path: Path) -> bool:
+    """Return whether the first label has two times with a tab between."""
+    lines = head(path).decode(errors="replace").splitlines()
+    return "\t" in next((line for line in lines if line and not line.startswith("\\")), "")
+
+
+AUDACITY = LabelFormat(
+    name="audacity",
+    help="Audacity label track, one level",
+    suffixes=(".txt",),
+    holds="level",
+    read=_read_audacity,
+    write=_write_audacity,
+    recognises=_is_audacity,
+)
+
+
+def _write_ms_tcn(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
+    if path.parent.name != FOLDER:
+        raise WriteError(path, f"must lie in a folder called {FOLDER}: give {FOLDER}/{path.name}")
+    with suppress(OSError):  # atomic_write says why there is none
+        path.parent.mkdir(exist_ok=True)
+    texts = ["".join("_" if letter.isspace() else letter for letter in text_of(r)) for r in rows]
+    mapping = path.parent.parent / "mapping.txt"
+    classes = _classes(mapping)
+    for text in texts:
+        # New classes go on after the largest number.
+        classes.setdefault(text, 1 + max(classes.values(), default=-1))
+    with atomic_write(mapping) as class_draft, new_text(path, newline="\n") as file:
+        lines = (f"{number} {text}\n" for text, number in classes.items())
+        class_draft.write_text("".join(lines), encoding="utf-8", newline="\n")
+        for row, text in zip(rows, texts, strict=True):
+            file.writelines([f"{text}\n"] * (row.stop_frame - row.start_frame))
+
+
+def _read_ms_tcn(path: Path) -> Labels:
+    if path.is_dir():
+        raise ReadError(path, f"is a folder: name one of the files in its {FOLDER}")
+    spans = []
+    at = 0
+    with path.open(encoding="utf-8-sig", newline="\n") as file:
+        # Runs of equal lines are segments.
+        for text, run in groupby(line.strip() for line in file):
+            if not text:
+                raise ReadError(path, "has an empty line: every frame needs a label", line=at + 1)
+            stop = at + sum(1 for _ in run)
+            spans.append(Span(at, stop, "transition" if text in NOTHING else text))
+            at = stop
+    return Labels(spans, "frames", None, at)
+
+
+def _classes(mapping: Path) -> dict[str, int]:
+    """Return the classes that are there, by name."""
+    if not mapping.is_file():
+        return {}
+    classes = {}
+    try:
+        for line in mapping.read_text(encoding="utf-8-sig").splitlines():
+            number, text = line.split()
+            classes[text] = int(number)
+    except ValueError as error:
+        raise WriteError(
+            mapping, f'is no mapping: its lines must be like "0 walk", not {line!r:.60}'
+        ) from error
+    return classes
+
+
+def _is_ms_tcn(path: Path) -> bool:
+    """Return whether the first line is one word or more, and no row of a table."""
+    first = head(path).decode(errors="replace").partition("\n")[0].strip()
+    return bool(first) and "\t" not in first and not first[0].isdigit() and first[0] not in "-+."
+
+
+MS_TCN = LabelFormat(
+    name="ms-tcn",
+    help="One label per frame, with the mapping",
+    suffixes=(".txt",),
+    holds="level",
+    read=_read_ms_tcn,
+    write=_write_ms_tcn,
+    recognises=_is_ms_tcn,
+    several=True,
+    folder=FOLDER,
+)
+
+
+def _write_clips(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    source = source_path(segmentation)
+    lines = ((source, row.start_frame, row.stop_frame, 0, row.start_s, row.stop_s, text_of(row))
+             for row in rows)  # fmt: skip
+    with new_text(path) as file:
+        write_rows(file, (*NEEDED, "mirror", "start_s", "stop_s", "label"), lines)
+
+
+def _read_clips(path: Path) -> Labels:
+    spans: dict[Span, None] = {}
+    sources: dict[str, None] = {}
+    last = 0, 0.0
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        for line, cells in read_rows(file, path, [NEEDED]):
+            start, stop = (integer(cells[name], name, path, line) for name in NEEDED[1:])
+            spans[Span(start, stop, cells.get("label", ""))] = None
+            sources[cells["file"]] = None
+            if cells.get("stop_s"):
+                last = max(last, (stop, number(cells["stop_s"], "stop_s", path, line)))
+    if len(sources) > 1:
+        names = ", ".join(sources)
+        raise ReadError(path, f"lists clips of {len(sources)} files ({names:.100}): keep one")
+    return Labels(list(spans), "frames", roundest_rate(*last) if min(last) > 0 else None)
+
+
+CLIPS = LabelFormat(
+    name="clips",
+    help="Clip list for motion matching, one level",
+    suffixes=(".csv",),
+    holds="level",
+    read=_read_clips,
+    write=_write_clips,
+    recognises=lambda path: set(NEEDED) <= columns(path),
+)

@@ -1,0 +1,405 @@
+"""Tiers of annotations: ELAN's documents and tables, and Praat's TextGrids.
+
+*ELAN* (``.eaf``): a tier per level, whole milliseconds. Frame rate and length go into document
+properties (``kineme.fps``, ``kineme.n_frames``), which ELAN keeps. Clusters are kept where there is
+no label, scores never. Recordings at 1000 frames per second or more are refused: a millisecond
+would hold several frames.
+
+The video of the recording is named as its medium: that of ``provenance["video"]``, with the second
+of it at which the recording starts, else a file of the recording's name beside it.
+
+Read are the tiers called ``activity`` and ``primitive``; in a file without them the only tier that
+has annotations. Annotations that hang on other ones have no time of their own and are ignored.
+
+pympi-ling reads and writes such files, too, but parses without a guard against entities; the tests
+hold both against each other. A file with a document type is refused, so that no entity can grow it.
+
+ELAN's tab-delimited text (`ELAN_TABLE`) is read, too. Without a line of names a line is tier,
+participant, begin, end and perhaps duration, each in one or more ways of writing times, and the
+text last. With one, columns are ``Begin Time - …`` and ``End Time - …``, and then ``Tier`` or one
+column for each tier. Tiers are chosen as in ``.eaf``.
+
+*Praat* (``.TextGrid``): an interval tier per level, seconds, with the length of the recording.
+Written in Praat's long text form, UTF-8. A TextGrid's tiers tile as segments do; an empty interval
+is a gap and is read as a transition. No frame rate, no scores, clusters only where there is no
+label. Read are both text forms, UTF-8 or UTF-16, by Praat's own rule: numbers that stand alone,
+``"texts"`` with doubled quotes and ``<flags>`` count, all else is decoration. Tiers are chosen as
+in ``.eaf``; point tiers are ignored. praatio reads these files, too; the tests hold both against
+each other. A reader of one's own is shorter than what it takes to turn its many exceptions and its
+silent corrections into one clear error.
+
+Sources: EAF format 3.0, https://www.mpi.nl/tools/elan/EAF_Annotation_Format_3.0_and_ELAN.pdf; ELAN
+manual, "Export as tab-delimited text"; Praat manual, "TextGrid file formats".
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import get_args
+from xml.etree import ElementTree as ET
+
+from kineme._util.files import NoEntities, atomic_write, find_video
+from kineme.errors import ReadError, WriteError
+from kineme.formats.label_tables import is_elan_table
+from kineme.labels.delimited import head, new_text, number
+from kineme.labels.registry import LabelFormat
+from kineme.labels.spans import Labels, Span, text_of
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, Segment
+
+PER_SECOND = 1000
+MEDIA_TYPES = {
+    ".mp4": "video/mp4",
+    ".m4v": "video/mp4",
+    ".mov": "video/quicktime",
+    ".webm": "video/webm",
+    ".ogv": "video/ogg",
+}
+SCHEMA = {
+    "{http://www.w3.org/2001/XMLSchema-instance}noNamespaceSchemaLocation": (
+        "http://www.mpi.nl/tools/elan/EAFv3.0.xsd"
+    )
+}
+
+
+def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave a document with a tier per level of the rows at ``path``."""
+    if segmentation.fps >= PER_SECOND:
+        raise WriteError(
+            path,
+            f"ELAN keeps whole milliseconds, which cannot tell frames at "
+            f"{segmentation.fps:g} per second apart: use another format",
+        )
+    root = ET.Element("ANNOTATION_DOCUMENT", AUTHOR="kineme", DATE="1970-01-01T00:00:00+00:00")
+    root.attrib |= {"FORMAT": "3.0", "VERSION": "3.0", **SCHEMA}
+    header = ET.SubElement(root, "HEADER", MEDIA_FILE="", TIME_UNITS="milliseconds")
+    _name_medium(header, segmentation)
+    for name, value in (("fps", repr(segmentation.fps)), ("n_frames", segmentation.n_frames)):
+        ET.SubElement(header, "PROPERTY", NAME=f"kineme.{name}").text = str(value)
+    # Each time once: segments that touch share a time slot.
+    times = sorted({time for row in rows for time in _milliseconds(row)})
+    slots = {time: f"ts{number}" for number, time in enumerate(times, 1)}
+    order = ET.SubElement(root, "TIME_ORDER")
+    for time, slot in slots.items():
+        ET.SubElement(order, "TIME_SLOT", TIME_SLOT_ID=slot, TIME_VALUE=str(time))
+    tiers: dict[str, ET.Element] = {}
+    for position, row in enumerate(rows, 1):
+        if row.level not in tiers:
+            tiers[row.level] = ET.SubElement(
+                root, "TIER", TIER_ID=row.level, LINGUISTIC_TYPE_REF="default-lt"
+            )
+        start, stop = (slots[time] for time in _milliseconds(row))
+        holder = ET.SubElement(tiers[row.level], "ANNOTATION")
+        span = ET.SubElement(holder, "ALIGNABLE_ANNOTATION", ANNOTATION_ID=f"a{position}")
+        span.attrib |= {"TIME_SLOT_REF1": start, "TIME_SLOT_REF2": stop}
+        # XML cannot hold two characters that labels can.
+        text = text_of(row).replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
+        ET.SubElement(span, "ANNOTATION_VALUE").text = text
+    ET.SubElement(
+        root,
+        "LINGUISTIC_TYPE",
+        LINGUISTIC_TYPE_ID="default-lt",
+        TIME_ALIGNABLE="true",
+        GRAPHIC_REFERENCES="false",
+    )
+    ET.indent(root)
+    with atomic_write(path) as draft:
+        ET.ElementTree(root).write(draft, encoding="UTF-8", xml_declaration=True)
+
+
+def read(path: Path) -> Labels:
+    """Return the annotations at ``path``."""
+    root = _parse(path)
+    if root.tag != "ANNOTATION_DOCUMENT":
+        raise ReadError(path, f"is not an ELAN document but a {root.tag!r:.60}")
+    slots = {slot.get("TIME_SLOT_ID"): slot.get("TIME_VALUE") for slot in root.iter("TIME_SLOT")}
+    tiers = {
+        tier.get("TIER_ID", ""): found
+        for tier in root.iter("TIER")
+        if (found := list(tier.iter("ALIGNABLE_ANNOTATION")))
+    }
+    spans = [
+        _span(annotation, slots, level, path)
+        for name, level in chosen_tiers(list(tiers), path).items()
+        for annotation in tiers[name]
+    ]
+    fps = _property(root, "kineme.fps", path)
+    n_frames = _property(root, "kineme.n_frames", path)
+    return Labels(spans, "seconds", fps, n_frames / fps if n_frames and fps else None)
+
+
+def _name_medium(header: ET.Element, segmentation: Segmentation) -> None:
+    """Say which video the annotations are of, where one is known."""
+    source, video = (segmentation.provenance.get(name) or {} for name in ("input", "video"))
+    given = Path(video.get("path") or "")
+    place = given if given.is_file() else find_video(Path(source.get("path") or ""))
+    if place is None:
+        return
+    medium = ET.SubElement(header, "MEDIA_DESCRIPTOR", MEDIA_URL=place.absolute().as_uri())
+    medium.set("MIME_TYPE", MEDIA_TYPES.get(place.suffix.lower(), "video/*"))
+    medium.set("RELATIVE_MEDIA_URL", f"./{place.name}")
+    origin = round(PER_SECOND * float(video.get("offset_s") or 0))
+    if origin:
+        medium.set("TIME_ORIGIN", str(origin))
+
+
+def chosen_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
+    """Return level of each tier that is read: those named after one, or the only one there is."""
+    found: dict[str, Level] = {level: level for level in get_args(Level) if level in names}
+    if found or not names:
+        return found
+    if len(names) > 1:
+        raise ReadError(
+            path,
+            f"has {len(names)} tiers ({', '.join(names):.100}): keep one, or name one 'activity'",
+        )
+    return {names[0]: "activity"}
+
+
+class _Builder(NoEntities, ET.TreeBuilder):
+    """Elements of a document that defines no entities."""
+
+
+def _parse(path: Path) -> ET.Element:
+    parser = ET.XMLParser(target=_Builder())  # noqa: S314 (see NoEntities)
+    try:
+        with path.open("rb") as file:
+            return ET.parse(file, parser).getroot()  # noqa: S314
+    except (ET.ParseError, ValueError, LookupError) as error:
+        raise ReadError(path, f"is not an ELAN document: {error}") from error
+
+
+def _span(
+    annotation: ET.Element, slots: dict[str | None, str | None], level: Level, path: Path
+) -> Span:
+    start, stop = (
+        _seconds(slots.get(annotation.get(f"TIME_SLOT_REF{end}")), annotation, path)
+        for end in (1, 2)
+    )
+    return Span(start, stop, annotation.findtext("ANNOTATION_VALUE") or "", level)
+
+
+def _seconds(text: str | None, annotation: ET.Element, path: Path) -> float:
+    if text is None or not text.isascii() or not text.isdigit() or len(text) > 15:
+        name = annotation.get("ANNOTATION_ID")
+        raise ReadError(path, f"annotation {name!r:.60} has no time in milliseconds")
+    return int(text) / PER_SECOND
+
+
+def _property(root: ET.Element, name: str, path: Path) -> float | None:
+    for holder in root.iter("PROPERTY"):
+        if holder.get("NAME") == name:
+            try:
+                value = float(holder.text or "")
+            except ValueError:
+                value = 0.0
+            if not 0 < value < 1e15:
+                raise ReadError(path, f"{name} must be a positive number, not {holder.text!r:.60}")
+            return value
+    return None
+
+
+def _milliseconds(row: Segment) -> tuple[int, int]:
+    return round(row.start_s * PER_SECOND), round(row.stop_s * PER_SECOND)
+
+
+ELAN = LabelFormat(
+    name="elan",
+    help="ELAN, both levels",
+    suffixes=(".eaf",),
+    holds="levels",
+    read=read,
+    write=write,
+)
+
+
+_CLOCK = re.compile(r"(\d+):(\d\d):(\d\d\.\d+)")
+_TIME = re.compile(r"\d+(?:\.\d+)?|\d+:\d\d:\d\d\.\d+")
+_TIMES = re.compile(r"(begin|end) time - (.*)", re.IGNORECASE)
+_NO_TIERS = re.compile(
+    r"(begin|end) time|duration|tier|participant|annotation|file|$", re.IGNORECASE
+)
+Annotation = tuple[str, float, float, str]
+
+
+def read_table(path: Path) -> Labels:
+    """Read the annotations at ``path``."""
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        rows = list(csv.reader(file, delimiter="\t", quoting=csv.QUOTE_NONE))
+    full = [
+        (line, row) for line, row in enumerate(rows, 1) if any(row) and not row[0].startswith('"#')
+    ]
+    if not full:
+        return Labels([])
+    is_named = any(map(_TIMES.fullmatch, full[0][1]))
+    found = list(_read_named_columns(full, path) if is_named else _read_unnamed_columns(full, path))
+    levels = chosen_tiers(list(dict.fromkeys(tier for tier, *_ in found)), path)
+    return Labels(
+        [Span(start, stop, text, levels[t]) for t, start, stop, text in found if t in levels]
+    )
+
+
+def _read_named_columns(rows: Sequence[tuple[int, list[str]]], path: Path) -> Iterator[Annotation]:
+    names = rows[0][1]
+    times: dict[str, tuple[int, bool]] = {}
+    for i, name in enumerate(names):
+        if (match := _TIMES.fullmatch(name.strip())) and "hh:mm:ss:ff" not in name.lower():
+            times.setdefault(match[1].lower(), (i, match[2].strip().lower() == "msec"))
+    if len(times) < 2:
+        raise ReadError(path, "has no begin and end of annotations in hh:mm:ss.ms, ss.msec or msec")
+    lowered = [name.strip().lower() for name in names]
+    tier = lowered.index("tier") if "tier" in lowered else None
+    text = lowered.index("annotation") if "annotation" in lowered else len(names) - 1
+    tiers = [i for i, name in enumerate(names) if not _NO_TIERS.match(name.strip())]
+    for line, cells in rows[1:]:
+        row = [*cells, *[""] * (len(names) - len(cells))]
+        start, stop = (
+            _table_seconds(row[times[end][0]], path, line, is_ms=times[end][1])
+            for end in ("begin", "end")
+        )
+        if tier is not None:
+            yield row[tier], start, stop, row[text]
+            continue
+        for i in tiers:
+            if row[i]:
+                yield names[i], start, stop, row[i]
+
+
+def _read_unnamed_columns(
+    rows: Sequence[tuple[int, list[str]]], path: Path
+) -> Iterator[Annotation]:
+    first = rows[0][1]
+    columns = [i for i in range(2, len(first) - 1) if _TIME.fullmatch(first[i])]
+    clocks = [i for i in columns if _CLOCK.fullmatch(first[i])]
+    # begin and end stand first, each in all ways of writing times that were chosen
+    chosen = clocks or columns
+    if len(chosen) < 2:
+        raise ReadError(path, "has no begin and end of annotations", line=rows[0][0])
+    is_ms = not clocks and not any("." in row[i] for _, row in rows for i in chosen[:1])
+    for line, row in rows:
+        if len(row) <= chosen[1]:
+            raise ReadError(path, f"{len(row)} cells, where others have {len(first)}", line=line)
+        start, stop = (_table_seconds(row[i], path, line, is_ms=is_ms) for i in chosen[:2])
+        yield row[0], start, stop, row[len(first) - 1] if len(row) >= len(first) else ""
+
+
+def _table_seconds(text: str, path: Path, line: int, *, is_ms: bool) -> float:
+    if match := _CLOCK.fullmatch(text.strip()):
+        return 3600 * int(match[1]) + 60 * int(match[2]) + float(match[3])
+    return number(text, "a time", path, line) / (1000 if is_ms else 1)
+
+
+ELAN_TABLE = LabelFormat(
+    name="elan-table",
+    help="ELAN's tab-delimited text",
+    suffixes=(".txt", ".tsv", ".csv"),
+    holds="levels",
+    read=read_table,
+    recognises=lambda path: is_elan_table(head(path).decode(errors="replace")),
+)
+
+
+TOKEN = re.compile(r'"((?:[^"]|"")*+)"|(?<!\S)([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)%?(?!\S)')
+
+
+def write_textgrid(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave a TextGrid with a tier per level of the rows at ``path``."""
+    length = segmentation.n_frames / segmentation.fps
+    tiers: dict[str, list[Segment]] = {}
+    for row in rows:
+        tiers.setdefault(row.level, []).append(row)
+    with new_text(path, newline="\n") as file:
+        file.write('File type = "ooTextFile"\nObject class = "TextGrid"\n\n')
+        file.write(f"xmin = 0\nxmax = {length!r}\ntiers? <exists>\nsize = {len(tiers)}\nitem []:\n")
+        for place, (name, inside) in enumerate(tiers.items(), 1):
+            file.write(f'    item [{place}]:\n        class = "IntervalTier"\n')
+            file.write(f'        name = "{name}"\n        xmin = 0\n        xmax = {length!r}\n')
+            file.write(f"        intervals: size = {len(inside)}\n")
+            file.writelines(_lines(inside))
+
+
+def read_textgrid(path: Path) -> Labels:
+    """Return the intervals at ``path``."""
+    tokens = _tokens(path)
+    if _text(tokens, path) != "ooTextFile" or _text(tokens, path) != "TextGrid":
+        raise ReadError(path, "is not a TextGrid in text form")
+    _number(tokens, path)
+    length = _number(tokens, path)
+    tiers: dict[str, list[Span]] = {}
+    for _ in range(_count(tokens, path)):
+        kind, name = _text(tokens, path), _text(tokens, path)
+        _number(tokens, path), _number(tokens, path)
+        found = [_interval(tokens, kind, path) for _ in range(_count(tokens, path))]
+        if kind == "IntervalTier" and any(span.text for span in found):
+            tiers[name] = [span for span in found if span.text]
+    levels = chosen_tiers(list(tiers), path)
+    spans = [span._replace(level=level) for name, level in levels.items() for span in tiers[name]]
+    return Labels(spans, "seconds", None, length)
+
+
+def _lines(rows: Sequence[Segment]) -> Iterator[str]:
+    for place, row in enumerate(rows, 1):
+        text = text_of(row).replace('"', '""')
+        yield f"        intervals [{place}]:\n"
+        yield f"            xmin = {row.start_s!r}\n            xmax = {row.stop_s!r}\n"
+        yield f'            text = "{text}"\n'
+
+
+def _tokens(path: Path) -> Iterator[str | float]:
+    """Texts and numbers in order."""
+    data = path.read_bytes()
+    wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
+    for match in TOKEN.finditer(data.decode("utf-16" if wide else "utf-8-sig")):
+        if match[1] is not None:
+            yield match[1].replace('""', '"')
+            continue
+        try:
+            yield float(match[2])
+        except ValueError as error:
+            raise ReadError(path, f"has {match[2]!r:.60} where a number should be") from error
+
+
+def _interval(tokens: Iterator[str | float], kind: str, path: Path) -> Span:
+    start = _number(tokens, path)
+    stop = _number(tokens, path) if kind == "IntervalTier" else start
+    return Span(start, stop, _text(tokens, path))
+
+
+def _text(tokens: Iterator[str | float], path: Path) -> str:
+    token = next(tokens, None)
+    if not isinstance(token, str):
+        raise ReadError(path, f"has {_format_number(token)} where a text in quotes should be")
+    return token
+
+
+def _number(tokens: Iterator[str | float], path: Path) -> float:
+    token = next(tokens, None)
+    if not isinstance(token, float):
+        raise ReadError(path, f"has {_format_number(token)} where a number should be")
+    return token
+
+
+def _count(tokens: Iterator[str | float], path: Path) -> int:
+    """How many follow; a claim beyond what is there ends in an error of `_text` or `_number`."""
+    count = _number(tokens, path)
+    if not 0 <= count < 1e9 or count != int(count):
+        raise ReadError(path, f"has {count} where a count should be")
+    return int(count)
+
+
+def _format_number(token: object) -> str:
+    return "its end" if token is None else f"{token!r:.60}"
+
+
+TEXTGRID = LabelFormat(
+    name="textgrid",
+    help="Praat, both levels",
+    suffixes=(".textgrid",),
+    holds="levels",
+    read=read_textgrid,
+    write=write_textgrid,
+    written_suffix=".TextGrid",
+)
