@@ -7,6 +7,7 @@ import pytest
 
 from kineme.methods.kineme.joining import Sets, join_sets
 from kineme.methods.kineme.preset import KINEME
+from kineme.methods.kineme.repetitions import repetitions
 
 PERIOD = 18
 HALF = 6 * PERIOD
@@ -24,9 +25,11 @@ def joined(left: np.ndarray, right: np.ndarray) -> Sets:
     """Two halves of a recording, as clusters of their own."""
     rows = np.concatenate([left, right])
     rows = rows + np.random.default_rng(0).normal(0, 0.02, rows.shape)
-    ends = np.array([0, len(left), len(rows)])
-    found = Sets(ends[:-1], ends[1:], np.arange(2), np.array([0.2, 0.6]))
-    return join_sets(np.ascontiguousarray(rows, np.float32), found, KINEME)
+    rows, ends = np.ascontiguousarray(rows, np.float32), np.array([0, len(left), len(rows)])
+    cuts = [repetitions(rows, 0, ends[1], KINEME), repetitions(rows, ends[1], ends[2], KINEME)]
+    return join_sets(
+        rows, Sets(ends[:-1], ends[1:], np.arange(2), np.array([0.2, 0.6]), cuts), KINEME
+    )
 
 
 @pytest.mark.parametrize("moved", [0.0, 0.5, 3.0])
@@ -49,5 +52,8 @@ def test_two_activities_stay_apart(other: np.ndarray) -> None:
 
 def test_a_single_activity_stays_as_it_is() -> None:
     rows = np.ascontiguousarray(swings(1), np.float32)
-    found = Sets(np.array([0]), np.array([HALF]), np.array([0]), np.array([1.0]))
-    assert [values.tolist() for values in join_sets(rows, found, KINEME)] == [[0], [HALF], [0], [1]]
+    cuts = [repetitions(rows, 0, HALF, KINEME)]
+    found = Sets(np.array([0]), np.array([HALF]), np.array([0]), np.array([1.0]), cuts)
+    same = join_sets(rows, found, KINEME)
+    assert [values.tolist() for values in same[:4]] == [[0], [HALF], [0], [1]]
+    assert same.cuts[0].tolist() == cuts[0].tolist()

@@ -47,12 +47,16 @@ TINY = 1e-12
 
 
 class Sets(NamedTuple):
-    """Activities in time order: frames, clusters, and preferences as in `Segments`."""
+    """Activities in time order: frames, clusters, preferences as in `Segments`, and repetitions.
+
+    ``cuts`` are the frames at which the second, third, ... repetition of each begins.
+    """
 
     starts: Frames
     stops: Frames
     labels: Frames
     preference: Floats
+    cuts: list[Frames]
 
 
 def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
@@ -68,10 +72,8 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         What lies between two of them is a transition.
     preset : KinemeConstants
     """
-    starts, stops, labels, preference = (values.tolist() for values in found)
-    cuts = map_threads(
-        lambda span: repetitions(rows, *span, preset), list(zip(starts, stops, strict=True))
-    )
+    starts, stops, labels, preference = (values.tolist() for values in found[:4])
+    cuts = list(found.cuts)
 
     def likeness(left: int) -> float:
         right = left + 1
@@ -97,7 +99,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
             if 0 <= left < len(likenesses):
                 likenesses[left] = likeness(left)
     clusters = number_by_appearance(np.array(labels, np.int64))
-    return Sets(np.array(starts), np.array(stops), clusters, np.array(preference))
+    return Sets(np.array(starts), np.array(stops), clusters, np.array(preference), cuts)
 
 
 def compare_sides(

@@ -31,7 +31,6 @@ from kineme.features.channels import sampled_at
 from kineme.methods.kineme.borders import carried_over, to_the_frame
 from kineme.methods.kineme.confidence import evidence
 from kineme.methods.kineme.found import KinemeFound
-from kineme.methods.kineme.joining import Sets, join_sets
 from kineme.methods.kineme.primitives import (
     divide_into_repetitions,
     find_events,
@@ -137,10 +136,9 @@ def _analyze(
         starts, stops = to_the_frame(rows, level.borders, preset)
         fine = carried_over(level.fine, level.borders, np.append(starts, n))
     with stage("repetitions"):
-        sets = Sets(starts, stops, level.labels, level.preference)
-        if preset.same_set <= 1:
-            sets = join_sets(poses, sets, preset)
-        segments = divide_into_repetitions(poses, *sets, preset)
+        segments = divide_into_repetitions(
+            poses, starts, stops, level.labels, level.preference, preset
+        )
         if preset.min_similarity < 1:
             segments = merge_similar_clusters(poses, segments, preset)
     if preset.event_scale:
