@@ -58,6 +58,7 @@ OFF: Mapping[str, Mapping[str, Any]] = {
     "min_recurrence": {"min_recurrence": TINY},
     **{name: {name: NEVER} for name in ("part", "compared_within", "max_repetition")},
     "min_similarity": {"min_similarity": 1.0},
+    "same_set": {"same_set": 2.0},
     **{name: {name: 1.0} for name in ("end_distance", "max_unexplained", "event_rest")},
     **{name: {name: 1000.0} for name in ("uneven", "end_scatter")},
 }  # fmt: skip

@@ -145,6 +145,10 @@ class KinemeConstants(Preset):
         "standard deviation of the logarithms of durations from which nothing repeats",
         limits=SOME_FACTOR, fine=True, default=0.6,
     )  # fmt: skip
+    same_set: float = constant(
+        "likeness of repetitions across a border, relative to that beside it, from which both "
+        "sides are one set; more than 1: never", limits=SOME_FACTOR, fine=True, default=0.8,
+    )  # fmt: skip
     # Borders, to the frame.
     border_shift: float = constant(
         "share by which a border is moved from where means over `averaging` put it to where single "

@@ -102,6 +102,21 @@ def fitted_ends(
     return Ends(begins, ends, firsts, lasts)
 
 
+def fitted_edges(rows: Features, cuts: Frames) -> Frames:
+    """Return where repetitions of a span begin, and where the last one ends, if two cuts are known.
+
+    Parameters
+    ----------
+    rows : (frames, dims) array
+    cuts : (cuts,) array of int
+        Where the second, third, ... repetition begins.
+    """
+    n, back = len(rows), np.ascontiguousarray(rows[::-1])
+    _, first = _begin(rows, 0, cuts)
+    _, last = _begin(back, 0, (n - cuts)[::-1].copy())
+    return np.concatenate([[first], cuts, [n - last]])
+
+
 def _begin(rows: Features, start: int, cuts: Frames) -> tuple[int, int]:
     """Where the activity that was found from ``start`` on begins, and its first repetition."""
     if len(cuts) < 2:  # nothing lies between two cuts

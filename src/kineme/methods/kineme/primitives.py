@@ -24,6 +24,7 @@ from kineme.methods.kineme import _repeating_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import repetitions_between
 from kineme.methods.kineme.ends import fitted_ends
 from kineme.methods.kineme.events import Occurrences, occurrences
+from kineme.methods.kineme.joining import Sets, join_sets
 from kineme.methods.kineme.repetitions import PLACES, Movement, movement_of, repetitions
 from kineme.methods.segments import number_by_appearance
 
@@ -99,6 +100,8 @@ def divide_into_repetitions(
 ) -> Segments:
     """Segments and their repetitions, the first and the last of which end where they fit.
 
+    Neighbours that are one set are one segment.
+
     Parameters
     ----------
     rows : (frames, dims) array
@@ -111,6 +114,9 @@ def divide_into_repetitions(
     """
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
     cuts = map_threads(lambda span: repetitions(rows, *span, preset), spans)
+    if preset.same_set <= 1:
+        sets = Sets(starts, stops, labels, preference, cuts)
+        starts, stops, labels, preference, cuts = join_sets(rows, sets, preset)
     # Cuts of one activity do not depend on others; ends do, as they may fit another's repetition.
     ends = fitted_ends(rows, starts, stops, labels, cuts, preset)
     borders, segment = _tile(len(rows), ends.starts, ends.stops)

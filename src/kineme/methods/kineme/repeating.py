@@ -115,10 +115,22 @@ class Repeating:
         kernels.center(repetitions)
         explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
         share *= _beyond(explained, preset.min_explained)
-        share = share and share * _beyond(kernels.best_parting(repetitions), preset.two_movements)
-        return share and share * _beyond(
-            kernels.best_parting(channel_energies(repetitions)), preset.same_channels
-        )
+        return share and share * share_of_one_movement(repetitions, preset)
+
+
+def share_of_one_movement(repetitions: NDArray[np.float64], preset: KinemeConstants) -> float:
+    """Return 1 if repetitions are one movement and 0 if they are two, with a soft border.
+
+    Parameters
+    ----------
+    repetitions : (repetitions, places, dims) array
+        Each with a mean of 0.
+    preset : KinemeConstants
+    """
+    share = _beyond(kernels.best_parting(repetitions), preset.two_movements)
+    return share and share * _beyond(
+        kernels.best_parting(channel_energies(repetitions)), preset.same_channels
+    )
 
 
 def channel_energies(centered: NDArray[np.float64]) -> NDArray[np.float64]:

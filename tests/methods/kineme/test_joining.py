@@ -1,0 +1,59 @@
+"""Neighbours that are one set are joined, whatever their posture; others are not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from kineme.methods.kineme.joining import Sets, join_sets
+from kineme.methods.kineme.preset import KINEME
+from kineme.methods.kineme.repetitions import repetitions
+
+PERIOD = 18
+HALF = 6 * PERIOD
+
+
+def swings(channel: int, count: int = 6) -> np.ndarray:
+    """Swings of one of four channels, each with a small one of another."""
+    angle = 2 * np.pi * np.arange(count * PERIOD) / PERIOD
+    rows = np.zeros((len(angle), 4))
+    rows[:, channel], rows[:, channel - 1] = np.sin(angle), 0.3 * np.sin(2 * angle)
+    return rows
+
+
+def joined(left: np.ndarray, right: np.ndarray) -> Sets:
+    """Two halves of a recording, as clusters of their own."""
+    rows = np.concatenate([left, right])
+    rows = rows + np.random.default_rng(0).normal(0, 0.02, rows.shape)
+    rows, ends = np.ascontiguousarray(rows, np.float32), np.array([0, len(left), len(rows)])
+    cuts = [repetitions(rows, 0, ends[1], KINEME), repetitions(rows, ends[1], ends[2], KINEME)]
+    return join_sets(
+        rows, Sets(ends[:-1], ends[1:], np.arange(2), np.array([0.2, 0.6]), cuts), KINEME
+    )
+
+
+@pytest.mark.parametrize("moved", [0.0, 0.5, 3.0])
+def test_a_fast_set_is_one_wherever_the_hand_moves(moved: float) -> None:
+    found = joined(swings(1), swings(1, 7) + moved)
+    assert found.starts.tolist() == [0]
+    assert found.stops.tolist() == [13 * PERIOD]
+    assert found.labels.tolist() == [0]
+    assert found.preference.tolist() == [0.6]  # of the longer part
+
+
+@pytest.mark.parametrize(
+    "other",
+    [swings(3), -swings(1), np.zeros((HALF, 4)), swings(1)[::2]],
+    ids=["other channels", "other way round", "rest", "twice as fast"],
+)
+def test_two_activities_stay_apart(other: np.ndarray) -> None:
+    assert joined(swings(1), other).labels.tolist() == [0, 1]
+
+
+def test_a_single_activity_stays_as_it_is() -> None:
+    rows = np.ascontiguousarray(swings(1), np.float32)
+    cuts = [repetitions(rows, 0, HALF, KINEME)]
+    found = Sets(np.array([0]), np.array([HALF]), np.array([0]), np.array([1.0]), cuts)
+    same = join_sets(rows, found, KINEME)
+    assert [values.tolist() for values in same[:4]] == [[0], [HALF], [0], [1]]
+    assert same.cuts[0].tolist() == cuts[0].tolist()
