@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import io
 import os
-import pickle
 import subprocess
 import sys
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +13,6 @@ import pytest
 import kineme
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
 from kineme.formats import read_motion, read_quietly, write
-from kineme.formats.scenes import usd
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import world_rotations
 
@@ -27,23 +22,6 @@ from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
 TURN = Gf.Quatf(0.5**0.5, 0, 0, 0.5**0.5)  # by 90 degrees about z; w first
 NONE = Gf.Quatf(1, 0, 0, 0)
-
-
-@pytest.fixture
-def _read_here(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Read in this process: each process of its own takes a second to start."""
-
-    def run(command: list[str], **given: Any) -> subprocess.CompletedProcess[bytes]:
-        asked = io.BytesIO(given["input"])
-        pickle.load(asked)  # the path of modules
-        answer = pickle.dumps(usd._answer(*pickle.load(asked)))
-        return subprocess.CompletedProcess(command, 0, answer, b"")
-
-    here = SimpleNamespace(run=run, TimeoutExpired=subprocess.TimeoutExpired)
-    monkeypatch.setattr(usd, "subprocess", here)
-
-
-here = pytest.mark.usefixtures("_read_here")
 
 
 @pytest.mark.parametrize("suffix", [".usda", ".usdc", ".usd"])
@@ -61,7 +39,6 @@ def test_what_is_written_is_read_again(tmp_path: Path, suffix: str) -> None:
     assert again.provenance.format == "USD"
 
 
-@here
 def test_names_that_paths_cannot_have_and_other_rates(tmp_path: Path) -> None:
     skeleton = Skeleton(("rig:Hips", "Left Leg", "Left_Leg", "é"), (-1, 0, 0, 0), np.eye(4, 3))
     rotations = np.tile([1.0, 0, 0, 0], (5, 4, 1))
@@ -110,7 +87,6 @@ def new_stage(path: Path) -> Usd.Stage:
     return stage
 
 
-@here
 def test_units_axes_carriers_and_joints_that_rest(tmp_path: Path) -> None:
     stage = new_stage(tmp_path / "a.usda")
     skeleton = skeleton_on(stage, "/Ann")
@@ -128,7 +104,6 @@ def test_units_axes_carriers_and_joints_that_rest(tmp_path: Path) -> None:
     assert finer.positions[::2] == pytest.approx(motion.positions, abs=1e-6)
 
 
-@here
 def test_several_animations_and_characters(tmp_path: Path) -> None:
     stage = new_stage(tmp_path / "a.usda")
     ann = skeleton_on(stage, "/Ann")
@@ -144,7 +119,6 @@ def test_several_animations_and_characters(tmp_path: Path) -> None:
         read_quietly(tmp_path / "a.usda")
 
 
-@here
 def test_stages_without_a_skeleton_and_damaged_ones(tmp_path: Path) -> None:
     new_stage(tmp_path / "a.usda").Save()
     with pytest.raises(ReadError, match="holds no skeleton"):
@@ -189,7 +163,6 @@ def reference(place: str | Path) -> str:
     return f'{HEAD}def "A" (references = @{place}@</char>) {{}}\n'
 
 
-@here
 @pytest.mark.parametrize(
     "text",
     [
@@ -207,7 +180,6 @@ def test_layers_in_the_folder_of_a_stage_are_part_of_it(character: Path, text: s
     assert np.abs(motion.positions - read_motion(character).positions).max() < 1e-6
 
 
-@here
 def test_layers_from_elsewhere_are_refused(character: Path, tmp_path: Path) -> None:
     folder = character.parent.parent
     outside = character.rename(tmp_path / "char.usda")
@@ -225,7 +197,6 @@ def test_layers_from_elsewhere_are_refused(character: Path, tmp_path: Path) -> N
         read_quietly(folder / "scene.usda")
 
 
-@here
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Windows has no pipes in folders")
 def test_a_layer_that_is_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.usda")
@@ -307,7 +278,6 @@ def test_references_that_multiply_are_refused(tmp_path: Path, text: str) -> None
         read_quietly(tmp_path / "a.usda")
 
 
-@here
 def test_sublayers_that_multiply_are_refused(tmp_path: Path) -> None:
     for d in range(20):
         for k in "ab":
@@ -324,7 +294,6 @@ def test_a_file_that_crashes_the_library_is_an_error(tmp_path: Path) -> None:
         read_quietly(tmp_path / "a.usda")
 
 
-@here
 def test_clips_of_values_which_are_files_are_refused(tmp_path: Path) -> None:
     stage = new_stage(tmp_path / "a.usda")
     animate(stage, skeleton_on(stage, "/Ann"), "wave", [0.0, 1.0])
