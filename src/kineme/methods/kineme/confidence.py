@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
-from kineme.methods.kineme._repetition_kernels import distances_to, repetitions_between
+from kineme.methods.kineme._repetition_kernels import repetitions_between
 from kineme.methods.kineme.primitives import Segments
 from kineme.methods.kineme.repetitions import PLACES, movement_of
 
@@ -161,8 +161,8 @@ def compute_changes(view: NDArray[np.float32], at: Frames, side: int) -> Floats:
     """Return the energy distance of the `side` samples before some samples to those after."""
     # Sums of distances in blocks of samples, from those of all blocks that begin at 0.
     sums = np.zeros((len(view) + 1, len(view) + 1))
-    distances = distances_to(np.ascontiguousarray(view), np.arange(len(view)))
-    sums[1:, 1:] = distances.cumsum(axis=0, dtype=np.float64).cumsum(axis=1)
+    apart = view[:, None].astype(np.float64) - view
+    sums[1:, 1:] = np.linalg.norm(apart, axis=2).cumsum(axis=0).cumsum(axis=1)
     starts, stops = np.maximum(at - side, 0), np.minimum(at + side, len(view))
 
     def average(low: Frames, high: Frames, left: Frames, right: Frames) -> Floats:

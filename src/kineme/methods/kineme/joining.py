@@ -4,6 +4,7 @@ A set drifts: the hand moves on, the body sinks, the camera turns. Means over a 
 activity in this, above all where repetitions are fast. So two neighbours are divided once more, as
 one span. They are one set if
 
+- one of them has too few repetitions to be sure by itself: more of chance than not;
 - the division of both has as many repetitions on each side as the side has alone. Divisions that
   agree are no chance, however short the repetitions are;
 - it is one movement by the tests of a segment that repeats (`share_of_one_movement`);
@@ -79,8 +80,10 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         right = left + 1
         counts = len(cuts[left]) + 1, len(cuts[right]) + 1
         start, stop = starts[left], stops[right]
-        # Of fewer than three repetitions none lies between two others.
-        if max(counts) < 3 or stop - start > preset.frames(SPAN[1]):
+        # Of fewer than three repetitions none lies between two others. Two sides that both have
+        # enough of them to be sure, as walking and running have, stay apart.
+        is_sure = preset.chance_count / min(counts) <= 1 - HALF
+        if max(counts) < 3 or is_sure or stop - start > preset.frames(SPAN[1]):
             return 0.0
         border = (stops[left] + starts[right]) // 2
         return compare_sides(rows[start:stop], border - start, counts, preset)
