@@ -26,7 +26,7 @@ ARGUMENTS = [
 ]
 
 
-@pytest.fixture(scope="package")  # while it is open, nothing else can use an event loop
+@pytest.fixture(scope="module")  # while it is open, nothing else can use an event loop
 def chromium() -> Iterator:
     if CHROMIUM is None:
         pytest.skip("no chromium: install it, or set KINEME_CHROMIUM to where it is")
@@ -37,7 +37,7 @@ def chromium() -> Iterator:
         browser.close()
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="module")
 def server(chromium, tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioServer]:
     """The studio's server on a folder of its own."""
     with StudioServer(tmp_path_factory.mktemp("takes")) as running:

@@ -11,7 +11,6 @@ import pytest
 
 import kineme
 from screen import Screen, box_of
-from studio_server import StudioServer
 
 AXE = Path(kineme.__file__).parent / "web/pages/node_modules/axe-core/axe.min.js"
 RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
@@ -60,13 +59,6 @@ def views(page: Any, screen: Screen) -> Iterator[tuple[str, str]]:
         yield f"dialog {key}", "dialog[open]"
         page.keyboard.press("Escape")
         page.locator("dialog[open]").wait_for(state="detached")
-
-
-@pytest.fixture(scope="module")
-def server(chromium, tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioServer]:
-    """A server of one's own: labels that other tests leave beside their takes would be seen."""
-    with StudioServer(tmp_path_factory.mktemp("takes")) as running:
-        yield running
 
 
 @pytest.fixture

@@ -169,7 +169,8 @@ def similarities_at(repeated: Floats, border: int, centering: float) -> tuple[fl
     Examples
     --------
     >>> swing = np.array([[0.0], [1.0], [0.0], [-1.0]])
-    >>> similarities_at(np.stack([swing, swing + 5, -swing]), 2, 1.0)
+    >>> beside, across = similarities_at(np.stack([swing, swing + 5, -swing]), 2, 1.0)
+    >>> round(beside, 2), round(across, 2)
     (1.0, -1.0)
     """
     rows = repeated - centering * repeated.mean(axis=1, keepdims=True)
