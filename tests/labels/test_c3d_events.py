@@ -120,7 +120,7 @@ def layout_of(path: Path) -> Layout:
 
 
 def others(path: Path) -> dict[tuple[str, str], object]:
-    """The parameters that writing does not concern."""
+    """Return the parameters of a file without those that writing changes."""
     parameters = parse_c3d(load(path)).parameters
     kept = [
         place for place in parameters.places if place[0] != "EVENT" and place[1] != "DATA_START"

@@ -1,4 +1,4 @@
-"""The package's own scores: of frames, of segments, of borders, and of repetitions.
+"""Scores that come with the package: of frames, of segments, of borders, and of repetitions.
 
 *Frames.* Is each in the right class, and in one class only?
 

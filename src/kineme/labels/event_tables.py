@@ -74,7 +74,7 @@ COLUMNS = {
 MISSING = "n/a"
 
 
-def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+def write_bids(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave the events at ``path`` and the sidecar beside them."""
     beside = sidecar_path(path)
     facts = {
@@ -89,7 +89,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         write_rows(file, ["onset", "duration", *COLUMNS], map(_cells, rows), delimiter="\t")
 
 
-def read(path: Path) -> Labels:
+def read_bids(path: Path) -> Labels:
     """Return the events at ``path``, with what a sidecar beside them says."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = read_rows(file, path, [NEEDED], delimiter="\t")
@@ -183,8 +183,8 @@ BIDS = LabelFormat(
     help="BIDS events with their sidecar",
     suffixes=(".tsv",),
     holds="levels",
-    read=read,
-    write=write,
+    read=read_bids,
+    write=write_bids,
     recognises=lambda path: set(NEEDED) <= columns(path),
     several=True,
 )

@@ -39,7 +39,7 @@ NOWHERE = 100.0
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """The features (samples, dims) of a recording, for search; they compare within a vocabulary.
+    """Features (samples, dims) of a recording, for search; they compare within a vocabulary.
 
     ``reason`` says why there are none, and the vocabulary is empty then. A body has ``poses``
     (samples, 17) for embeddings.

