@@ -380,6 +380,7 @@ def test_a_newer_preview_ends_the_one_before(studio, monkeypatch):
     with ThreadPoolExecutor() as pool:
         first = pool.submit(studio.client.post, address, json=asked)
         assert there.wait(60)
+        ended.clear()  # the first has ended a segmentation, too: one that had not begun
         newer = {**asked, "parameters": {"segment_cost": 0.8 * COST}}
         second = pool.submit(studio.client.post, address, json=newer)
         assert ended.wait(60)

@@ -21,6 +21,9 @@ def main() -> None:
         finally:
             sys.stdout.flush()
     except KeyboardInterrupt:
+        # Under ``python -m``, Python ends by the signal and not with this code where Ctrl+C fell
+        # into a string that was being executed, as dataclasses do. Executing one forgets that.
+        exec("")
         sys.exit(130)
     except OSError as error:
         if error.errno not in FULL:
