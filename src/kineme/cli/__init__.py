@@ -19,11 +19,12 @@ def main() -> None:
         try:
             _run()
         finally:
+            # Where Ctrl+C fell into a string that was being executed (dataclasses do so), Python
+            # ends by the signal under ``-m``, whatever exit code it is given. Executing another
+            # string makes it forget that.
+            exec("")  # noqa: S102
             sys.stdout.flush()
     except KeyboardInterrupt:
-        # Under ``python -m``, Python ends by the signal and not with this code where Ctrl+C fell
-        # into a string that was being executed, as dataclasses do. Executing one forgets that.
-        exec("")
         sys.exit(130)
     except OSError as error:
         if error.errno not in FULL:
