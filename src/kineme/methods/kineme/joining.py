@@ -62,6 +62,13 @@ class Sets(NamedTuple):
     cuts: list[Frames]
 
 
+class Union(NamedTuple):
+    """Two neighbours as one: how like their repetitions are across the border, and its cuts."""
+
+    likeness: float
+    cuts: Frames
+
+
 def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
     """Return the activities, where neighbours that are one set are one, the surest joined first.
 
@@ -78,7 +85,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
     starts, stops, labels, preference = (values.tolist() for values in found[:4])
     cuts = list(found.cuts)
 
-    def likeness(left: int) -> float:
+    def union(left: int) -> Union:
         right = left + 1
         counts = len(cuts[left]) + 1, len(cuts[right]) + 1
         start, stop = starts[left], stops[right]
@@ -86,29 +93,33 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         # enough of them to be sure, as walking and running have, stay apart.
         is_sure = min(counts) >= SURE * preset.chance_count
         if max(counts) < 3 or is_sure or stop - start > preset.frames(SPAN[1]):
-            return 0.0
-        border = (stops[left] + starts[right]) // 2
-        return compare_sides(rows[start:stop], border - start, counts, preset)
+            return Union(0.0, np.empty(0, np.int64))
+        together = repetitions(rows, start, stop, preset)
+        border = (stops[left] + starts[right]) // 2 - start
+        likeness = measure_likeness(rows[start:stop], together - start, border, counts, preset)
+        return Union(likeness, together)
 
-    likenesses = map_threads(likeness, range(len(starts) - 1))
-    while likenesses and max(likenesses) >= preset.same_set:
-        at = int(np.argmax(likenesses))
+    unions = map_threads(union, range(len(starts) - 1))
+    while unions:
+        at = int(np.argmax([each.likeness for each in unions]))
+        if unions[at].likeness < preset.same_set:
+            break
         longer = at + int(stops[at + 1] - starts[at + 1] > stops[at] - starts[at])
         labels[at], preference[at] = labels[longer], preference[longer]
         stops[at] = stops[at + 1]
-        cuts[at] = repetitions(rows, starts[at], stops[at], preset)
+        cuts[at] = unions[at].cuts
         del starts[at + 1], stops[at + 1], labels[at + 1], preference[at + 1], cuts[at + 1]
-        del likenesses[at]
+        del unions[at]
         # Only the union has new neighbours.
         for left in (at - 1, at):
-            if 0 <= left < len(likenesses):
-                likenesses[left] = likeness(left)
+            if 0 <= left < len(unions):
+                unions[left] = union(left)
     clusters = number_by_appearance(np.array(labels, np.int64))
     return Sets(np.array(starts), np.array(stops), clusters, np.array(preference), cuts)
 
 
-def compare_sides(
-    rows: Rows, border: int, counts: tuple[int, int], preset: KinemeConstants
+def measure_likeness(
+    rows: Rows, cuts: Frames, border: int, counts: tuple[int, int], preset: KinemeConstants
 ) -> float:
     """Return how like repetitions are across a border, as a share of how like they are beside it.
 
@@ -118,13 +129,14 @@ def compare_sides(
     ----------
     rows : (frames, dims) array
         Of both sides.
+    cuts : array of int
+        Where the second, third, ... repetition begins if both are divided as one.
     border : int
         Frame at which the right side begins.
     counts : tuple of int
         Repetitions of each side where it is divided alone.
     preset : KinemeConstants
     """
-    cuts = repetitions(rows, 0, len(rows), preset)
     if len(cuts) < 2:  # nothing lies between two cuts
         return 0.0
     edges = fitted_edges(rows, cuts)
