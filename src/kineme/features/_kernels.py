@@ -1,6 +1,6 @@
 """Compiled loop of the bundling: points drawn to where their neighbours are densest.
 
-The naive twin is in ``tests/helpers/naive.py``.
+The naive twin is in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations

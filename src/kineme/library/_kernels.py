@@ -1,4 +1,4 @@
-"""Compiled comparison of windows. The naive twin is in ``tests/helpers/naive.py``."""
+"""Compiled comparison of windows. The naive twin is in ``tests/helpers/naive``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compiled loops of the search. Naive twins are in ``tests/helpers/naive.py``."""
+"""Compiled loops of the search. Naive twins are in ``tests/helpers/naive``."""
 
 from __future__ import annotations
 

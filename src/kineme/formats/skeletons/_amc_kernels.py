@@ -1,4 +1,4 @@
-"""Compiled reading of AMC text. The naive twin is in ``tests/helpers/naive.py``."""
+"""Compiled reading of AMC text. The naive twin is in ``tests/helpers/naive``."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 A pair of samples scores ``1 - distance² / scale²`` less the mean cost of both. A path scores the
 sum over its pairs; a step that passes over a sample counts its pair one and a half times. Samples
-are columns. Naive twins are in ``tests/helpers/naive.py``.
+are columns. Naive twins are in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations

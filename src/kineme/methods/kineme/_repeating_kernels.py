@@ -1,6 +1,6 @@
 """Compiled loops of the description of a segment by one repetition, and similarity of movements.
 
-Naive twins are in ``tests/helpers/naive.py``.
+Naive twins are in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Poses are those of an activity; ``path`` is the length of its path up to each frame and to the
 end. A place is one of equally many positions on the path of each repetition. Naive twins are in
-``tests/helpers/naive.py``.
+``tests/helpers/naive``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Compiled loops of change points, distances of samples, and groupings.
 
-Naive twins are in ``tests/helpers/naive.py``.
+Naive twins are in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Compiled loops of the segmentation: growing regions, coherence, links.
 
-Frames count from 0. Naive twins are in ``tests/helpers/naive.py``.
+Frames count from 0. Naive twins are in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations

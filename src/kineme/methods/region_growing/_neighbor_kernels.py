@@ -1,7 +1,7 @@
 """Compiled search for neighbours: small loops on plain arrays.
 
 Kernels trust their input; the public functions beside them validate it. Each
-has a slow, literal twin in ``tests/helpers/naive.py``. Signatures are explicit, so one
+has a slow, literal twin in ``tests/helpers/naive``. Signatures are explicit, so one
 compilation serves every call, and compiled code is kept on disk.
 """
 

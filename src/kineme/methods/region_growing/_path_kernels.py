@@ -2,7 +2,7 @@
 
 A node is a stored pair (t, j) inside a box of rows and columns; nodes are
 numbered row by row, ascending in j. A warping step (a, b) leads from
-(t - a, j - b) to (t, j). Naive twins are in ``tests/helpers/naive.py``.
+(t - a, j - b) to (t, j). Naive twins are in ``tests/helpers/naive``.
 
 ``first[r]`` is the first stored entry of row r inside the box and ``node[r]``
 the number of its node, so that node v of row r is entry ``v + first[r] - node[r]``.
