@@ -22,7 +22,7 @@ from _corpora import Take, corpora
 from _figures import add_option, record
 from _options import command_line, few
 from _sources import PERSON, of_bodies
-from kineme.features.canonical import MATCHING_FPS, matching_features, mirrored_features
+from kineme.features.canonical import MATCHING_FPS, matching_features, mirror_features
 from kineme.library.searching import spans_like
 from kineme.transfer.subsequences import THRESHOLD, Matches
 
@@ -49,7 +49,7 @@ def uiprmd() -> Iterator[Take]:
 
 def found_either_way(example: Features, features: Features) -> Matches:
     """Spans that are like an example or like its mirror image."""
-    examples = [example, mirrored_features(example)]
+    examples = [example, mirror_features(example)]
     return spans_like(features, examples, [], threshold=THRESHOLD, top=None)
 
 

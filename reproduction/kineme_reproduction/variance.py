@@ -27,7 +27,7 @@ from kineme.errors import ParameterError
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.score import Score, one_of
 from kineme.evaluation.truth import TRANSITION, Labelling
-from kineme.features._warping_kernels import cheapest_path
+from kineme.features._warping_kernels import find_cheapest_path
 from kineme.features.point_clouds import cloud_distances
 
 Distances = Callable[[slice, slice], Floats]
@@ -165,7 +165,7 @@ def _variance(label: str, spans: list[slice], distances: Distances, fps: float) 
     lengths: Ints = np.array([span.stop - span.start for span in spans])
     normalised = []
     for i, j in combinations(range(len(spans)), 2):
-        cost, _, _ = cheapest_path(np.ascontiguousarray(distances(spans[i], spans[j])), 0.0)
+        cost, _, _ = find_cheapest_path(np.ascontiguousarray(distances(spans[i], spans[j])), 0.0)
         # The path costs the same in both directions, so one warp gives both ordered pairs.
         normalised += [cost / lengths[i], cost / lengths[j]]
     seconds = lengths / fps

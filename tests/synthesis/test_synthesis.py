@@ -15,9 +15,9 @@ from kineme.errors import ParameterError
 from kineme.features import end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import (
+    compute_local_translations,
+    compute_world_rotations,
     forward_kinematics,
-    local_translations,
-    world_rotations,
 )
 from kineme.recordings.operations import cut
 from kineme.segments.segmentation import Segmentation
@@ -152,23 +152,25 @@ def test_planting_keeps_bones_heights_and_the_direction_of_feet(
     assert after.rotations is not None
     assert (
         np.abs(
-            local_translations(after.skeleton, after.positions, after.rotations)
-            - local_translations(before.skeleton, before.positions, before.rotations)
+            compute_local_translations(after.skeleton, after.positions, after.rotations)
+            - compute_local_translations(before.skeleton, before.positions, before.rotations)
         ).max()
         < 1e-9
     )
     again = forward_kinematics(
         after.skeleton,
         after.rotations,
-        translations=local_translations(before.skeleton, before.positions, before.rotations),
+        translations=compute_local_translations(
+            before.skeleton, before.positions, before.rotations
+        ),
     )
     assert np.abs(again - after.positions).max() < 1e-9
     feet = list(end_effectors(before).indices[:2])
     raised = after.positions[:, feet, 1] - before.positions[:, feet, 1]
     assert np.percentile(np.abs(raised), 99) < 0.005  # where the leg is long enough
     turns = rot.multiply(
-        rot.conjugate(world_rotations(before.skeleton, before.rotations)[:, feet]),
-        world_rotations(after.skeleton, after.rotations)[:, feet],
+        rot.conjugate(compute_world_rotations(before.skeleton, before.rotations)[:, feet]),
+        compute_world_rotations(after.skeleton, after.rotations)[:, feet],
     )
     assert np.abs(np.abs(turns[..., 0]) - 1).max() < 1e-9
     assert np.abs(after.positions[:, 0] - before.positions[:, 0]).max() == 0

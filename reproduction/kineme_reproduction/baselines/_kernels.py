@@ -1,6 +1,6 @@
 """Compiled parts of ACA and HACA: small loops on plain arrays.
 
-Kernels trust their input; each has a slow, literal twin in ``tests/helpers/naive.py``.
+Kernels trust their input; each has a slow, literal twin in ``tests/helpers/naive``.
 Signatures are explicit, so one compilation serves every call, and compiled
 code is kept on disk.
 """

@@ -44,10 +44,10 @@ from kineme.cycles.joints import (
 )
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import body_frame, heading
-from kineme.features.feet import speed_of
+from kineme.features.feet import measure_speed
 from kineme.recordings import Motion, Signals
 from kineme.recordings.joint_names import SIDES
-from kineme.recordings.kinematics import place_at_rest, world_rotations
+from kineme.recordings.kinematics import compute_world_rotations, place_at_rest
 
 Compute = Callable[[], Floats]
 Add = Callable[[str, str, str, Sequence[str | int], Compute], None]
@@ -226,7 +226,7 @@ def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
         compute = partial(body_frame, motion, (joint,))
         add_axes(name, ("left", "up", "ahead"), "m", "from the pelvis", joint, compute)
     for joint, name in joints:
-        compute = partial(speed_of, places[:, joint], motion.fps)
+        compute = partial(measure_speed, places[:, joint], motion.fps)
         add(f"{name}.speed", "m/s", "speed", [joint], compute)
 
 
@@ -310,7 +310,7 @@ def _flexion(places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[in
 def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:
     """Return how far the thigh is turned forward from the pose of rest, in the pelvis's frame."""
     skeleton = motion.skeleton
-    turned = world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
+    turned = compute_world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
     # The thigh as the pelvis sees it: rotated by the inverse of its rotation.
     thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])
     places = place_at_rest(skeleton)

@@ -24,8 +24,8 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
 from kineme.errors import ParameterError
-from kineme.features.feet import low_and_slow
-from kineme.recordings.arrays import spans_of
+from kineme.features.feet import find_low_and_slow
+from kineme.recordings.arrays import find_spans
 
 STEADY = 0.12
 """Of the usual turning of a foot that moves: slower than this, it stands."""
@@ -88,7 +88,7 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
         return np.empty((0, 2))
     # Most of the time the foot may stand; only frames in which it moves tell how fast it turns.
     usual = float(np.percentile(size[size > 0.1 * size.max()], 75))
-    steady = spans_of(size < STEADY * usual).tolist()
+    steady = find_spans(size < STEADY * usual).tolist()
     stands = [(a, b) for a, b in steady if b - a >= FLAT_S * fps]
     moves = [(before[1], after[0]) for before, after in pairwise(stands)]
     # Main axis of turning: the eigenvector of the largest eigenvalue, which is the last.
@@ -133,7 +133,7 @@ def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, 
 
     There are two swings where two turns forward are `APART_S` from each other.
     """
-    forward = spans_of(pitch[start:stop] > HIGH * pitch[start:stop].max(initial=0.0)).tolist()
+    forward = find_spans(pitch[start:stop] > HIGH * pitch[start:stop].max(initial=0.0)).tolist()
     cuts = [start]
     for (_, before), (after, _) in pairwise(forward):
         if after - before >= APART_S * fps:
@@ -210,7 +210,7 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     carried = np.arange(len(paths[0]))[:, None] / fps * ground_velocity(paths, fps)
     stands = np.zeros(len(paths[0]), bool)
     for path in paths:
-        stands |= low_and_slow(path - carried, fps, height=LOW, speed=SLOW)
+        stands |= find_low_and_slow(path - carried, fps, height=LOW, speed=SLOW)
     return _lasting(stands, fps)
 
 
@@ -224,7 +224,7 @@ def ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
     if len(points[0]) < 2:
         return np.zeros(3)
     # Without a limit of speed: a foot that stands on a belt is fast.
-    low = [low_and_slow(path, fps, height=LOW, speed=np.inf) for path in points]
+    low = [find_low_and_slow(path, fps, height=LOW, speed=np.inf) for path in points]
     velocities = [np.gradient(path, axis=0)[each] * fps
                   for path, each in zip(points, low, strict=True)]  # fmt: skip
     # The belt is level: no vertical velocity.
@@ -270,7 +270,7 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
 def _lasting(stands: NDArray[np.bool_], fps: float) -> Floats:
     """Seconds of stands, joined over short breaks, without short ones."""
     joined: list[list[int]] = []
-    for start, stop in spans_of(stands).tolist():
+    for start, stop in find_spans(stands).tolist():
         if joined and start - joined[-1][1] < BRIDGE_S * fps:
             joined[-1][1] = stop
         else:

@@ -24,7 +24,7 @@ from kineme.cycles.channels import channels_of
 from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
 from kineme.cycles.table import CYCLE, INCOMPLETE, mean_phase
 from kineme.errors import EndEffectorError, MotionError, ParameterError
-from kineme.features import distance_features, pose_features
+from kineme.features import compute_distance_features, pose_features
 from kineme.labels.c3d_events import SAME_S
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
@@ -148,7 +148,7 @@ class _FineFeatures:
                 comparable, positions = False, recording.positions
                 # A single point has no distances: its path is compared.
                 is_point = recording.skeleton.n_joints < 2
-                values = positions[:, 0] if is_point else distance_features(positions)[0]
+                values = positions[:, 0] if is_point else compute_distance_features(positions)[0]
         # The mean about each frame, of which every n-th is kept.
         if many > 1:
             values = uniform_filter1d(values, many, axis=0, mode="nearest")[::many]

@@ -33,7 +33,7 @@ from kineme.recordings.motion import Motion
 from kineme.recordings.signals import Signals
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.channel_samples import ChannelSamples, channel_samples
+from kineme.transfer.channel_samples import ChannelSamples, compute_channel_samples
 from kineme.transfer.sharing import share_by_samples, share_clusters
 
 Mapped = Literal["recording", "folder"]
@@ -411,7 +411,7 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     compared = compare(truth, found, classes=classes)
     sides = None
     if job.joins:
-        samples = channel_samples(recording) if isinstance(recording, Signals) else None
+        samples = compute_channel_samples(recording) if isinstance(recording, Signals) else None
         # The hierarchy is large and is not needed for joining.
         sides = Sides(truth, replace(found, hierarchy=None), samples)
     unmet = (str(note) for note in recording.provenance.notes if note.startswith(UNMET))

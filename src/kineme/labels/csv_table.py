@@ -44,7 +44,7 @@ from kineme.labels.delimited import columns as columns_of
 from kineme.labels.json_table import SCHEMA, head_of, join_head, parse
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span
-from kineme.recordings.times import date_seconds, is_date
+from kineme.recordings.times import is_date, parse_date
 from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, COMMENT, Segment, lacking
@@ -136,7 +136,7 @@ def intervals(path: Path) -> dict[str, Labels]:
             }
             # Seconds may be a date or time of day: those since 1970, or since midnight.
             start, stop = (
-                date_seconds(cell.strip())
+                parse_date(cell.strip())
                 if unit == "seconds" and is_date(cell.strip())
                 else number(cell, name, path, line)
                 for name, cell in cells.items()

@@ -35,7 +35,7 @@ from kineme.transfer.clusters import (
     find_local_clusters,
     keep_numbers,
     link_clusters,
-    spans_with_clusters,
+    list_spans,
 )
 
 Columns = dict[str, Any]
@@ -61,7 +61,7 @@ def compile_tables(
     local, found = _join_clusters(analyses, keys, folder / ANALYSES, progress)
     shared = _cluster_of_segments(analyses, local, found.cluster)
     new = {
-        name: spans_with_clusters(analysis.table.columns(), clusters)
+        name: list_spans(analysis.table.columns(), clusters)
         for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
     }
     numbers = keep_numbers(before, new, following=following)
@@ -89,7 +89,7 @@ def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
     found = {}
     for start, stop in pairwise(edges):
         rows = {name: column[start:stop] for name, column in columns.items()}
-        found[str(rows["recording"][0])] = spans_with_clusters(rows, rows["cluster"])
+        found[str(rows["recording"][0])] = list_spans(rows, rows["cluster"])
     return found
 
 

@@ -12,7 +12,7 @@ from kineme._util.checks import is_number, is_one_of, warn
 from kineme._util.files import AnyPath
 from kineme.clips.tags import TAGS, Tag, Travel, travel_of
 from kineme.errors import ParameterError, ReadError
-from kineme.features.canonical import mirrored_features
+from kineme.features.canonical import mirror_features
 from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
 from kineme.library.open_library import OpenTables, numbers_of
@@ -67,7 +67,7 @@ def hits_like(
         max_per_recording = int(min(max_per_recording, MOST_HITS))
     described = features_of(tables, examples)
     if mirror and one_vocabulary(described) == BODIES:
-        described += [(BODIES, mirrored_features(part)) for _, part in described]
+        described += [(BODIES, mirror_features(part)) for _, part in described]
     vocabulary = one_vocabulary(described)
     refused = [part for kind, part in features_of(tables, counterexamples) if kind == vocabulary]
     features = [part for _, part in described]

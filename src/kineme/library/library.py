@@ -165,7 +165,7 @@ class Library:
             Of one recording at most.
         mirror : bool
             Search for the mirror images of the examples as well; of bodies only. Their distances
-            are estimates (see `kineme.features.canonical.mirrored_features`).
+            are estimates (see `kineme.features.canonical.mirror_features`).
         tag : str, optional
             Only hits with this tag, such as "backwards" (see `kineme.clips.tags`); the recordings
             of hits are read for it.

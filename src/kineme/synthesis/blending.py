@@ -24,10 +24,14 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_indices, check_type, format_count
 from kineme.errors import EndEffectorError, ParameterError
 from kineme.features import end_effectors
-from kineme.features.feet import low_and_slow
+from kineme.features.feet import find_low_and_slow
 from kineme.recordings import Motion, Provenance
-from kineme.recordings.arrays import spans_of
-from kineme.recordings.kinematics import forward_kinematics, local_translations, world_rotations
+from kineme.recordings.arrays import find_spans
+from kineme.recordings.kinematics import (
+    compute_local_translations,
+    compute_world_rotations,
+    forward_kinematics,
+)
 from kineme.recordings.motion import check_motion
 from kineme.synthesis.graph import MotionGraph
 
@@ -175,7 +179,7 @@ def _blend_spans(
 ) -> tuple[Floats, Floats]:
     """Rotations and translations of all spans, blended over ``half`` frames about each jump."""
     shifts = [
-        local_translations(motion.skeleton, motion.positions, motion.rotations)
+        compute_local_translations(motion.skeleton, motion.positions, motion.rotations)
         for motion in motions
     ]
 
@@ -290,7 +294,7 @@ def foot_contacts(path: Floats, fps: float) -> Spans:
     """
     if len(path) < 2:
         return []
-    spans = spans_of(low_and_slow(path, fps, height=HEIGHT, speed=SPEED)).tolist()
+    spans = find_spans(find_low_and_slow(path, fps, height=HEIGHT, speed=SPEED)).tolist()
     return [(start, stop) for start, stop in spans if stop - start >= SHORTEST * fps]
 
 
@@ -339,7 +343,7 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     The knee opens or closes about its hinge until the ankle is as far from the
     hip as the target, then the leg turns about the hip.
     """
-    world = world_rotations(motion.skeleton, motion.rotations)
+    world = compute_world_rotations(motion.skeleton, motion.rotations)
     hip, knee, ankle = (motion.positions[:, j] for j in leg)
     # Untouched frames must stay exactly as they are.
     moved = np.linalg.norm(target - ankle, axis=1) > 1e-9
@@ -375,7 +379,9 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     positions = forward_kinematics(
         motion.skeleton,
         rotations,
-        translations=local_translations(motion.skeleton, motion.positions, motion.rotations),
+        translations=compute_local_translations(
+            motion.skeleton, motion.positions, motion.rotations
+        ),
     )
     return replace(motion, rotations=rotations, positions=positions)
 

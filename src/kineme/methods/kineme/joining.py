@@ -25,10 +25,10 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
 from kineme.methods.kineme._repeating_kernels import ROUGH
-from kineme.methods.kineme._repetition_kernels import repetitions_between
-from kineme.methods.kineme.ends import fitted_edges
+from kineme.methods.kineme._repetition_kernels import sample_repetitions
+from kineme.methods.kineme.ends import fit_edges
 from kineme.methods.kineme.repeating import SPAN, share_of_one_movement
-from kineme.methods.kineme.repetitions import PLACES, movement_of, repetitions
+from kineme.methods.kineme.repetitions import PLACES, find_repetitions, trace_movement
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         is_sure = min(counts) >= SURE * preset.chance_count
         if max(counts) < 3 or is_sure or stop - start > preset.frames(SPAN[1]):
             return Union(0.0, np.empty(0, np.int64))
-        together = repetitions(rows, start, stop, preset)
+        together = find_repetitions(rows, start, stop, preset)
         border = (stops[left] + starts[right]) // 2 - start
         likeness = measure_likeness(rows[start:stop], together - start, border, counts, preset)
         return Union(likeness, together)
@@ -139,7 +139,7 @@ def measure_likeness(
     """
     if len(cuts) < 2:  # nothing lies between two cuts
         return 0.0
-    edges = fitted_edges(rows, cuts)
+    edges = fit_edges(rows, cuts)
     durations = np.diff(edges)
     before = int(np.count_nonzero(edges[:-1] + durations / 2 < border))
     # The count of a side with two is no evidence: it may be any two halves.
@@ -154,21 +154,21 @@ def measure_likeness(
     )
     if not (agree and covered and 0 < before < len(durations)):
         return 0.0
-    movement = movement_of(rows, preset)
-    repeated = repetitions_between(movement.poses, movement.path, edges, PLACES)
+    movement = trace_movement(rows, preset)
+    repeated = sample_repetitions(movement.poses, movement.path, edges, PLACES)
     centered = repeated - repeated.mean(axis=1, keepdims=True)
     even = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
     if even < preset.same_set or share_of_one_movement(centered, preset) < ONE_MOVEMENT:
         return 0.0
     near = repeated[max(before - NEAR, 0) : before + NEAR]
-    beside, across = similarities_at(near, min(before, NEAR), preset.centering)
+    beside, across = compare_at_border(near, min(before, NEAR), preset.centering)
     # Of sets done well nearly all is alike: little may be unlike across the border, too.
     if 1 - beside + ROUGH < preset.two_movements * (1 - across + ROUGH):
         return 0.0
     return even * across / max(beside, TINY)
 
 
-def similarities_at(repeated: Floats, border: int, centering: float) -> tuple[float, float]:
+def compare_at_border(repeated: Floats, border: int, centering: float) -> tuple[float, float]:
     """Return the mean correlation of two repetitions beside a border, and of two across it.
 
     Parameters
