@@ -25,14 +25,14 @@ from kineme.synthesis import (
     MotionGraph,
     Placement,
     action_route,
-    foot_contacts,
+    find_foot_contacts,
     motion_graph,
     parse_actions,
     plant_feet,
     random_route,
     synthesize,
 )
-from kineme.synthesis.blending import jump_frames, place_spans
+from kineme.synthesis.blending import find_jump_frames, place_spans
 
 
 def repetitions_in(found: Segmentation, activity: int) -> int:
@@ -59,7 +59,7 @@ def ankle_slides(motion: Motion) -> np.ndarray:
     return np.array([
         np.linalg.norm((path[a:b] - path[a])[:, [0, 2]], axis=1).max()
         for path in paths
-        for a, b in foot_contacts(path, motion.fps)
+        for a, b in find_foot_contacts(path, motion.fps)
     ])  # fmt: skip
 
 
@@ -126,7 +126,7 @@ def test_far_from_jumps_every_frame_is_one_of_the_recording(
     route = action_route(graph, [("run", 9)])
     motion = synthesize(graph, [exercises], route, plant=False)
     spans = place_spans(graph, route, Placement())
-    edges = [0, *jump_frames(spans), motion.n_frames]
+    edges = [0, *find_jump_frames(spans), motion.n_frames]
     half = round(graph.window * graph.fps / 2)
     for piece, (start, stop) in zip(spans, pairwise(edges)):
         middle = slice(start + half, stop - half)

@@ -78,7 +78,7 @@ def describe(recording: Motion | Signals, options: SegmentOptions) -> Descriptio
     """Return the features of a recording; none, with the reason, where it has no body."""
     if isinstance(recording, Signals):
         vocabulary = sha256("\0".join(recording.names).encode()).hexdigest()[:8]
-        features = signal_features(recording, emg=options.emg)
+        features = compute_signal_features(recording, emg=options.emg)
         named = f"{format_count(recording.n_channels, 'channel')}, {vocabulary}"
         return Description(named, features, SENSORS.rate)
     try:
@@ -88,7 +88,7 @@ def describe(recording: Motion | Signals, options: SegmentOptions) -> Descriptio
     return Description(BODIES, features, MATCHING_FPS, poses=poses)
 
 
-def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
+def compute_signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
     """Features (samples, dims) of channels, `SENSORS.rate` a second."""
     preset = SENSORS.at_most(signals.fps)
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
@@ -117,7 +117,7 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
     return features
 
 
-def analysis_of(
+def make_analysis(
     recording: Motion | Signals, options: SegmentOptions
 ) -> tuple[Analysis, NDArray[np.float32], NDArray[np.float32] | None]:
     """What is kept of a recording, its features (samples, dims), and samples of its channels.

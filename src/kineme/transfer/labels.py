@@ -29,7 +29,7 @@ from kineme._util.checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.segments.editing.rows import replace_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level, Segment, SegmentTable, kind_of
+from kineme.segments.table import Level, Segment, SegmentTable, choose_kind
 from kineme.transfer.knowledge import FPS, KnowledgeBase, convert_frames
 from kineme.transfer.matching import Primitives, label_costs, number_movements
 from kineme.transfer.subsequences import THRESHOLD, search
@@ -89,7 +89,7 @@ def segment_as_found(segmentation: Segmentation, found: list[Found]) -> Segmenta
     rows = [
         Segment(
             level,
-            kind_of(level, transition=not label),
+            choose_kind(level, transition=not label),
             start,
             stop,
             start / segmentation.fps,

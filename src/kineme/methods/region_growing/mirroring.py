@@ -50,7 +50,7 @@ def classify_symmetry(
     activity : (int, int)
         (first, last), both inclusive.
     main, mirrored : PrimitiveCuts
-        As `find_primitive_cuts` finds them among the frames and the mirrored frames of the activity.
+        What `find_primitive_cuts` finds in the frames and the mirrored frames of the activity.
     gap : float
         Frames; a mirrored path this far from every main one lies between them.
     """
