@@ -143,7 +143,24 @@ def _rig(
     """Return the rig of these nodes, parents first; None where a scale is not one number."""
     places = {node: place for place, node in enumerate(chosen)}
     parents = tuple(places.get(nodes[node].parent, -1) for node in chosen)
-    found = [rest(node) for node in chosen]
+    parts = stack_transforms([rest(node) for node in chosen], parents)
+    if parts is None:
+        return None
+    return Rig(
+        tuple(nodes[node].name for node in chosen),
+        parents,
+        *parts,
+        np.tile(rot.IDENTITY, (n_joints, 1)),
+        unit,
+        turn,
+        tuple(numbers[node] for node in chosen) if numbers else (-1,) * len(chosen),
+    )
+
+
+def stack_transforms(
+    found: Sequence[Transform], parents: Sequence[int]
+) -> tuple[Floats, Floats, Floats] | None:
+    """Return translations, rotations and scales of a rig's nodes; None where one is uneven."""
     if any(_factor(each.scale, UNIFORM) is None for each in found):
         return None
     scales = np.array([each.scale for each in found])
@@ -151,17 +168,8 @@ def _rig(
         if each.inheritance == "Rrs" and parent >= 0:
             # A rig's nodes inherit their parent's scale, so it is divided out.
             scales[here] /= _factor(found[parent].scale, UNIFORM) or 1.0
-    return Rig(
-        tuple(nodes[node].name for node in chosen),
-        parents,
-        np.array([each.translation for each in found]),
-        np.array([each.rotation for each in found]),
-        scales,
-        np.tile(rot.IDENTITY, (n_joints, 1)),
-        unit,
-        turn,
-        tuple(numbers[node] for node in chosen) if numbers else (-1,) * len(chosen),
-    )
+    moved = np.array([each.translation for each in found])
+    return moved, np.array([each.rotation for each in found]), scales
 
 
 def _apply_scale(

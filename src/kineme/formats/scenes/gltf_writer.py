@@ -84,6 +84,19 @@ def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a g
     return first
 
 
+def check_copy(motions: Mapping[str, Motion], source: Path, path: Path) -> Skeleton:
+    """Return the skeleton of motions that are to be animations in a copy of their file.
+
+    WriteError where its bones cannot be placed in that file, or as for `check_animations`.
+    """
+    skeleton = check_animations(motions, path, f"a copy of {source.name}").skeleton
+    if skeleton.rig is None or not skeleton.rig.numbers:
+        raise WriteError(
+            path, f"the bones of {source.name} are mirrored or scaled unevenly at rest"
+        )
+    return skeleton
+
+
 def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
     """Leave the JSON and its only buffer in a GLB, or in a ``.gltf`` with the buffer in it."""
     buffer: dict[str, Any] = {"byteLength": len(data)}
