@@ -20,14 +20,16 @@ WORST = 1e-4
 """Metres: a tenth of a millimetre."""
 
 
-@pytest.mark.parametrize("suffix", [".fbx", ".glb", ".bvh"])
+SOURCES = [
+    ("samba.fbx", None),
+    ("Xbot.glb", "walk"),
+    ("bandai_namco/dataset-1_dash_normal_001.bvh", None),
+]
+CASES = [(*source, suffix) for source in SOURCES for suffix in (".fbx", ".glb", ".bvh")]
+
+
 @pytest.mark.parametrize(
-    ("name", "take"),
-    [
-        ("samba.fbx", None),
-        ("Xbot.glb", "walk"),
-        ("bandai_namco/dataset-1_dash_normal_001.bvh", None),
-    ],
+    ("name", "take", "suffix"), [*CASES, ("RobotExpressive.glb", "Walking", ".glb")]
 )
 def test_bones_are_as_in_the_source(data_dir, tmp_path, name, take, suffix) -> None:
     source = data_dir / "rigs" / name

@@ -241,6 +241,11 @@ class _Writer(Animator):
         skeleton, rig = self.skeleton, self.rig
         places, turns, sizes = (part[rig.above :] for part in rig.world)
         vertices, faces, joints = _bones(skeleton, places)
+        rest = compose(places, turns, sizes)
+        binds = rest if rig.binds is None else rig.binds
+        # Each vertex hangs on one joint, so it goes to where the skin has that joint.
+        carry = (binds @ np.linalg.inv(rest))[joints]
+        vertices = np.einsum("vij,vj->vi", carry[:, :3, :3], vertices) + carry[:, :3, 3]
         # As small an integer as holds the numbers of all joints.
         kind = np.uint8 if skeleton.n_joints <= 256 else np.uint16
         bound = np.zeros((len(vertices), 4), kind)
@@ -249,7 +254,7 @@ class _Writer(Animator):
         weights = np.zeros((len(vertices), 4))
         weights[:, 0] = 1.0
         # Columns are stored one after another.
-        inverse = np.linalg.inv(compose(places, turns, sizes)).transpose(0, 2, 1)
+        inverse = np.linalg.inv(binds).transpose(0, 2, 1)
         inverse[:, :, 3] = [0.0, 0.0, 0.0, 1.0]  # exactly, as the format demands
         code = _BYTE if kind is np.uint8 else _SHORT
         attributes = {
@@ -268,6 +273,9 @@ class _Writer(Animator):
                 "inverseBindMatrices": inverses,
             }
         ]
+        if rig.binds is not None:
+            # These are counted from the node above all joints.
+            self.tree["skins"][0]["skeleton"] = skeleton.n_joints + max(rig.above, 1) - 1
 
 
 def _put(parts: list[Any], part: Any, free: list[int]) -> int:
