@@ -118,3 +118,14 @@ def test_bones_that_no_keys_can_place_are_refused(tmp_path: Path, scale: list[fl
     with pytest.raises(WriteError, match=re.escape("the bones of a.fbx are mirrored or scaled")):
         copy_takes({"clip": motion}, source, path)
     assert not path.exists()
+
+
+def test_mesh_and_skin_of_a_character_stay_byte_for_byte(data_dir: Path, tmp_path: Path) -> None:
+    source, path = data_dir / "rigs" / "samba.fbx", tmp_path / "copy.fbx"
+    clip = kineme.read(source, take="mixamo.com")[:9]
+    for motion in (clip, add_root(clip)):
+        copy_takes({"clip": motion}, source, path)
+        before, after = stored(source), stored(path)
+        changed = [number for number in before if after[number] != before[number]]
+        # Both bind poses have the new root, too.
+        assert len(changed) == (2 if motion is not clip else 0)
