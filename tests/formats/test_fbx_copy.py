@@ -10,7 +10,7 @@ import pytest
 from fbx_scenes import Bones
 
 import kineme
-from _fbx import Keys, walker
+from _fbx import Keys, Name, node, walker
 from kineme.errors import KinemeWarning, WriteError
 from kineme.formats.files import load
 from kineme.formats.scenes.fbx_copy import copy_takes
@@ -28,14 +28,14 @@ def stored(path: Path) -> dict[int, bytes]:
     head, objects = head_of(version), {}
     group = root.child("Objects")
     assert group is not None
-    for node in group.children:
-        raw, at = bytearray(content.data[node.start : node.stop]), 0
+    for each in group.children:
+        raw, at = bytearray(content.data[each.start : each.stop]), 0
         while at < len(raw):
             end, *rest = head.unpack_from(raw, at)
-            head.pack_into(raw, at, end and end - node.start, *rest)
+            head.pack_into(raw, at, end and end - each.start, *rest)
             at += head.size + rest[1] + rest[2]
-        if node.name not in NEW:
-            objects[node.values[0]] = bytes(raw)
+        if each.name not in NEW:
+            objects[each.values[0]] = bytes(raw)
     return objects
 
 
@@ -45,7 +45,7 @@ def counts(path: Path) -> tuple[dict[str, int], dict[str, int]]:
     group, table = root.child("Objects"), root.child("Definitions")
     assert group
     assert table
-    kinds = [node.name for node in group.children]
+    kinds = [each.name for each in group.children]
     told = {k.text(0): int(c.number(0)) for k in table.all("ObjectType") if (c := k.child("Count"))}
     return {kind: kinds.count(kind) for kind in kinds}, told
 
@@ -129,3 +129,24 @@ def test_mesh_and_skin_of_a_character_stay_byte_for_byte(data_dir: Path, tmp_pat
         changed = [number for number in before if after[number] != before[number]]
         # Both bind poses have the new root, too.
         assert len(changed) == (2 if motion is not clip else 0)
+
+
+def test_a_texture_that_the_copy_will_not_find_is_told(tmp_path: Path) -> None:
+    scene = walker()
+    scene._object("Video", Name("skin", "Video"), "Clip", {}, node("RelativeFilename", "a.png"))
+    source, path = tmp_path / "a.fbx", tmp_path / "elsewhere" / "b.fbx"
+    path.parent.mkdir()
+    source.write_bytes(scene.binary())
+    (tmp_path / "a.png").write_bytes(b"")
+    motion = kineme.read(source, take=0)
+    with pytest.warns(KinemeWarning, match=re.escape("b.fbx needs the texture 'a.png'")):
+        copy_takes({"clip": motion}, source, path)
+
+
+def test_a_source_that_has_changed_is_refused(tmp_path: Path) -> None:
+    source = tmp_path / "a.fbx"
+    source.write_bytes(walker().binary())
+    motion = kineme.read(source, take=0)
+    source.write_bytes(Bones({}).binary())
+    with pytest.raises(WriteError, match="has changed since it was read"):
+        copy_takes({"clip": motion}, source, tmp_path / "b.fbx")
