@@ -15,7 +15,7 @@ from kineme.errors import KinemeWarning, WriteError
 from kineme.formats.files import load
 from kineme.formats.scenes.fbx_copy import copy_takes
 from kineme.formats.scenes.fbx_file import head_of, parse_fbx
-from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.posing import add_root
 
 NEW = {"AnimationStack", "AnimationLayer", "AnimationCurveNode", "AnimationCurve"}
@@ -91,8 +91,10 @@ def test_joints_are_where_the_clip_has_them(tmp_path, inherit, order, version, r
         back = kineme.read(path, take=take)
         joints = [back.joint(name) for name in motion.skeleton.names]
         np.testing.assert_allclose(back.positions[:, joints], expected.positions, atol=1e-5)
-        axes = world_rotations(back.skeleton, back.rotations)[:, joints]
-        same = np.abs((axes * world_rotations(expected.skeleton, expected.rotations)).sum(axis=2))
+        axes = compute_world_rotations(back.skeleton, back.rotations)[:, joints]
+        same = np.abs(
+            (axes * compute_world_rotations(expected.skeleton, expected.rotations)).sum(axis=2)
+        )
         np.testing.assert_allclose(same, 1.0, atol=1e-9)
         assert (back.fps, back.provenance.takes) == (motion.fps, ("one", "two"))
 

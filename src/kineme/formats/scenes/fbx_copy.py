@@ -32,7 +32,7 @@ from kineme.formats.scenes.fbx_scene import STILL, FBXScene, Pose, invert_transf
 from kineme.formats.scenes.fbx_writer import FOOTER, TakeWriter, encode_fbx, single, write_takes
 from kineme.formats.scenes.gltf_writer import check_copy
 from kineme.recordings import Motion
-from kineme.recordings.posing import rig_of
+from kineme.recordings.posing import get_rig
 
 _ANIMATION = {"AnimationStack", "AnimationLayer", "AnimationCurveNode", "AnimationCurve"}
 _HOLDERS = {"GlobalSettings", "Documents", "Document", "Properties70"}
@@ -68,7 +68,7 @@ class _Copy(TakeWriter):
     """Gathers takes for the models of a file, at rest as they are there without animation."""
 
     def __init__(self, scene: FBXScene, motion: Motion, source: Path, path: Path) -> None:
-        rig = rig_of(motion.skeleton)
+        rig = get_rig(motion.skeleton)
         places = {model.number: place for place, model in enumerate(scene.models)}
         if not {*rig.numbers} - {-1} <= places.keys():
             raise WriteError(path, f"{source.name} has changed since it was read")

@@ -34,7 +34,7 @@ from kineme.formats.scenes.fbx_scene import INHERITANCE, ROTATION, SCALING, TRAN
 from kineme.formats.scenes.gltf_writer import check_animations
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.recordings import Motion
-from kineme.recordings.posing import pose_rig, rig_of
+from kineme.recordings.posing import get_rig, pose_rig
 from kineme.recordings.rig import Rig
 
 VERSION = 7400
@@ -208,7 +208,7 @@ class _Scene(TakeWriter):
     """Gathers takes of a skeleton, and its models."""
 
     def __init__(self, motion: Motion, path: Path) -> None:
-        rig = rig_of(motion.skeleton).to_metres()
+        rig = get_rig(motion.skeleton).to_metres()
         rig = replace(rig, translations=rig.translations / CENTIMETRE, unit=CENTIMETRE)
         super().__init__(rig, motion.fps, count(1_000_000))
         above = [*rig.names[: rig.above]]

@@ -29,7 +29,7 @@ from kineme.formats.scenes.gltf_writer import (
     transform_of,
 )
 from kineme.recordings import Motion
-from kineme.recordings.posing import rig_of
+from kineme.recordings.posing import get_rig
 from kineme.recordings.rig import Rig
 
 _PACKED = "EXT_meshopt_compression"
@@ -38,7 +38,7 @@ _PACKED = "EXT_meshopt_compression"
 def copy_animations(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
     """Leave a copy of ``source``, which the motions were read from, with these as animations."""
     skeleton = check_copy(motions, source, path)
-    rig = rig_of(skeleton)
+    rig = get_rig(skeleton)
     with translate_read_errors(source):
         file = GLTFFile(load(source))
         tree: dict[str, Any] = decode_json(file.text, source, dict)
