@@ -6,9 +6,6 @@ On the characters, the Mixamo dance and the clips of `rigs`. Blender, three.js a
 validator are asked where they are (see `benchmarks/_viewers.py`); what is missing is said at the
 end. Seams of loops are those of `python -m benchmarks loops`.
 
-In Blender a rest pose is that of the skin. The skin of one character (RobotExpressive) was bound
-elsewhere than its nodes are at rest; a file of the skeleton alone has the nodes' pose.
-
 Promises: rest poses are equal and joints are read back within 0.01 mm; in Blender and three.js they
 are within 0.1 mm; mirrored clips keep their skeleton; a bone that stays still changes no tag and no
 rank; meshes and skins are copied byte for byte; 95 % of walks have the direction of their name.

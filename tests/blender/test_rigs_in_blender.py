@@ -10,6 +10,7 @@ import pytest
 
 import kineme
 from _viewers import BPY, in_blender
+from kineme.formats.scenes.fbx_copy import copy_takes
 
 pytestmark = [
     pytest.mark.skipif(not BPY, reason="KINEME_BPY names no Python with bpy"),
@@ -19,14 +20,16 @@ WORST = 1e-4
 """Metres: a tenth of a millimetre."""
 
 
-@pytest.mark.parametrize("suffix", [".fbx", ".glb", ".bvh"])
+SOURCES = [
+    ("samba.fbx", None),
+    ("Xbot.glb", "walk"),
+    ("bandai_namco/dataset-1_dash_normal_001.bvh", None),
+]
+CASES = [(*source, suffix) for source in SOURCES for suffix in (".fbx", ".glb", ".bvh")]
+
+
 @pytest.mark.parametrize(
-    ("name", "take"),
-    [
-        ("samba.fbx", None),
-        ("Xbot.glb", "walk"),
-        ("bandai_namco/dataset-1_dash_normal_001.bvh", None),
-    ],
+    ("name", "take", "suffix"), [*CASES, ("RobotExpressive.glb", "Walking", ".glb")]
 )
 def test_bones_are_as_in_the_source(data_dir, tmp_path, name, take, suffix) -> None:
     source = data_dir / "rigs" / name
@@ -39,3 +42,12 @@ def test_bones_are_as_in_the_source(data_dir, tmp_path, name, take, suffix) -> N
     for one, other in zip(expected, found, strict=True):
         off = [np.subtract(one[bone], other[bone]) for bone in shared]
         assert np.abs(off).max() < WORST
+
+
+def test_bones_of_a_copy_are_as_in_the_source(data_dir, tmp_path) -> None:
+    source, path = data_dir / "rigs" / "samba.fbx", tmp_path / "copy.fbx"
+    copy_takes({"clip": kineme.read(source)[:20]}, source, path)
+    expected, found = in_blender(source, tmp_path, "mixamo"), in_blender(path, tmp_path, "clip")
+    for one, other in zip(expected, found, strict=True):
+        assert one.keys() == other.keys()
+        assert max(np.abs(np.subtract(one[bone], other[bone])).max() for bone in one) < WORST

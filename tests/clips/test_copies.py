@@ -70,6 +70,19 @@ def test_a_character_keeps_its_mesh_and_skin(data_dir, tmp_path, name, take, mod
         np.testing.assert_allclose(found, motion.positions[: len(found)], atol=1e-5)
 
 
+@pytest.mark.parametrize("mode", ["keep", "extract"])
+def test_an_fbx_keeps_its_mesh_and_skin(data_dir: Path, tmp_path: Path, mode: str) -> None:
+    source, path = data_dir / "rigs" / "samba.fbx", tmp_path / "clips.fbx"
+    motion = kineme.read(source)
+    assert split(motion, halves(motion), path, root_motion=mode) == [path, path]  # type: ignore[arg-type]
+    clip = kineme.read(path, take=0)
+    assert clip.provenance.takes == ("samba_0000_cluster_0", "samba_0001_cluster_1")
+    assert clip.skeleton.names[0] == ("root" if mode == "extract" else motion.skeleton.names[0])
+    there = [clip.joint(each) for each in motion.skeleton.names]
+    expected = motion.positions[: clip.n_frames]
+    np.testing.assert_allclose(clip.positions[:, there], expected, atol=1e-6)
+
+
 def test_a_root_bone_is_added_and_moves_as_the_body_does(data_dir: Path, tmp_path: Path) -> None:
     motion = kineme.read(data_dir / "rigs" / "Xbot.glb", take="walk")
     split(motion, halves(motion), tmp_path / "clips.glb", root_motion="extract")

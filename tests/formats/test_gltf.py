@@ -232,6 +232,17 @@ def test_a_skeleton_without_a_skin_and_several_characters(tmp_path: Path) -> Non
     assert motion.skeleton.names == ("Hips", "node6")
 
 
+@pytest.mark.parametrize(("moved", "warned"), [((5,), False), ((5, 6), True)])
+def test_a_character_without_a_skin_beside_one_with_it_is_told(tmp_path, moved, warned) -> None:
+    nodes = [*LEG, {"name": "Other", "children": [5]}, {"name": "Spine", "children": [6]}, {}]
+    file = File(nodes, (1, 2, 3)).animate(
+        "a", *((node, "rotation", [0, 1], [NONE, TURN], "LINEAR") for node in (1, *moved))
+    )
+    said = read_quietly(file.save(tmp_path / "a.glb")).provenance.warnings
+    expected = "perhaps another character, left out since its nodes are no bones: Spine"
+    assert any(each.startswith(expected) for each in said) == warned
+
+
 def test_bones_of_one_name_are_told(tmp_path: Path) -> None:
     nodes = [*LEG[:2], {**LEG[2], "name": "Hips"}, LEG[3]]
     file = File(nodes, (1, 2, 3)).animate("a", (1, "rotation", [0, 1], [NONE, TURN], "LINEAR"))

@@ -227,3 +227,15 @@ def test_of_two_clocks_the_one_that_runs_is_taken(tmp_path: Path, cells: str) ->
     with pytest.warns(KinemeWarning, match="no time in timestamp: time_s taken"):
         signals = kineme.read(path)
     assert (signals.fps, signals.names) == (50, ("acc_x",))
+
+
+@pytest.mark.parametrize(("empty", "warned"), [(2, False), (4, True)])
+def test_most_bones_of_no_length_are_a_warning(tmp_path: Path, empty: int, warned: bool) -> None:
+    offsets = np.array([[0.0, 0.9, 0.0], *([[0.0, 0.4, 0.0]] * 6)])
+    offsets[1 : 1 + empty] = 0.0
+    skeleton = kineme.Skeleton(tuple("abcdefg"), (-1, *range(6)), offsets)
+    turns = np.tile([1.0, 0.0, 0.0, 0.0], (9, 7, 1))
+    motion = kineme.Motion.from_rotations(skeleton, turns, FPS, np.zeros((9, 3)))
+    kineme.write(motion, tmp_path / "a.glb")
+    said = [str(each) for each in read_quietly(tmp_path / "a.glb").provenance.warnings]
+    assert any("4 of 6 bones have no length" in each for each in said) == warned

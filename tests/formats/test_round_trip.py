@@ -39,6 +39,7 @@ def assert_same_joints(one: Motion, other: Motion, names: list[str]) -> None:
     assert other.fps == pytest.approx(one.fps, rel=1e-12)
 
 
+@pytest.mark.filterwarnings("ignore:.* bones have no length")
 @given(motions())
 def test_bvh(motion: Motion) -> None:
     again = written_and_read(motion, ".bvh")
@@ -51,6 +52,7 @@ def test_bvh(motion: Motion) -> None:
         assert np.abs(again.positions[0] - position).max(axis=1).min() < 1e-7
 
 
+@pytest.mark.filterwarnings("ignore:.* bones have no length")
 @given(motions(names=PLAIN))
 def test_amc(motion: Motion) -> None:
     again = written_and_read(motion, ".amc")

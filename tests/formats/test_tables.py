@@ -370,6 +370,7 @@ def test_who_needs_a_body_is_told_that_there_is_none(tmp_path: Path) -> None:
 
 
 @settings(max_examples=50)
+@pytest.mark.filterwarnings("ignore:.* bones have no length")
 @given(motions())
 def test_npz_round_trip(motion: kineme.Motion) -> None:
     with tempfile.TemporaryDirectory() as folder:

@@ -177,5 +177,9 @@ def components(array: Floats) -> tuple[Floats, ...]:
 
 def join(*parts: Floats) -> Floats:
     """Return the inverse of `components`, contiguous per component."""
-    # Stacked with components first, so that each is contiguous; then seen with components last.
-    return np.moveaxis(np.stack(np.broadcast_arrays(*parts)), 0, -1)
+    # Stored with components first, so that each is contiguous; then seen with components last.
+    # For a few rotations this takes half the time of `np.stack` and `np.moveaxis`.
+    joined = np.empty((len(parts), *np.broadcast(*parts).shape), np.result_type(*parts))
+    for number, part in enumerate(parts):
+        joined[number] = part
+    return joined.transpose(*range(1, joined.ndim), 0)

@@ -36,7 +36,7 @@ def split(
         Path,
         option(
             OUTPUT,
-            "Folder, or .glb of all clips; of several with {name}.",
+            "Folder, or .glb or .fbx of all clips; of several with {name}.",
             "--output",
             "-o",
         ),

@@ -1,14 +1,13 @@
 """Doubt what no body does: points that jump or sit at the origin, and bodies that lie.
 
-`drop_implausible` looks at points before gaps are filled, `doubt_posture` at every motion. What is
-dropped becomes a gap. Each finding is a warning that says what was assumed. Units and up axes are
-doubted in `kineme.formats.units`.
+`drop_implausible` looks at points before gaps are filled, `doubt_lengths` and `doubt_posture` at
+every motion. What is dropped becomes a gap. Each finding is a warning that says what was assumed.
+Units and up axes are doubted in `kineme.formats.units`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -29,6 +28,10 @@ CLUSTER = 3
 """Markers on one bone at least; two are often estimates of joints, as a Kinect's hips."""
 SAMPLED = 500
 """Frames from which the size of the body is taken."""
+SHORTEST = 1e-6
+"""Metres, below which a bone has no length."""
+FEWEST_EMPTY = 3
+"""Bones of no length below which none is doubted."""
 BEND = 0.25
 """Share by which the distance of two points on one bone may change."""
 
@@ -87,13 +90,30 @@ def doubt_rigid(points: Floats, names: Sequence[str], made_of: Sequence[int]) ->
     return [Note(f"points on one bone change their distance: {join_names(moved)}", "warning")]
 
 
+def doubt_lengths(motion: Motion) -> Motion:
+    """Warn if most bones of a skeleton have no length: its rest pose was left out."""
+    parents = motion.skeleton.parents
+    # Some bones of no length are usual: the file lists more joints than its body has.
+    bones = [j for j, parent in enumerate(parents) if parent >= 0]
+    bones = [j for j in bones if j not in motion.skeleton.end_sites]
+    if motion.rotations is None or not bones:
+        return motion
+    places = motion.positions[:: max(1, motion.n_frames // SAMPLED)]
+    lengths = np.linalg.norm(places[:, bones] - places[:, [parents[j] for j in bones]], axis=2)
+    empty = int((lengths.max(axis=0) < SHORTEST).sum())
+    if empty < FEWEST_EMPTY or 2 * empty <= len(bones):
+        return motion
+    remark = f"{empty} of {len(bones)} bones have no length: export the file with its rest pose"
+    return motion.noted(Note(remark, "warning"))
+
+
 def doubt_posture(motion: Motion) -> Motion:
     """Warn if the body of a motion with y up lies throughout: its up axis may be another."""
     axis = lying_axis(motion.skeleton, motion.positions)
     if axis is None:
         return motion
     remark = f"the body lies along {axis} most of the time; give up= (--up) if it stands there"
-    return replace(motion, provenance=motion.provenance.noted(Note(remark, "warning")))
+    return motion.noted(Note(remark, "warning"))
 
 
 def _find_jumps(

@@ -13,7 +13,7 @@ from kineme._util.files import AnyPath, translate_read_errors
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
 from kineme.formats.files import FileContent, load, load_head
 from kineme.formats.options import ReadOptions
-from kineme.formats.plausibility import doubt_posture
+from kineme.formats.plausibility import doubt_lengths, doubt_posture
 from kineme.formats.registry import Sketch, is_video, recognise, supported_formats
 from kineme.recordings import Motion, Signals
 
@@ -317,8 +317,9 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
     if not isinstance(recording, Motion | Signals):
         kind = type(recording).__name__
         raise content.error(f"the reader of {candidate.name} gave no Motion or Signals, but {kind}")
-    if isinstance(recording, Motion) and options.up is None:
-        return doubt_posture(recording)
+    if isinstance(recording, Motion):
+        recording = doubt_lengths(recording)
+        return doubt_posture(recording) if options.up is None else recording
     return recording
 
 

@@ -162,7 +162,7 @@ def find_joints(
     points = range(len(names)) if usable is None else sorted(usable)
     # The first of several points with one name counts: it is nearer to the root.
     equal = {simplify_name(names[point]): point for point in reversed(points)}
-    levels = [equal] if exact else _index_rig(names, points)
+    levels = [equal] if exact else _index_rig(tuple(names), tuple(points))
     found: dict[str, tuple[int, ...]] = {}
     for parts in wanted:
         lines = [line for part in parts for line in NAMES[part] if not (single and " " in line)]
@@ -191,6 +191,7 @@ def find_rig_joints(names: Sequence[str]) -> tuple[str, dict[str, int]]:
     return "", {}
 
 
+@lru_cache(maxsize=4096)
 def mentions(name: str, *parts: str, side: str = "") -> bool:
     """Return whether a part is named anywhere in a name, of any side unless one is given.
 
@@ -255,7 +256,8 @@ def _split_rig_name(name: str, *, numbers: bool = False) -> tuple[str, list[str]
     return side, [word for word in words if numbers or not word.isdigit()]
 
 
-def _index_rig(names: Sequence[str], points: Iterable[int]) -> list[dict[str, int]]:
+@lru_cache(maxsize=16)
+def _index_rig(names: tuple[str, ...], points: tuple[int, ...]) -> list[dict[str, int]]:
     """Return the points of a rig by their names: equal ones, then also those with words before."""
     ranked = []
     for point in points:

@@ -97,6 +97,7 @@ def add_root(motion: Motion) -> Motion:
         # At rest its axes are those of the world.
         axes=np.concatenate([rot.conjugate(turn)[None], rig.axes]),
         numbers=(*rig.numbers[:at], -1, *rig.numbers[at:]) if rig.numbers else (),
+        binds=None,
     )
     rooted = Skeleton(
         (name, *skeleton.names),

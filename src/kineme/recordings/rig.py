@@ -50,6 +50,9 @@ class Rig:
         The rotation from the file's axes to those with y up.
     numbers : tuple of int
         What the file itself counts each node by; -1 for one that is not in it.
+    binds : array_like, shape (joints, 4, 4), optional
+        Where a skin has each joint, from the node above all joints, if that is not as at rest.
+        Blender takes it for the rest pose of a glTF.
 
     Raises
     ------
@@ -66,11 +69,14 @@ class Rig:
     unit: float = 1.0
     turn: Floats = field(default_factory=rot.IDENTITY.copy)
     numbers: tuple[int, ...] = ()
+    binds: Floats | None = None
 
     def __post_init__(self) -> None:
         for name in ("translations", "rotations", "scales", "axes", "turn"):
             values = freeze(getattr(self, name), name, row="node", error=MotionError)
             assign(self, **{name: values})
+        if self.binds is not None:
+            assign(self, binds=freeze(self.binds, "binds", row="joint", error=MotionError))
         n = len(self.names)
         shapes = [(n, 3), (n, 4), (n, 3)]
         if [part.shape for part in (self.translations, self.rotations, self.scales)] != shapes:
@@ -124,7 +130,10 @@ class Rig:
 
     def scale(self, factor: float) -> Rig:
         """Return the rig of a body ``factor`` times as large."""
-        return replace(self, translations=factor * self.translations)
+        binds = None if self.binds is None else np.array(self.binds)
+        if binds is not None:
+            binds[:, :3, 3] *= factor
+        return replace(self, translations=factor * self.translations, binds=binds)
 
     def join_root(self) -> Rig:
         """Return the rig without the nodes above its root, whose transforms are made part of it."""
@@ -146,6 +155,7 @@ class Rig:
             scales=self.scales[above:],
             unit=self.unit * size,
             numbers=self.numbers[above:],
+            binds=None,
         )
 
     def to_metres(self) -> Rig:
@@ -159,7 +169,8 @@ class Rig:
         tops = [node for node, parent in enumerate(self.parents) if parent < 0]
         moved[tops] = rot.rotate(self.turn, moved[tops])
         turned[tops] = rot.multiply(self.turn, turned[tops])
-        return replace(self, translations=moved, rotations=turned, unit=1.0, turn=rot.IDENTITY)
+        changed = replace(self, translations=moved, rotations=turned, binds=None)
+        return replace(changed, unit=1.0, turn=rot.IDENTITY)
 
 
 def make_rig(

@@ -18,7 +18,8 @@ Source: Autodesk, FBX SDK, sample "Transformations".
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -87,12 +88,14 @@ def assemble(
     turn: Floats,
     provenance: Provenance,
     numbers: Sequence[int] = (),
+    binds: Mapping[int, Floats] | None = None,
 ) -> Motion:
     """Return the motion of a character, whose joints are nodes, parents first.
 
     ``transform`` has the transform of a node by its number, ``rest`` that of its rest pose;
     ``unit`` is that of the scene's lengths, ``turn`` the rotation of its axes to those with y up,
-    ``numbers`` what the file counts the nodes by. The content is let go once all transforms are
+    ``numbers`` what the file counts the nodes by, ``binds`` the matrices of nodes that a skin has
+    elsewhere than they are at rest. The content is let go once all transforms are
     known.
     """
     # Numbers of nodes become numbers of joints; a parent that is no joint is -1.
@@ -109,6 +112,8 @@ def assemble(
     if rig is None:
         remark = "its bones are mirrored or scaled unevenly at rest: clips get another rest pose"
         provenance = provenance.noted(Note(remark, "warning"))
+    elif binds:
+        rig = replace(rig, binds=_bind(rig, [*above, *joints], binds))
     content.let_go()
     rotations, offsets, slides = found
     # Leaves that never turn and do not slide become end sites, which have no rotation.
@@ -143,7 +148,36 @@ def _rig(
     """Return the rig of these nodes, parents first; None where a scale is not one number."""
     places = {node: place for place, node in enumerate(chosen)}
     parents = tuple(places.get(nodes[node].parent, -1) for node in chosen)
-    found = [rest(node) for node in chosen]
+    parts = stack_transforms([rest(node) for node in chosen], parents)
+    if parts is None:
+        return None
+    return Rig(
+        tuple(nodes[node].name for node in chosen),
+        parents,
+        *parts,
+        np.tile(rot.IDENTITY, (n_joints, 1)),
+        unit,
+        turn,
+        tuple(numbers[node] for node in chosen) if numbers else (-1,) * len(chosen),
+    )
+
+
+def _bind(rig: Rig, chosen: Sequence[int], binds: Mapping[int, Floats]) -> Floats | None:
+    """Return where a skin has the joints (joints, 4, 4), None where that is as at rest."""
+    rest = compose(rig.translations, rig.rotations, rig.scales)
+    local, bound = np.array(rest), np.tile(np.eye(4), (len(rest), 1, 1))
+    for node in range(rig.above, len(rest)):
+        parent = rig.parents[node]
+        if parent >= 0 and {chosen[node], chosen[parent]} <= binds.keys():
+            local[node] = np.linalg.solve(binds[chosen[parent]], binds[chosen[node]])
+        bound[node] = bound[parent] @ local[node] if parent >= 0 else local[node]
+    return None if np.allclose(local, rest, rtol=1e-3, atol=1e-4) else bound[rig.above :]
+
+
+def stack_transforms(
+    found: Sequence[Transform], parents: Sequence[int]
+) -> tuple[Floats, Floats, Floats] | None:
+    """Return translations, rotations and scales of a rig's nodes; None where one is uneven."""
     if any(_factor(each.scale, UNIFORM) is None for each in found):
         return None
     scales = np.array([each.scale for each in found])
@@ -151,17 +185,8 @@ def _rig(
         if each.inheritance == "Rrs" and parent >= 0:
             # A rig's nodes inherit their parent's scale, so it is divided out.
             scales[here] /= _factor(found[parent].scale, UNIFORM) or 1.0
-    return Rig(
-        tuple(nodes[node].name for node in chosen),
-        parents,
-        np.array([each.translation for each in found]),
-        np.array([each.rotation for each in found]),
-        scales,
-        np.tile(rot.IDENTITY, (n_joints, 1)),
-        unit,
-        turn,
-        tuple(numbers[node] for node in chosen) if numbers else (-1,) * len(chosen),
-    )
+    moved = np.array([each.translation for each in found])
+    return moved, np.array([each.rotation for each in found]), scales
 
 
 def _apply_scale(

@@ -89,8 +89,16 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
     shown = [f"{name} ({len(joints)} joints)" for name, joints in people.items()]
     name = chosen_person(content.path, people, name, "characters", shown)
     notes = [f"person {name} of {len(people)}"] if len(people) > 1 else []
-    if props := _props(nodes, list(people.values())):
-        notes.append(f"left out as props: {join_names(props)}")
+    props = _props(nodes, list(people.values()))
+    if props:
+        notes.append(f"left out as props: {join_names([nodes[j].name for j in props])}")
+    large = [nodes[j].name for j, moved in props.items() if moved >= max(SMALLEST * largest, 2)]
+    if large:
+        remark = (
+            f"perhaps another character, left out since its nodes are no bones: {join_names(large)}"
+            "; bind a skin to them, or export it alone"
+        )
+        notes.append(Note(remark, "warning"))
     return Character(people[name], notes, name, [*people])
 
 
@@ -210,19 +218,23 @@ def _names(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
     return unique(names)
 
 
-def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
-    """Return the topmost nodes that are animated or bones, but neither in a body nor above one."""
+def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> dict[int, int]:
+    """Return the topmost nodes that are animated or bones, but neither in a body nor above one.
+
+    With each goes how many animated nodes without geometry and bone there are from it down.
+    """
     body = {joint for joints in bodies for joint in joints}
     body.update(above for joints in bodies for above in carriers(nodes, joints[0]))
-    # Only the topmost node of a prop is named.
-    names: list[str] = []
-    props: set[int] = set()
+    moved: dict[int, int] = {}
+    tops: dict[int, int] = {}
     for number, node in enumerate(nodes):
         if number in body:
             continue
-        if node.parent in props:
-            props.add(number)
+        if node.parent in tops:
+            tops[number] = tops[node.parent]
         elif node.bone or node.animated:
-            props.add(number)
-            names.append(node.name)
-    return names
+            tops[number] = number
+        if number in tops:
+            alive = node.animated and not (node.geometry or node.bone)
+            moved[tops[number]] = moved.get(tops[number], 0) + alive
+    return moved

@@ -6,7 +6,8 @@ and does not play it faster. Unit and axes are those of the file (``UnitScaleFac
 Meshes, cameras, lights and constraints are passed over: a rig that is moved by these is baked to
 keys when it is exported.
 
-What is written is described in `kineme.formats.scenes.fbx_writer`.
+What is written is described in `kineme.formats.scenes.fbx_writer`, a copy with other takes in
+`kineme.formats.scenes.fbx_copy`.
 
 See `kineme.formats.scenes.characters` for what counts as a character,
 `kineme.formats.scenes.fbx_scene` for how its joints are placed.
@@ -24,6 +25,7 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames
 from kineme.formats.scenes.characters import character_of, choose_take, lively_takes
+from kineme.formats.scenes.fbx_copy import copy_takes
 from kineme.formats.scenes.fbx_curves import CUSTOM, RATES, SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx
 from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
@@ -171,4 +173,5 @@ FORMAT = Format(
     read_fbx,
     write_fbx,
     write_animations=write_takes,
+    copy_animations=copy_takes,
 )

@@ -33,10 +33,12 @@ MAGIC = b"Kaydara FBX Binary  \x00"
 OLDEST = 7000
 """Version, in thousandths."""
 
+START = 27
+"""Where the first node of a binary file is."""
+
 WIDE = 7500
 """From which version on nodes have 64 bits."""
 
-_START = 27  # where the first node is
 _SCALARS = {
     ord(letter): struct.Struct(f"<{code}")
     for letter, code in zip("YCBIFDL", "hbbifdq", strict=True)
@@ -50,12 +52,12 @@ _ARRAYS = {
 def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
     """Return version of an FBX file, in thousandths, and its nodes, below one without a name."""
     if content.data.startswith(MAGIC):
-        if len(content.data) < _START:
+        if len(content.data) < START:
             raise content.error("the file ends in its header: it is truncated")
         # The version is in the four bytes before the first node.
-        version = int.from_bytes(content.data[_START - 4 : _START], "little")
+        version = int.from_bytes(content.data[START - 4 : START], "little")
         _refuse_old(content, version)
-        return version, _binary(content, wide=version >= WIDE)
+        return version, _binary(content, head_of(version))
     root = parse_text(content)
     header = root.child("FBXHeaderExtension")
     found = header.child("FBXVersion") if header else None
@@ -74,13 +76,17 @@ def _refuse_old(content: FileContent, version: int) -> None:
         )
 
 
-def _binary(content: FileContent, *, wide: bool) -> FBXNode:
+def head_of(version: int) -> struct.Struct:
+    """Return the layout of what stands before a node's name in a binary file."""
+    return struct.Struct("<QQQB" if version >= WIDE else "<IIIB")
+
+
+def _binary(content: FileContent, head: struct.Struct) -> FBXNode:
     data = content.data
-    head = struct.Struct("<QQQB" if wide else "<IIIB")
     root = FBXNode("")
     # A stack instead of recursion: files may be nested deeply.
     open_nodes: list[tuple[FBXNode, int]] = [(root, len(data))]
-    at, nodes = _START, 0
+    at, nodes = START, 0
     while open_nodes:
         node, stop = open_nodes[-1]
         if at == stop and node is not root:
@@ -89,7 +95,7 @@ def _binary(content: FileContent, *, wide: bool) -> FBXNode:
         if at + head.size > stop:
             raise content.error("breaks off between two nodes: the file is truncated or damaged")
         end, count, size, length = head.unpack_from(data, at)
-        at += head.size
+        first, at = at, at + head.size
         # An empty node ends the list of its parent's nodes.
         if end == 0:
             if node is not root and at != stop:
@@ -102,7 +108,7 @@ def _binary(content: FileContent, *, wide: bool) -> FBXNode:
         nodes += 1
         claim_nodes(content, nodes)
         name = data[at:start].decode("utf-8", "replace")
-        child = FBXNode(name, _values(content, start, start + size, count))
+        child = FBXNode(name, _values(content, start, start + size, count), [], first, end)
         node.children.append(child)
         at = start + size
         # What is left of the node are its own nodes.

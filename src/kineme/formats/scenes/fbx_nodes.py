@@ -26,11 +26,16 @@ class Stored(Protocol):
 
 @dataclass(slots=True)
 class FBXNode:
-    """A node: its values are numbers, texts, bytes or arrays in the file."""
+    """A node: its values are numbers, texts, bytes or arrays in the file.
+
+    ``start`` and ``stop`` are where it is in a binary file, 0 elsewhere.
+    """
 
     name: str
     values: list[Any] = field(default_factory=list)
     children: list[FBXNode] = field(default_factory=list)
+    start: int = 0
+    stop: int = 0
 
     def child(self, name: str) -> FBXNode | None:
         """Return the first one of this name."""

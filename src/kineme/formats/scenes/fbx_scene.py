@@ -46,7 +46,7 @@ TRANSLATION, ROTATION, SCALING = "Lcl Translation", "Lcl Rotation", "Lcl Scaling
 
 # The axes from left to right in the product of rotations, of which the last is applied first.
 _ORDERS = ("zyx", "yzx", "xzy", "zxy", "yxz", "xyz", "zyx")
-_INHERITANCE: tuple[Inheritance, ...] = ("RrSs", "RSrs", "Rrs")
+INHERITANCE: tuple[Inheritance, ...] = ("RrSs", "RSrs", "Rrs")
 _OVERRIDE, _PASS_THROUGH = 1, 2
 _LARGEST = 1e100
 
@@ -66,7 +66,7 @@ class Take:
     stop: float
 
 
-_STILL = Take("", [], 0.0, 0.0)
+STILL = Take("", [], 0.0, 0.0)
 """One that moves nothing."""
 
 
@@ -290,7 +290,7 @@ class Pose:
     def transform(self, number: int, *, animated: bool = True) -> Transform:
         """Of the model of this number among the nodes of the scene."""
         if not animated and self.tracks:
-            return Pose(self.scene, _STILL, self.sampler).transform(number)
+            return Pose(self.scene, STILL, self.sampler).transform(number)
         model = self.scene.models[number]
         properties = model.properties
         order = _ORDERS[_choice(properties, "RotationOrder", len(_ORDERS))]
@@ -302,7 +302,7 @@ class Pose:
             turn = rot.multiply(turn, rot.conjugate(_euler(after, "zyx")))
         scale, shift = self._values(model, SCALING, 1.0), self._values(model, TRANSLATION, 0.0)
         shift = _add_pivots(properties, shift, turn, scale)
-        inheritance = _INHERITANCE[_choice(properties, "InheritType", len(_INHERITANCE))]
+        inheritance = INHERITANCE[_choice(properties, "InheritType", len(INHERITANCE))]
         return Transform(shift, turn, scale, inheritance)
 
     def _rotation(self, model: Model, order: str) -> Floats:
@@ -382,6 +382,21 @@ class Pose:
             )
             axes.append(np.asarray(value, np.float64))
         return np.stack(np.broadcast_arrays(*axes)).T  # contiguous per axis
+
+
+def invert_transform(
+    model: Model, shifts: Floats, turns: Floats, scale: Floats
+) -> tuple[Floats, Floats]:
+    """Return the translations and angles of a model that is so moved in its parent's frame.
+
+    All are (frames, 3), but ``turns`` (frames, 4); the scale (3,) is the model's own.
+    """
+    properties = model.properties
+    order = _ORDERS[_choice(properties, "RotationOrder", len(_ORDERS))]
+    before, after = (_euler(_vector(properties, f"{at}Rotation"), "zyx") for at in ("Pre", "Post"))
+    inner = rot.multiply(rot.multiply(rot.conjugate(before), turns), after)
+    # What pivots add does not depend on the translation, so it is what they add to none.
+    return shifts - _add_pivots(properties, np.zeros(3), turns, scale), _angles(inner, order)
 
 
 def _replaces(properties: Properties) -> bool:

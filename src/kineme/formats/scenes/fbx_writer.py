@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import count
 from pathlib import Path
@@ -26,24 +26,25 @@ from kineme._util.arrays import Floats
 from kineme._util.files import atomic_write
 from kineme._version import __version__
 from kineme.formats.files import spell_names
-from kineme.formats.scenes.assembly import compose
+from kineme.formats.scenes.assembly import Transform, compose
 from kineme.formats.scenes.fbx_curves import CUSTOM, LINEAR, RATES, TICKS
-from kineme.formats.scenes.fbx_file import MAGIC
+from kineme.formats.scenes.fbx_file import MAGIC, head_of
 from kineme.formats.scenes.fbx_nodes import FBXNode
-from kineme.formats.scenes.fbx_scene import ROTATION, SCALING, TRANSLATION
+from kineme.formats.scenes.fbx_scene import INHERITANCE, ROTATION, SCALING, TRANSLATION
 from kineme.formats.scenes.gltf_writer import check_animations
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.recordings import Motion
 from kineme.recordings.posing import get_rig, pose_rig
+from kineme.recordings.rig import Rig
 
 VERSION = 7400
 CENTIMETRE = 0.01
 
+_START = MAGIC + b"\x1a\x00" + struct.pack("<I", VERSION)
 _CREATED = "1970-01-01 10:00:00:000"
 _FILE_ID = bytes.fromhex("28b32aebb624ccc2bfc8b02aa92bfcf1")
-_FOOTER_ID = bytes.fromhex("fabcab09d0c8d466b176fb831cf7267e")
+FOOTER = bytes.fromhex("fabcab09d0c8d466b176fb831cf7267e")
 _LAST = bytes.fromhex("f85a8c6adef5d97eece90ce3758f290b")
-_HEAD = struct.Struct("<IIIB")
 _CODES = {"<f4": b"f", "<f8": b"d", "<i8": b"l", "<i4": b"i"}
 _KEY_VERSION = 4008
 
@@ -59,26 +60,21 @@ def write_takes(motions: Mapping[str, Motion], path: Path) -> None:
     for name, motion in motions.items():
         scene.animate(name, motion)
     with atomic_write(path) as draft:
-        draft.write_bytes(_binary(scene.file()))
+        draft.write_bytes(encode_fbx(scene.file(), _START, FOOTER))
 
 
-class _Scene:
-    """Gathers objects and their connections."""
+class TakeWriter:
+    """Gathers the objects of takes and their connections.
 
-    def __init__(self, motion: Motion, path: Path) -> None:
-        skeleton = motion.skeleton
-        rig = get_rig(skeleton).to_metres()
-        self.rig = replace(rig, translations=rig.translations / CENTIMETRE, unit=CENTIMETRE)
-        self.fps, self.longest = motion.fps, 0
+    ``models`` are the numbers of the rig's nodes, ``stops`` the ticks at which each take ends.
+    """
+
+    def __init__(self, rig: Rig, fps: float, numbers: Iterator[int]) -> None:
+        self.rig, self.fps, self._numbers = rig, fps, numbers
         self.objects: list[FBXNode] = []
         self.links: list[FBXNode] = []
-        self._numbers = count(1_000_000)
-        above = self.rig.above
-        names = spell_names(path, [*rig.names[:above], *skeleton.names], str.strip)
         self.models: list[int] = []
-        for node, name in enumerate(names):
-            self.models.append(self._add_model(node, name))
-        self._add_bind_pose()
+        self.stops: dict[str, int] = {}
 
     def _add(self, kind: str, name: str, label: str, sub: str, *children: FBXNode) -> int:
         """Keep an object; its number."""
@@ -91,58 +87,55 @@ class _Scene:
         kind, end = ("OO", []) if what is None else ("OP", [what])
         self.links.append(FBXNode("C", [kind, np.int64(part), np.int64(parent), *end]))
 
-    def _add_model(self, node: int, name: str) -> int:
+    def _add_model(self, node: int, name: str, rest: Transform) -> int:
         rig = self.rig
         kind = "Null" if node < rig.above else "LimbNode"
         flags = "Null" if node < rig.above else "Skeleton"
         attribute = self._add(
-            "NodeAttribute", name, "NodeAttribute", kind, _one("TypeFlags", flags)
+            "NodeAttribute", name, "NodeAttribute", kind, single("TypeFlags", flags)
         )
         model = self._add(
             "Model",
             name,
             "Model",
             kind,
-            _one("Version", 232),
+            single("Version", 232),
             _properties(
                 ("RotationActive", "bool", "", 1),
-                # A child inherits the rotation and scale of its parent as a product of matrices.
-                ("InheritType", "enum", "", 1),
-                ("PreRotation", "Vector3D", "Vector", *_angles(rig.rotations[node])),
-                (TRANSLATION, TRANSLATION, "", *rig.translations[node].tolist()),
+                ("InheritType", "enum", "", INHERITANCE.index(rest.inheritance)),
+                ("PreRotation", "Vector3D", "Vector", *_angles(rest.rotation)),
+                (TRANSLATION, TRANSLATION, "", *rest.translation.tolist()),
                 (ROTATION, ROTATION, "", 0.0, 0.0, 0.0),
-                (SCALING, SCALING, "", *rig.scales[node].tolist()),
+                (SCALING, SCALING, "", *rest.scale.tolist()),
             ),
-            _one("Shading", True),
-            _one("Culling", "CullingOff"),
+            single("Shading", True),
+            single("Culling", "CullingOff"),
         )
         self._link(attribute, model)
         parent = rig.parents[node]
         self._link(model, self.models[parent] if parent >= 0 else 0)
         return model
 
-    def _add_bind_pose(self) -> None:
-        world = compose(*self.rig.world)
-        entries = [
+    def _bind_pose(self) -> list[FBXNode]:
+        """Return the place of each model at rest."""
+        return [
             FBXNode(
                 "PoseNode",
                 children=[
-                    _one("Node", np.int64(model)),
+                    single("Node", np.int64(model)),
                     # Columns are stored one after another.
-                    _one("Matrix", np.ascontiguousarray(matrix.T).ravel()),
+                    single("Matrix", np.ascontiguousarray(matrix.T).ravel()),
                 ],
             )
-            for model, matrix in zip(self.models, world, strict=True)
+            for model, matrix in zip(self.models, compose(*self.rig.world), strict=True)
         ]
-        head = [_one("Type", "BindPose"), _one("Version", 100), _one("NbPoseNodes", len(entries))]
-        self._add("Pose", "rest", "Pose", "BindPose", *head, *entries)
 
     def animate(self, name: str, motion: Motion) -> None:
         """Add a motion of the same skeleton as a take."""
         rig, skeleton = self.rig, motion.skeleton
         times = np.round(np.arange(motion.n_frames) * (TICKS / motion.fps)).astype("<i8")
         stop = np.int64(times[-1])
-        self.longest = max(self.longest, int(stop))
+        self.stops[name] = int(stop)
         span = [
             (f"{kind}{end}", "KTime", "Time", np.int64(0) if end == "Start" else stop)
             for kind in ("Local", "Reference")
@@ -152,21 +145,28 @@ class _Scene:
         layer = self._add("AnimationLayer", name, "AnimLayer", "")
         self._link(layer, stack)
         shifts, turns = pose_rig(motion, rig)
-        back = rot.conjugate(rig.rotations[rig.above :])
-        angles = np.degrees(rot.to_euler_zyx(rot.multiply(back, turns)))[..., ::-1]
-        # Successive keys stay near each other, so that nothing spins between frames.
-        angles = np.unwrap(angles, period=360.0, axis=0)
         for joint in range(skeleton.n_joints):
-            rest = rig.translations[rig.above + joint]
-            size = rig.parent_world(rig.above + joint, *rig.world)[2] * CENTIMETRE
-            away = size * np.abs(shifts[:, joint] - rest).max()
+            node = rig.above + joint
+            moved, angles, rest = self.find_values(node, shifts[:, joint], turns[:, joint])
+            size = rig.parent_world(node, *rig.world)[2] * rig.unit
+            away = size * np.abs(moved - rest).max()
             if away > RIGID or skeleton.parents[joint] < 0:
-                self._add_curves(layer, joint, TRANSLATION, "T", times, shifts[:, joint])
+                self._add_curves(layer, node, TRANSLATION, "T", times, moved)
             if joint not in skeleton.end_sites:
-                self._add_curves(layer, joint, ROTATION, "R", times, angles[:, joint])
+                # Successive keys stay near each other, so that nothing spins between frames.
+                angles = np.unwrap(angles, period=360.0, axis=0)
+                self._add_curves(layer, node, ROTATION, "R", times, angles)
+
+    def find_values(
+        self, node: int, shifts: Floats, turns: Floats
+    ) -> tuple[Floats, Floats, Floats]:
+        """Return translations and angles that move a node so, and its translation at rest."""
+        turned = rot.multiply(rot.conjugate(self.rig.rotations[node]), turns)
+        angles = np.degrees(rot.to_euler_zyx(turned))[:, ::-1]
+        return shifts, angles, self.rig.translations[node]
 
     def _add_curves(
-        self, layer: int, joint: int, what: str, short: str, times: Any, values: Floats
+        self, layer: int, model: int, what: str, short: str, times: Any, values: Floats
     ) -> None:
         start = [
             (f"d|{axis}", "Number", "", x)
@@ -174,7 +174,7 @@ class _Scene:
         ]
         node = self._add("AnimationCurveNode", short, "AnimCurveNode", "", _properties(*start))
         self._link(node, layer)
-        self._link(node, self.models[self.rig.above + joint], what)
+        self._link(node, self.models[model], what)
         for axis, column in zip("XYZ", values.T.astype("<f4"), strict=True):
             # A curve that never changes needs one key.
             n = 1 if np.ptp(column) == 0 else len(column)
@@ -183,22 +183,49 @@ class _Scene:
                 "",
                 "AnimCurve",
                 "",
-                _one("Default", float(column[0])),
-                _one("KeyVer", _KEY_VERSION),
-                _one("KeyTime", times[:n]),
-                _one("KeyValueFloat", column[:n]),
-                _one("KeyAttrFlags", np.array([LINEAR], "<i4")),
-                _one("KeyAttrDataFloat", np.zeros(4, "<f4")),
-                _one("KeyAttrRefCount", np.array([n], "<i4")),
+                single("Default", float(column[0])),
+                single("KeyVer", _KEY_VERSION),
+                single("KeyTime", times[:n]),
+                single("KeyValueFloat", column[:n]),
+                single("KeyAttrFlags", np.array([LINEAR], "<i4")),
+                single("KeyAttrDataFloat", np.zeros(4, "<f4")),
+                single("KeyAttrRefCount", np.array([n], "<i4")),
             )
             self._link(curve, node, f"d|{axis}")
 
+    def time_settings(self) -> list[tuple[str, str, str, Any]]:
+        """Return name, type, label and value of the settings that tell rate and span of takes."""
+        mode = next((mode for mode, fps in RATES.items() if abs(fps - self.fps) < 1e-9), CUSTOM)
+        return [
+            ("TimeMode", "enum", "", mode),
+            ("CustomFrameRate", "double", "Number", self.fps),
+            ("TimeSpanStart", "KTime", "Time", np.int64(0)),
+            ("TimeSpanStop", "KTime", "Time", np.int64(max(self.stops.values()))),
+        ]
+
+
+class _Scene(TakeWriter):
+    """Gathers takes of a skeleton, and its models."""
+
+    def __init__(self, motion: Motion, path: Path) -> None:
+        rig = get_rig(motion.skeleton).to_metres()
+        rig = replace(rig, translations=rig.translations / CENTIMETRE, unit=CENTIMETRE)
+        super().__init__(rig, motion.fps, count(1_000_000))
+        above = [*rig.names[: rig.above]]
+        names = spell_names(path, [*above, *motion.skeleton.names], str.strip)
+        for node, name in enumerate(names):
+            rest = Transform(rig.translations[node], rig.rotations[node], rig.scales[node])
+            self.models.append(self._add_model(node, name, rest))
+        entries = self._bind_pose()
+        head = [single("Type", "BindPose"), single("Version", 100)]
+        head.append(single("NbPoseNodes", len(entries)))
+        self._add("Pose", "rest", "Pose", "BindPose", *head, *entries)
+
     def file(self) -> list[FBXNode]:
         """Return the nodes of the file."""
-        mode = next((mode for mode, fps in RATES.items() if abs(fps - self.fps) < 1e-9), CUSTOM)
         kinds = [node.name for node in self.objects]
         counted = [
-            FBXNode("ObjectType", [kind], [_one("Count", kinds.count(kind))])
+            FBXNode("ObjectType", [kind], [single("Count", kinds.count(kind))])
             for kind in dict.fromkeys(kinds)
         ]
         creator = f"kineme {__version__}"
@@ -206,43 +233,40 @@ class _Scene:
             FBXNode(
                 "FBXHeaderExtension",
                 children=[
-                    _one("FBXHeaderVersion", 1003),
-                    _one("FBXVersion", VERSION),
-                    _one("Creator", creator),
+                    single("FBXHeaderVersion", 1003),
+                    single("FBXVersion", VERSION),
+                    single("Creator", creator),
                 ],
             ),
-            _one("FileId", _FILE_ID),
-            _one("CreationTime", _CREATED),
-            _one("Creator", creator),
+            single("FileId", _FILE_ID),
+            single("CreationTime", _CREATED),
+            single("Creator", creator),
             FBXNode(
                 "GlobalSettings",
                 children=[
-                    _one("Version", 1000),
+                    single("Version", 1000),
                     _properties(
                         *((f"{name}Axis", "int", "Integer", axis) for name, axis in _AXES),
                         *((f"{name}AxisSign", "int", "Integer", 1) for name, _ in _AXES),
                         ("UnitScaleFactor", "double", "Number", 1.0),
                         ("OriginalUnitScaleFactor", "double", "Number", 1.0),
-                        ("TimeMode", "enum", "", mode),
-                        ("CustomFrameRate", "double", "Number", self.fps),
-                        ("TimeSpanStart", "KTime", "Time", np.int64(0)),
-                        ("TimeSpanStop", "KTime", "Time", np.int64(self.longest)),
+                        *self.time_settings(),
                     ),
                 ],
             ),
             FBXNode(
                 "Documents",
                 children=[
-                    _one("Count", 1),
+                    single("Count", 1),
                     FBXNode(
-                        "Document", [np.int64(1), "", "Scene"], [_one("RootNode", np.int64(0))]
+                        "Document", [np.int64(1), "", "Scene"], [single("RootNode", np.int64(0))]
                     ),
                 ],
             ),
             FBXNode("References"),
             FBXNode(
                 "Definitions",
-                children=[_one("Version", 100), _one("Count", len(kinds)), *counted],
+                children=[single("Version", 100), single("Count", len(kinds)), *counted],
             ),
             FBXNode("Objects", children=self.objects),
             FBXNode("Connections", children=self.links),
@@ -252,7 +276,8 @@ class _Scene:
 _AXES = (("Coord", 0), ("Up", 1), ("Front", 2))
 
 
-def _one(name: str, value: Any) -> FBXNode:
+def single(name: str, value: Any) -> FBXNode:
+    """Return a node with one value."""
     return FBXNode(name, [value])
 
 
@@ -274,26 +299,41 @@ def _angles(rotation: Floats) -> list[float]:
     return angles
 
 
-def _binary(nodes: list[FBXNode]) -> bytes:
-    data = bytearray(MAGIC + b"\x1a\x00" + struct.pack("<I", VERSION))
+def encode_fbx(nodes: Iterable[FBXNode], start: bytes, footer: bytes, source: bytes = b"") -> bytes:
+    """Return a file of these nodes; those that were read from ``source`` are copied from there.
+
+    The last four bytes of ``start`` are the version; ``footer`` depends on the time of creation.
+    """
+    data, version = bytearray(start), start[-4:]
+    head = head_of(int.from_bytes(version, "little"))
     for node in nodes:
-        _write_node(data, node)
-    data += bytes(_HEAD.size) + _FOOTER_ID + bytes(4)
+        _write_node(data, node, head, source)
+    data += bytes(head.size) + footer + bytes(4)
     data += bytes(16 - len(data) % 16)
-    return bytes(data + struct.pack("<I", VERSION) + bytes(120) + _LAST)
+    return bytes(data + version + bytes(120) + _LAST)
 
 
-def _write_node(data: bytearray, node: FBXNode) -> None:
+def _write_node(data: bytearray, node: FBXNode, head: struct.Struct, source: bytes) -> None:
     """Add a node to the file; its head says where it ends, so that is filled in last."""
     at, name = len(data), node.name.encode()
+    if node.stop:
+        shift = at - node.start
+        data += source[node.start : node.stop]
+        # The next head lies behind the values of this one, be it of a node inside or after it.
+        while at < len(data):
+            end, n_values, size, length = head.unpack_from(data, at)
+            if end:
+                head.pack_into(data, at, end + shift, n_values, size, length)
+            at += head.size + length + size
+        return
     values = b"".join(_write_values(node.values))
-    data += bytes(_HEAD.size) + name + values
+    data += bytes(head.size) + name + values
     for child in node.children:
-        _write_node(data, child)
-    # An empty node ends those inside; a node without values has it, too.
-    if node.children or not node.values:
-        data += bytes(_HEAD.size)
-    _HEAD.pack_into(data, at, len(data), len(node.values), len(values), len(name))
+        _write_node(data, child, head, source)
+    # An empty node ends those inside; a node without values has it, too, and so has a layer.
+    if node.children or not node.values or node.name == "AnimationLayer":
+        data += bytes(head.size)
+    head.pack_into(data, at, len(data), len(node.values), len(values), len(name))
 
 
 def _write_values(values: list[Any]) -> Iterator[bytes]:

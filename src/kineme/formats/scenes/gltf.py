@@ -13,6 +13,8 @@ Source: Khronos Group, "glTF 2.0 specification", section 3.11 and appendix C.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +22,7 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import unique
+from kineme.errors import ReadError
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -124,7 +127,27 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
         numbers=order,
+        binds=_binds(file, order, parents),
     )
+
+
+def _binds(file: GLTFFile, order: Sequence[int], parents: Sequence[int]) -> dict[int, Floats]:
+    """Return where skins have nodes, by their places in the tree, as Blender understands it."""
+    places = {number: place for place, number in enumerate(order)}
+    found: dict[int, Floats] = {}
+    for skin in file.tree.skins:
+        # Skins are counted from their skeleton's node, or from its parent if it is a joint.
+        top = places.get(-1 if skin.skeleton is None else skin.skeleton, -1)
+        found.setdefault(parents[top] if skin.skeleton in skin.joints else top, np.eye(4))
+        if skin.inverse_bind_matrices is None:
+            continue
+        with suppress(ReadError, ValueError):  # a damaged skin moves no joint
+            # Columns are stored one after another.
+            inverse = file.array(skin.inverse_bind_matrices).reshape(-1, 4, 4).transpose(0, 2, 1)
+            for joint, matrix in zip(skin.joints, inverse, strict=False):
+                if joint in places and np.isfinite(matrix).all() and np.linalg.det(matrix) > 0:
+                    found[places[joint]] = np.asarray(np.linalg.inv(matrix), np.float64)
+    return found
 
 
 def _is_kineme(file: GLTFFile) -> bool:

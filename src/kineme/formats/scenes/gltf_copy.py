@@ -24,11 +24,12 @@ from kineme.formats.scenes.assembly import compose
 from kineme.formats.scenes.gltf_file import GLTFFile
 from kineme.formats.scenes.gltf_writer import (
     Animator,
-    check_animations,
+    check_copy,
     save_gltf,
     transform_of,
 )
 from kineme.recordings import Motion
+from kineme.recordings.posing import get_rig
 from kineme.recordings.rig import Rig
 
 _PACKED = "EXT_meshopt_compression"
@@ -36,12 +37,8 @@ _PACKED = "EXT_meshopt_compression"
 
 def copy_animations(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
     """Leave a copy of ``source``, which the motions were read from, with these as animations."""
-    skeleton = check_animations(motions, path).skeleton
-    rig = skeleton.rig
-    if rig is None or not rig.numbers:
-        raise WriteError(
-            path, f"the bones of {source.name} are mirrored or scaled unevenly at rest"
-        )
+    skeleton = check_copy(motions, source, path)
+    rig = get_rig(skeleton)
     with translate_read_errors(source):
         file = GLTFFile(load(source))
         tree: dict[str, Any] = decode_json(file.text, source, dict)

@@ -111,10 +111,12 @@ class SceneObject(Struct):
     extras: Any = None
 
 
-class Skin(Struct):
-    """Joints that carry a mesh."""
+class Skin(Struct, rename="camel"):
+    """Joints that carry a mesh, and the accessor of their matrices as bound."""
 
     joints: list[int]
+    inverse_bind_matrices: int | None = None
+    skeleton: int | None = None
 
 
 class KeySampler(Struct):

@@ -84,6 +84,19 @@ def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a g
     return first
 
 
+def check_copy(motions: Mapping[str, Motion], source: Path, path: Path) -> Skeleton:
+    """Return the skeleton of motions that are to be animations in a copy of their file.
+
+    WriteError where its bones cannot be placed in that file, or as for `check_animations`.
+    """
+    skeleton = check_animations(motions, path, f"a copy of {source.name}").skeleton
+    if skeleton.rig is None or not skeleton.rig.numbers:
+        raise WriteError(
+            path, f"the bones of {source.name} are mirrored or scaled unevenly at rest"
+        )
+    return skeleton
+
+
 def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
     """Leave the JSON and its only buffer in a GLB, or in a ``.gltf`` with the buffer in it."""
     buffer: dict[str, Any] = {"byteLength": len(data)}
@@ -228,6 +241,11 @@ class _Writer(Animator):
         skeleton, rig = self.skeleton, self.rig
         places, turns, sizes = (part[rig.above :] for part in rig.world)
         vertices, faces, joints = _bones(skeleton, places)
+        rest = compose(places, turns, sizes)
+        binds = rest if rig.binds is None else rig.binds
+        # Each vertex hangs on one joint, so it goes to where the skin has that joint.
+        carry = (binds @ np.linalg.inv(rest))[joints]
+        vertices = np.einsum("vij,vj->vi", carry[:, :3, :3], vertices) + carry[:, :3, 3]
         # As small an integer as holds the numbers of all joints.
         kind = np.uint8 if skeleton.n_joints <= 256 else np.uint16
         bound = np.zeros((len(vertices), 4), kind)
@@ -236,7 +254,7 @@ class _Writer(Animator):
         weights = np.zeros((len(vertices), 4))
         weights[:, 0] = 1.0
         # Columns are stored one after another.
-        inverse = np.linalg.inv(compose(places, turns, sizes)).transpose(0, 2, 1)
+        inverse = np.linalg.inv(binds).transpose(0, 2, 1)
         inverse[:, :, 3] = [0.0, 0.0, 0.0, 1.0]  # exactly, as the format demands
         code = _BYTE if kind is np.uint8 else _SHORT
         attributes = {
@@ -255,6 +273,9 @@ class _Writer(Animator):
                 "inverseBindMatrices": inverses,
             }
         ]
+        if rig.binds is not None:
+            # These are counted from the node above all joints.
+            self.tree["skins"][0]["skeleton"] = skeleton.n_joints + max(rig.above, 1) - 1
 
 
 def _put(parts: list[Any], part: Any, free: list[int]) -> int:

@@ -1,0 +1,204 @@
+"""A copy of an FBX file with other takes: meshes, skins, materials and all else untouched.
+
+The source is copied byte for byte, except its animation stacks, layers, curve nodes and curves,
+what counts or names them, and the frame rate and time span. Each model keeps its pre- and
+post-rotation, pivots and offsets, and its keys allow for them. Models that are not joints of the
+character are at rest in the new takes.
+
+Source: as for `kineme.formats.scenes.fbx_scene` and `kineme.formats.scenes.fbx_writer`.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kineme._util.arrays import Floats
+from kineme._util.checks import warn
+from kineme._util.files import atomic_write, translate_read_errors
+from kineme.errors import WriteError
+from kineme.formats.files import load
+from kineme.formats.scenes.assembly import Transform, stack_transforms
+from kineme.formats.scenes.fbx_curves import Sampler
+from kineme.formats.scenes.fbx_file import MAGIC, START, head_of, parse_fbx
+from kineme.formats.scenes.fbx_nodes import FBXNode
+from kineme.formats.scenes.fbx_scene import STILL, FBXScene, Pose, invert_transform
+from kineme.formats.scenes.fbx_writer import FOOTER, TakeWriter, encode_fbx, single, write_takes
+from kineme.formats.scenes.gltf_writer import check_copy
+from kineme.recordings import Motion
+from kineme.recordings.posing import get_rig
+
+_ANIMATION = {"AnimationStack", "AnimationLayer", "AnimationCurveNode", "AnimationCurve"}
+_HOLDERS = {"GlobalSettings", "Documents", "Document", "Properties70"}
+
+
+def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
+    """Leave a copy of ``source``, which the motions were read from, with these as its takes.
+
+    A source that is text is not copied: the file has the skeleton alone, and a warning says so.
+    """
+    check_copy(motions, source, path)
+    with translate_read_errors(source):
+        content = load(source)
+        version, root = parse_fbx(content)
+        if not content.data.startswith(MAGIC):
+            reason = f"is an FBX of text, so {path.name} has no mesh: export the source as binary"
+            warn(f"{source.name} {reason}")
+            write_takes(motions, path)
+            return
+        scene = FBXScene(content, root)
+        copy = _Copy(scene, next(iter(motions.values())), source, path)
+    for name, motion in motions.items():
+        copy.animate(name, motion)
+    _warn_of_textures(scene, source, path)
+    data = content.data
+    stop = root.children[-1].stop + head_of(version).size
+    footer = data[stop : stop + len(FOOTER)].ljust(len(FOOTER), b"\0")
+    with atomic_write(path) as draft:
+        draft.write_bytes(encode_fbx(copy.rebuild(root), data[:START], footer, data))
+
+
+class _Copy(TakeWriter):
+    """Gathers takes for the models of a file, at rest as they are there without animation."""
+
+    def __init__(self, scene: FBXScene, motion: Motion, source: Path, path: Path) -> None:
+        rig = get_rig(motion.skeleton)
+        places = {model.number: place for place, model in enumerate(scene.models)}
+        if not {*rig.numbers} - {-1} <= places.keys():
+            raise WriteError(path, f"{source.name} has changed since it was read")
+        self._places = [places.get(number, -1) for number in rig.numbers]
+        pose = Pose(scene, STILL, Sampler(np.zeros(1)))
+        self._rest = [pose.transform(max(place, 0)) for place in self._places]
+        if -1 in self._places:
+            # The root bone that clips may have besides; what it carries keeps its scale with it.
+            root, below = rig.above, self._rest[rig.above + 1]
+            still = rig.translations[root], rig.rotations[root], rig.scales[root]
+            self._rest[root] = Transform(*still, below.inheritance)
+        parts = stack_transforms(self._rest, rig.parents)
+        if parts is None:
+            raise WriteError(
+                path, f"the bones of {source.name} are mirrored or scaled unevenly at rest"
+            )
+        rig = replace(rig, translations=parts[0], rotations=parts[1], scales=parts[2])
+        numbers = (number for number in count(1_000_000) if number not in scene.objects)
+        super().__init__(rig, motion.fps, numbers)
+        self.scene, self.moved = scene, set[int]()
+        for node, number in enumerate(rig.numbers):
+            self.models.append(number if number >= 0 else self._add_root(node))
+
+    def _add_root(self, node: int) -> int:
+        """Add the rig's root bone above its children, which are connected to it instead."""
+        rig = self.rig
+        root = self._add_model(node, rig.names[node], self._rest[node])
+        children = (child for child, parent in enumerate(rig.parents) if parent == node)
+        self.moved = {rig.numbers[child] for child in children}
+        for child in self.moved:
+            self._link(child, root)
+        return root
+
+    def find_values(
+        self, node: int, shifts: Floats, turns: Floats
+    ) -> tuple[Floats, Floats, Floats]:
+        """Return translations and angles that move a node so, and its translation at rest."""
+        if self._places[node] < 0:
+            return super().find_values(node, shifts, turns)
+        model, rest = self.scene.models[self._places[node]], self._rest[node]
+        still, _ = invert_transform(model, rest.translation, rest.rotation[None], rest.scale)
+        return *invert_transform(model, shifts, turns, rest.scale), still[0]
+
+    def rebuild(self, root: FBXNode) -> Iterator[FBXNode]:
+        """Yield the nodes of the source with the new takes instead of its own."""
+        names, objects = list(self.stops), self.scene.objects
+        dropped = {number for number, node in objects.items() if node.name in _ANIMATION}
+        kept = [node for number, node in objects.items() if number not in dropped]
+        counts = dict.fromkeys(_ANIMATION, 0) | Counter(each.name for each in kept + self.objects)
+        change = len(self.objects) - len(dropped)
+        settings = {name: value for name, *_, value in self.time_settings()}
+        for node in root.children:
+            if node.name == "Objects":
+                kept = [each for each in node.children if each.name not in _ANIMATION]
+                kept = [self._extend_pose(each) for each in kept]
+                yield _with_children(node, [*kept, *self.objects])
+                self.objects = []
+            elif node.name == "Connections":
+                kept = [each for each in node.children if self._is_kept(each, dropped)]
+                yield _with_children(node, [*kept, *self.links])
+                self.links = []
+            elif node.name == "Definitions":
+                yield _with_children(node, _count_objects(node, counts, change))
+            elif node.name == "Takes":
+                yield _with_children(node, [single("Current", names[0]), *self._spans()])
+            else:
+                yield _set_properties(node, {**settings, "ActiveAnimStackName": names[0]})
+
+    def _is_kept(self, link: FBXNode, dropped: set[int]) -> bool:
+        part, parent = link.number(1, -1), link.number(2, -1)
+        if part in dropped or parent in dropped:
+            return False
+        # What the new root carries hangs on no other model.
+        above = {0, *self.models[: self.rig.above]}
+        return not (link.text(0) == "OO" and part in self.moved and parent in above)
+
+    def _extend_pose(self, node: FBXNode) -> FBXNode:
+        """Return a bind pose with the new root, if what it carries is there: it must be whole."""
+        entries = [entry.child("Node") for entry in node.all("PoseNode")]
+        if not self.moved & {int(each.number(0, -1)) for each in entries if each}:
+            return node
+        kept = (child for child in node.children if child.name != "NbPoseNodes")
+        new = self._bind_pose()[self.rig.above]
+        return _with_children(node, [single("NbPoseNodes", len(entries) + 1), *kept, new])
+
+    def _spans(self) -> Iterator[FBXNode]:
+        """Yield the takes as older programs look for them."""
+        for name, stop in self.stops.items():
+            span = [np.int64(0), np.int64(stop)]
+            ends = [FBXNode(f"{kind}Time", span) for kind in ("Local", "Reference")]
+            yield FBXNode("Take", [name], [single("FileName", f"{name}.tak"), *ends])
+
+
+def _count_objects(node: FBXNode, counts: Mapping[str, int], change: int) -> Iterator[FBXNode]:
+    """Yield the children of the definitions, with the counts of these kinds and so many more."""
+    kinds = {kind.text(0) for kind in node.all("ObjectType")}
+    for child in node.children:
+        if child.name == "Count":
+            yield single("Count", int(child.number(0)) + change)
+        elif child.name == "ObjectType" and child.text(0) in counts:
+            rest = (each for each in child.children if each.name != "Count")
+            yield _with_children(child, [single("Count", counts[child.text(0)]), *rest])
+        else:
+            yield child
+    for kind in counts.keys() - kinds:
+        yield FBXNode("ObjectType", [kind], [single("Count", counts[kind])])
+
+
+def _set_properties(node: FBXNode, values: Mapping[str, Any]) -> FBXNode:
+    """Return the node with these values of its properties, where it has them."""
+    if node.name == "P" and node.text(0) in values:
+        return FBXNode("P", [*node.values[:4], values[node.text(0)]])
+    if node.name not in _HOLDERS:
+        return node
+    children = [_set_properties(child, values) for child in node.children]
+    return node if children == node.children else _with_children(node, children)
+
+
+def _with_children(node: FBXNode, children: Iterable[FBXNode]) -> FBXNode:
+    """Return the node with others inside. Whole numbers before these are of 64 bits."""
+    values = [np.int64(value) if isinstance(value, int) else value for value in node.values]
+    return FBXNode(node.name, values, list(children))
+
+
+def _warn_of_textures(scene: FBXScene, source: Path, path: Path) -> None:
+    """Warn of pictures beside the source that the copy will not find."""
+    for node in scene.objects.values():
+        found, stored = node.child("RelativeFilename"), node.child("Content")
+        if node.name != "Video" or not found or (stored and stored.values and stored.values[0]):
+            continue
+        place = found.text(0).replace("\\", "/")
+        if (source.parent / place).is_file() and not (path.parent / place).is_file():
+            warn(f"{path.name} needs the texture {place!r:.60}: copy it from beside {source.name}")
