@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from json import dumps
@@ -23,22 +23,29 @@ from kineme.errors import KinemeError
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
 from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
+from kineme.live.outputs import OUTPUTS, Send
 from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from kineme.live.journal import Journal
     from kineme.live.sources import Source
+    from kineme.live.stream import Stream
 
-Tell = Callable[[list[Event]], None]
+SENDING = {
+    name: Annotated[output.type | None, option(OUTPUT, output.help, metavar=output.metavar)]
+    for name, output in OUTPUTS.items()
+}
 SHOWN = 6
 """Activities that are over, of which the terminal shows the last."""
 
 
-@add_options(READING | SEGMENTING)
+@add_options(READING | SEGMENTING, outputs=SENDING)
 def live(
     read_options: ReadOptions,
     segment_options: SegmentOptions,
+    outputs: dict[str, Any],
     replay: Annotated[
         Path | None, option(INPUT, "Replay this recording in place of standard input.")
     ] = None,
@@ -74,10 +81,6 @@ def live(
         Path | None,
         option(OUTPUT, "Make a Parquet file of a journal that a killed run left, and end."),
     ] = None,
-    lsl_out: Annotated[
-        str | None,
-        option(OUTPUT, "Send events as markers of an LSL stream, as JSON.", metavar="NAME"),
-    ] = None,
     json: Annotated[bool, option(OUTPUT, "Print JSON, one line per event.", "--json")] = False,
     quiet: Quiet = False,
 ) -> None:
@@ -102,20 +105,10 @@ def live(
         source = _open(replay, speed, lsl, (osc, osc_host), read_options)
         stream = _stream_of(source, segment_options, delay, interval)
         kept = None if record is None else Journal(record, source.channels, source.fps)
-        with _printer(json=json, quiet=quiet) as show:
-            tell = show if lsl_out is None else _also_to_lsl(show, lsl_out)
-            try:
-                for rows in source.rows:
-                    for remark in rows.remarks:
-                        say_skipped(remark)
-                    if kept is not None:
-                        kept.write(rows.values, rows.seconds)
-                    tell(stream.push(rows.values, rows.seconds))
-            except KeyboardInterrupt:
-                pass
-            finally:
-                tell(stream.finish())
-                written = None if kept is None else kept.close()
+        with ExitStack() as opened:
+            opening = [OUTPUTS[name].open(value) for name, value in outputs.items()]
+            opening.append(_printer(json=json, quiet=quiet))
+            written = _push_all(source, stream, kept, [opened.enter_context(o) for o in opening])
         if output is not None:
             from kineme.labels import write_segments
 
@@ -126,6 +119,30 @@ def live(
     except KinemeError as error:
         say_error(one_line(error))
         raise typer.Exit(1) from error
+
+
+def _push_all(
+    source: Source, stream: Stream, kept: Journal | None, sends: Sequence[Send]
+) -> Path | None:
+    """Send the events of all rows until the source ends, or Ctrl+C; return what was recorded."""
+
+    def tell(events: Sequence[Event]) -> None:
+        for send in sends:
+            send(events)
+
+    try:
+        for rows in source.rows:
+            for remark in rows.remarks:
+                say_skipped(remark)
+            if kept is not None:
+                kept.write(rows.values, rows.seconds)
+            tell(stream.push(rows.values, rows.seconds))
+    except KeyboardInterrupt:
+        pass
+    finally:
+        tell(stream.finish())
+        written = None if kept is None else kept.close()
+    return written
 
 
 def _open(
@@ -151,7 +168,7 @@ def _open(
     return source if source.fps else sources.measure_rate(source)
 
 
-def _stream_of(source: Source, options: SegmentOptions, delay: float, interval: float) -> Any:
+def _stream_of(source: Source, options: SegmentOptions, delay: float, interval: float) -> Stream:
     from kineme.live.stream import Stream, as_keywords
 
     return Stream(
@@ -164,21 +181,8 @@ def _stream_of(source: Source, options: SegmentOptions, delay: float, interval: 
     )
 
 
-def _also_to_lsl(show: Tell, name: str) -> Tell:
-    from kineme.live.sources import open_lsl_outlet
-
-    send = open_lsl_outlet(name)
-
-    def tell(events: list[Event]) -> None:
-        for event in events:
-            send(dumps(event.to_json()))
-        show(events)
-
-    return tell
-
-
 @contextmanager
-def _printer(*, json: bool, quiet: bool) -> Iterator[Tell]:
+def _printer(*, json: bool, quiet: bool) -> Iterator[Send]:
     """Show events as lines of JSON, as a view that changes in a terminal, or as lines of text."""
     if json or quiet or not sys.stdout.isatty():
         yield _print_json if json else partial(_print_lines, quiet=quiet)
@@ -190,7 +194,7 @@ def _printer(*, json: bool, quiet: bool) -> Iterator[Tell]:
     view = View()
     with Live(view.table(), console=Console(), refresh_per_second=8) as screen:
 
-        def update(events: list[Event]) -> None:
+        def update(events: Sequence[Event]) -> None:
             for event in events:
                 view.add(event)
                 if isinstance(event, Notice):
@@ -201,13 +205,13 @@ def _printer(*, json: bool, quiet: bool) -> Iterator[Tell]:
         yield update
 
 
-def _print_json(events: list[Event]) -> None:
+def _print_json(events: Sequence[Event]) -> None:
     for event in events:
         sys.stdout.write(dumps(event.to_json()) + "\n")
     sys.stdout.flush()
 
 
-def _print_lines(events: list[Event], *, quiet: bool) -> None:
+def _print_lines(events: Sequence[Event], *, quiet: bool) -> None:
     for event in events:
         if isinstance(event, Notice):
             say_skipped(event.text)
