@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from json import dumps
 from pathlib import Path
+from time import sleep
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -81,6 +82,9 @@ def live(
         Path | None,
         option(OUTPUT, "Make a Parquet file of a journal that a killed run left, and end."),
     ] = None,
+    page: Annotated[
+        bool, option(OUTPUT, "Show it in the browser, until Ctrl+C.", "--page")
+    ] = False,
     json: Annotated[bool, option(OUTPUT, "Print JSON, one line per event.", "--json")] = False,
     quiet: Quiet = False,
 ) -> None:
@@ -107,24 +111,23 @@ def live(
         kept = None if record is None else Journal(record, source.channels, source.fps)
         with ExitStack() as opened:
             opening = [OUTPUTS[name].open(value) for name, value in outputs.items()]
-            opening.append(_printer(json=json, quiet=quiet))
-            written = _push_all(source, stream, kept, [opened.enter_context(o) for o in opening])
-        if output is not None:
-            from kineme.labels import write_segments
-
-            write_segments(stream.segmentation, output)
-        if not (json or quiet):
-            for path in filter(None, (written, output)):
-                typer.echo(f"wrote {path}")
+            opening += [_open_page(stream)] if page else []
+            sends = [opened.enter_context(each) for each in opening]
+            with (
+                nullcontext() if kept is None else closing(kept),
+                _printer(json=json, quiet=quiet) as show,
+            ):
+                is_stopped = _push_all(source, stream, kept, [*sends, show])
+            _write(stream, output, kept, quiet=json or quiet)
+            if page and not is_stopped:
+                _wait_for_interrupt()
     except KinemeError as error:
         say_error(one_line(error))
         raise typer.Exit(1) from error
 
 
-def _push_all(
-    source: Source, stream: Stream, kept: Journal | None, sends: Sequence[Send]
-) -> Path | None:
-    """Send the events of all rows until the source ends, or Ctrl+C; return what was recorded."""
+def _push_all(source: Source, stream: Stream, kept: Journal | None, sends: Sequence[Send]) -> bool:
+    """Send the events of all rows until the source ends; return whether Ctrl+C ended it."""
 
     def tell(events: Sequence[Event]) -> None:
         for send in sends:
@@ -138,11 +141,44 @@ def _push_all(
                 kept.write(rows.values, rows.seconds)
             tell(stream.push(rows.values, rows.seconds))
     except KeyboardInterrupt:
-        pass
+        return True
     finally:
         tell(stream.finish())
-        written = None if kept is None else kept.close()
-    return written
+    return False
+
+
+def _write(stream: Stream, output: Path | None, kept: Journal | None, *, quiet: bool) -> None:
+    """Write the segments, and say which files are there now."""
+    if output is not None:
+        from kineme.labels import write_segments
+
+        write_segments(stream.segmentation, output)
+    if not quiet:
+        for path in filter(None, (kept and kept.target, output)):
+            typer.echo(f"wrote {path}")
+
+
+@contextmanager
+def _open_page(stream: Stream) -> Iterator[Send]:
+    """Open a page in the browser; yield what brings it up to date."""
+    from kineme.studio.live_page import LivePage, serve_page
+
+    skeleton = stream.layout.skeleton
+    page = LivePage(stream.fps, stream.layout.channels, skeleton.parents if skeleton else ())
+
+    def send(events: Sequence[Event]) -> None:
+        page.add([event.to_json() for event in events], *stream.frames(page.n_frames))
+        page.has_ended = stream.is_finished
+
+    with serve_page(page, lambda address: typer.echo(f"kineme live: {address}", err=True)):
+        yield send
+
+
+def _wait_for_interrupt() -> None:
+    typer.echo("the page stays until Ctrl+C", err=True)
+    with suppress(KeyboardInterrupt):
+        while True:
+            sleep(1)
 
 
 def _open(

@@ -23,12 +23,12 @@ from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.poses import PosesNeededError
 from kineme.studio.routes import Api
+from kineme.web import STATIC
 from kineme.web.messages import Failure
 
 if TYPE_CHECKING:
     from kineme.studio.library import ShownLibrary
 
-STATIC = Path(__file__).parents[1] / "web" / "static"
 PAGE, LIBRARY_PAGE = "studio.html", "library.html"
 Handler = Callable[[Request, Exception], Response]
 STATUS: dict[type[Exception], int] = {
