@@ -134,11 +134,9 @@ def _push_all(source: Source, stream: Stream, kept: Journal | None, sends: Seque
             send(events)
 
     try:
-        for rows in source.rows:
+        for rows in source.rows if kept is None else kept.write_ahead(source.rows):
             for remark in rows.remarks:
                 say_skipped(remark)
-            if kept is not None:
-                kept.write(rows.values, rows.seconds)
             tell(stream.push(rows.values, rows.seconds))
     except KeyboardInterrupt:
         return True

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import mimetypes
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,8 +40,6 @@ STATUS: dict[type[Exception], int] = {
     SupersededError: 409,
     ConflictError: 409,
 }
-
-mimetypes.add_type("text/javascript", ".js")  # the registry of Windows may say something else
 
 
 def create_app(
