@@ -17,7 +17,6 @@ import sys
 import time
 import warnings
 from collections.abc import Sequence
-from itertools import accumulate, takewhile
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -25,7 +24,7 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _joined import clusters_of, joined, pieces
+from _joined import Piece, clusters_of, joined, pieces
 from _options import command_line, few, needed
 from _recordings import subject_86
 from _sources import SOURCES, judged_labels
@@ -97,9 +96,11 @@ def watch_channels() -> Signals:
 
 def replay_hours(hours: float, **options: float) -> None:
     """Replay the same recordings for hours; compare the first part with the last one."""
-    found = list(pieces(needed("sets/hugadb")))
-    lengths = accumulate(piece.recording.duration for piece in found)
-    parts = found[: 1 + len(list(takewhile(lambda end_s: end_s < few(PART_S, 60.0), lengths)))]
+    parts: list[Piece] = []
+    for piece in pieces(needed("sets/hugadb")):
+        parts.append(piece)
+        if sum(each.recording.duration for each in parts) >= few(PART_S, 60.0):
+            break
     part = joined([piece.recording for piece in parts])
     n_parts = max(2, round(hours * 3600 / part.duration))
     stream, memory = stream_of(part, **options), []
