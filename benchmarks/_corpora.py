@@ -79,4 +79,4 @@ def others() -> Iterator[Take]:
 def poses_of(take: Take) -> NDArray[np.float64]:
     """The stacked poses of a take, 15 a second."""
     motion = resample(take.motion, matching.POSE_FPS)
-    return matching.stacked_poses(matching.poses_of(motion))
+    return matching.stack_poses(matching.compute_poses(motion))

@@ -13,7 +13,7 @@ import numpy as np
 
 from kineme._util.rotations import to_euler_zyx
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import local_translations
+from kineme.recordings.kinematics import compute_local_translations
 
 TICKS = 46_186_158_000
 CODES = {"<f4": "f", "<f8": "d", "<i8": "l", "<i4": "i"}
@@ -286,7 +286,7 @@ def of_motion(motion: Motion) -> Scene:
     scene = Scene(TimeMode=14, CustomFrameRate=float(motion.fps))
     skeleton, times = motion.skeleton, np.arange(motion.n_frames) / motion.fps
     layer = scene.layer(scene.take("motion", 0.0, float(times[-1])))
-    shifts = 100 * local_translations(skeleton, motion.positions, motion.rotations)
+    shifts = 100 * compute_local_translations(skeleton, motion.positions, motion.rotations)
     angles = np.degrees(to_euler_zyx(motion.rotations))[..., ::-1]  # about x, first applied
     models: list[int] = []
     for j, parent in enumerate(skeleton.parents):

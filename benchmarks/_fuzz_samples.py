@@ -24,7 +24,7 @@ from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import MissingDependencyError
 from kineme.evaluation.inputs import is_annotations, read_trials
 from kineme.formats.listing import recordings_in
-from kineme.labels.collections import labels_of
+from kineme.labels.collections import find_labels
 from kineme.library import Library, build
 from kineme.library.storage.layout import STATES
 from kineme.recordings import Motion
@@ -214,7 +214,7 @@ def _write_on(root: Path, path: Path) -> object:
 
 
 def _labels_of_many(path: Path) -> object:
-    sources = labels_of([Path("a.bvh"), Path("b.bvh")], path)
+    sources = find_labels([Path("a.bvh"), Path("b.bvh")], path)
     return [source.of(n_frames=240, fps=60.0) for source in sources.values()]
 
 

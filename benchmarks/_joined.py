@@ -13,7 +13,7 @@ import kineme
 from _options import few
 from kineme.evaluation.comparison import UNLABELLED
 from kineme.evaluation.folder import recordings_below
-from kineme.labels.collections import labels_of
+from kineme.labels.collections import find_labels
 from kineme.labels.spans import text_of
 from kineme.recordings import Signals
 from sets import read_sensors
@@ -60,7 +60,7 @@ class Piece(NamedTuple):
 
 
 def pieces(folder: Path) -> Iterator[Piece]:
-    sources = labels_of(recordings_below(folder / "recordings"), folder / "labels.csv")
+    sources = find_labels(recordings_below(folder / "recordings"), folder / "labels.csv")
     for path, source in few(list(sources.items()), list(sources.items())[:2]):
         one = read_sensors(path)
         if isinstance(one, Signals):

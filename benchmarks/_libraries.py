@@ -13,7 +13,7 @@ from _options import few, needed
 from kineme import Library, read
 from kineme._version import __version__
 from kineme.library.compiling import compile_tables
-from kineme.library.descriptions import analysis_of
+from kineme.library.descriptions import make_analysis
 from kineme.library.storage.analyses import Analysis, has_analysis, write_analysis
 from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import ANALYSES, HEAD, SCHEMA, write_json
@@ -35,7 +35,9 @@ def library_of(folder: Path, recordings: Iterable[tuple[str, Motion | Signals]])
     for name, recording in recordings:
         keys[name] = f"{len(keys):032x}"
         if not has_analysis(folder / ANALYSES, keys[name]):
-            write_analysis(folder / ANALYSES, keys[name], *analysis_of(recording, SegmentOptions()))
+            write_analysis(
+                folder / ANALYSES, keys[name], *make_analysis(recording, SegmentOptions())
+            )
     joined(folder, keys)
     return Library(folder)
 
@@ -67,7 +69,7 @@ def simulated(folder: Path, hours: float) -> float:
     (folder / ANALYSES).mkdir(parents=True)
     rng = np.random.default_rng(0)
     made = [
-        analysis_of(read(path), SegmentOptions())
+        make_analysis(read(path), SegmentOptions())
         for path in sorted(needed("cmu86").glob("*.amc"))[: few(None, 1)]
     ]
     keys = {}

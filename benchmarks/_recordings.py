@@ -18,7 +18,7 @@ import kineme
 from _options import DATA, few, needed
 from _sequences import Exercise, join_exercises
 from kineme.datasets import ACTIONS, Action, synthesize
-from kineme.evaluation import Truth, labelling_of
+from kineme.evaluation import Truth, make_labelling
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme_reproduction.trials import find_folder, load_trials
@@ -145,7 +145,7 @@ def annotation(truth: Segmentation) -> Truth:
     """A known truth in the form in which people's are: transitions are uncertain borders."""
     rows = truth.activities
     units = Counter(truth.primitives.activity.tolist())
-    marks = Truth.from_labelling(labelling_of(rows, fps=truth.fps))
+    marks = Truth.from_labelling(make_labelling(rows, fps=truth.fps))
     counts = [units[row.activity] for row in rows if row.kind == "activity"]
     return replace(marks, counts=tuple(counts))
 

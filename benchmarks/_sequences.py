@@ -28,7 +28,7 @@ from kineme._util.arrays import Floats
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.datasets.timeline import Row, segments_of
 from kineme.recordings import Motion, Provenance
-from kineme.recordings.kinematics import local_translations
+from kineme.recordings.kinematics import compute_local_translations
 from kineme.recordings.operations import move, turn
 from kineme.segments.segmentation import Segmentation
 
@@ -47,7 +47,8 @@ def join_recordings(
         placed.append(_placed_after(placed[-1], motion))
     rotations = [np.array(motion.rotations) for motion in placed]
     translations = [
-        local_translations(motion.skeleton, motion.positions, motion.rotations) for motion in placed
+        compute_local_translations(motion.skeleton, motion.positions, motion.rotations)
+        for motion in placed
     ]
     halves = []
     for before, after in pairwise(range(len(placed))):

@@ -26,7 +26,7 @@ from kineme.evaluation import evaluate_segmentation
 from kineme.evaluation.comparison import UNLABELLED, Comparison, compare
 from kineme.evaluation.folder import recordings_below
 from kineme.evaluation.score import Ratio, pool_scores, scores
-from kineme.labels.collections import LabelSource, labels_of
+from kineme.labels.collections import LabelSource, find_labels
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
@@ -256,7 +256,7 @@ def continuous(folder: str, every: int) -> Iterator[Sample]:
         compared = compare(truth, found)
         return {name: scores()[name].function(compared) for name in CONTINUOUS}
 
-    labels = labels_of(recordings_below(DATA / folder), DATA / folder / "labels.csv")
+    labels = find_labels(recordings_below(DATA / folder), DATA / folder / "labels.csv")
     for path, source in list(labels.items())[::every]:
         yield Sample(path.stem, kineme.read(path), partial(judge, source=source))
 
@@ -268,7 +268,7 @@ def sensors(name: str, every: int) -> Iterator[Sample]:
         truth = source.of(n_frames=found.n_frames, fps=found.fps)
         return judged_labels(compare(truth, found))
 
-    labels = labels_of(
+    labels = find_labels(
         recordings_below(DATA / "sets" / name / "recordings"), DATA / "sets" / name / "labels.csv"
     )
     for path, source in list(labels.items())[::every]:

@@ -27,7 +27,7 @@ import kineme
 from kineme.labels.json_table import INDEPENDENT, SCHEMA
 from kineme.library.storage.tables import DESCRIBED
 from kineme.methods import Preset
-from kineme.segments.table import COLUMNS, Column, lacking
+from kineme.segments.table import COLUMNS, Column, find_lacking
 
 HERE = Path(__file__).resolve().parent
 FIGURES = HERE / "figures.json"
@@ -443,7 +443,7 @@ def json_schema() -> dict[str, Any]:
         "corrections": count,
         "excluded": {"type": "array", "items": count},
     }
-    rows = {"type": "array", "minItems": 1, "items": _object(columns, required=lacking(()))}
+    rows = {"type": "array", "minItems": 1, "items": _object(columns, required=find_lacking(()))}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": SCHEMA,

@@ -23,8 +23,8 @@ from kineme.methods.kineme.preset import KINEME
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.region_growing.preset import KRUEGER2017
 from kineme.methods.region_growing.preset import VOEGELE2014 as PRESET
-from kineme.methods.region_growing.primitives import primitive_cuts
-from kineme.methods.region_growing.warping import component_labels
+from kineme.methods.region_growing.primitives import find_primitive_cuts
+from kineme.methods.region_growing.warping import label_components
 from kineme.plot.matrix import (
     BORDER,
     INK,
@@ -146,7 +146,7 @@ def draw_paths(pair: np.ndarray, analysis: kineme.Analysis) -> None:
     """The connected components inside one activity, and the paths and cuts they give."""
     first, stop = analysis.borders[ZOOMED : ZOOMED + 2].tolist()
     image, extent = components(analysis.graph, first, stop)
-    found = primitive_cuts(
+    found = find_primitive_cuts(
         analysis.graph,
         (first, stop),
         steps=PRESET.steps,
@@ -184,7 +184,7 @@ def components(
         stop - first,
         graph.radius,
     )
-    labels = component_labels(inside, steps=PRESET.steps)
+    labels = label_components(inside, steps=PRESET.steps)
     _, number = np.unique(labels, return_inverse=True)
     image = np.zeros((stop - first, stop - first))
     image[dense.row, dense.col] = number % len(PALETTE) + 1

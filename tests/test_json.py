@@ -16,7 +16,7 @@ from kineme.datasets import bundled_truth
 from kineme.errors import ParameterError, ReadError
 from kineme.evaluation import Truth
 from kineme.evaluation.inputs import is_annotations, read_trials
-from kineme.labels.collections import labels_of
+from kineme.labels.collections import find_labels
 from kineme.synthesis import MotionGraph
 from kineme.synthesis.graph import load_sources, read_graph, write_graph
 
@@ -139,13 +139,13 @@ def test_labels_of_an_annotation_are_texts() -> None:
 def test_times_beyond_all_measure_are_cut_off(tmp_path: Path) -> None:
     table = tmp_path / "labels.csv"
     table.write_text("recording,start_s,stop_s,label\na.bvh,0,1e308,walk\na.bvh,-1e308,1,x\n")
-    (source,) = labels_of([Path("a.bvh")], table).values()
+    (source,) = find_labels([Path("a.bvh")], table).values()
     found = source.of(n_frames=90, fps=60.0)
     assert found.activities.label.tolist() == ["x", "walk"]
     assert found.activities.start_frame.tolist() == [0, 60]
     assert any("before the start" in note for note in found.provenance["notes"])
     table.write_text("recording,start_s,stop_s,label\na.bvh,0,1e308,walk\na.bvh,2e307,1e308,x\n")
-    (source,) = labels_of([Path("a.bvh")], table).values()
+    (source,) = find_labels([Path("a.bvh")], table).values()
     assert source.of(n_frames=90, fps=60.0).activities.label.tolist() == ["walk"]
 
 

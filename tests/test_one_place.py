@@ -21,7 +21,7 @@ from kineme._util.json import options_from_json, options_to_json
 from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import READING
 from kineme.formats import ReadOptions
-from kineme.library.planning import options_in
+from kineme.library.planning import read_kept_options
 from kineme.methods.segmenter import SegmentOptions
 from kineme.studio.storage.sidecars import keep_reading, options_of
 from kineme.synthesis import MotionGraph, Source, read_graph, write_graph
@@ -369,7 +369,7 @@ def test_every_option_is_kept_in_files_and_sent(tmp_path: Path) -> None:
     write_graph(MotionGraph((source,), (), (), 30.0, 0.08, 0.3), tmp_path / "graph.json")
     assert read_graph(tmp_path / "graph.json").sources == (source,)
     head = {"read_options": content, "segment_options": options_to_json(method)}
-    again, segmented = options_in(tmp_path, head)
+    again, segmented = read_kept_options(tmp_path, head)
     assert again == said
     assert options_to_json(segmented) == options_to_json(method)
     assert segmented.constants == method.constants

@@ -31,7 +31,7 @@ from kineme.evaluation import (
     Comparison,
     Labelling,
     border_score,
-    labelling_of,
+    make_labelling,
     one_to_one_accuracy,
 )
 from kineme.features import pose_features
@@ -167,7 +167,7 @@ def own_result(name: str, trial: Trial) -> tuple[float, Labelling, bool]:
     began = time.perf_counter()
     segmentation = METHODS[name](trial)
     seconds = time.perf_counter() - began
-    labelling = labelling_of(segmentation.activities, fps=segmentation.fps)
+    labelling = make_labelling(segmentation.activities, fps=segmentation.fps)
     labelled = len(set(labelling.labels)) < len(labelling.labels)
     return seconds, labelling.at(frames=trial.truth.frames, fps=FPS), labelled
 

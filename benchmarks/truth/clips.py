@@ -35,7 +35,7 @@ from _options import command_line, few, needed
 from _viewers import count_errors, in_blender, in_three, missing
 from kineme.clips.shaping import loop_qualities, planted_feet
 from kineme.clips.tags import travel_of
-from kineme.recordings.posing import add_root, rig_of
+from kineme.recordings.posing import add_root, get_rig
 
 SOURCES = (("samba.fbx", None), ("Xbot.glb", "walk"), ("RobotExpressive.glb", "Walking"),
            ("bandai_namco/dataset-1_dash_normal_001.bvh", None))  # fmt: skip
@@ -74,13 +74,16 @@ def same_out(rigs: Path, folder: Path, lacks: list[str]) -> Iterator[bool]:
         path = folder / f"same{source.suffix}"
         kineme.write(motion, path)
         back = kineme.read(
-            path, unit=rig_of(motion.skeleton).unit if path.suffix == ".bvh" else None
+            path, unit=get_rig(motion.skeleton).unit if path.suffix == ".bvh" else None
         )
         shared = [(back.joint(each), j) for j, each in enumerate(motion.skeleton.names)]
         here, there = (np.array(each) for each in zip(*shared, strict=True))
         off = back.positions[: motion.n_frames, here] - motion.positions[:, there]
         joints = max(joints, float(np.abs(off).max()))
-        one, other = rig_of(back.skeleton).rest()[0][here], rig_of(motion.skeleton).rest()[0][there]
+        one, other = (
+            get_rig(back.skeleton).rest()[0][here],
+            get_rig(motion.skeleton).rest()[0][there],
+        )
         rest = max(rest, float(np.abs(one - other).max()))
         if any("Blender" in each for each in lacks):
             continue

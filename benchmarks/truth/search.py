@@ -22,8 +22,8 @@ from _corpora import Take, corpora
 from _figures import add_option, record
 from _options import command_line, few
 from _sources import PERSON, of_bodies
-from kineme.features.canonical import MATCHING_FPS, matching_features, mirrored_features
-from kineme.library.searching import spans_like
+from kineme.features.canonical import MATCHING_FPS, matching_features, mirror_features
+from kineme.library.searching import find_spans
 from kineme.transfer.subsequences import THRESHOLD, Matches
 
 Features = NDArray[np.float32]
@@ -49,8 +49,8 @@ def uiprmd() -> Iterator[Take]:
 
 def found_either_way(example: Features, features: Features) -> Matches:
     """Spans that are like an example or like its mirror image."""
-    examples = [example, mirrored_features(example)]
-    return spans_like(features, examples, [], threshold=THRESHOLD, top=None)
+    examples = [example, mirror_features(example)]
+    return find_spans(features, examples, [], threshold=THRESHOLD, top=None)
 
 
 def searched(example: Features, label: str, takes: Sequence[tuple[Take, Features]]) -> Searched:

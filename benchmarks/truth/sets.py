@@ -28,14 +28,14 @@ from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.folder import (
     Answer,
     Job,
-    joined_comparisons,
+    join_comparisons,
     read_selected,
     recordings_below,
-    worked_out,
+    run_job,
 )
-from kineme.evaluation.score import markdown, pool_scores, scores
+from kineme.evaluation.score import format_markdown, pool_scores, scores
 from kineme.formats import ReadOptions
-from kineme.labels.collections import labels_of
+from kineme.labels.collections import find_labels
 from kineme.recordings import Motion, Signals
 
 SETS = ("hugadb", "hapt", "ipolgait", "utkinect")
@@ -57,7 +57,7 @@ def scored(job: Job) -> Answer:
     warnings.simplefilter("ignore")
     try:
         register_rivals()
-        return worked_out(job, time.process_time)
+        return run_job(job, time.process_time)
     except Exception as error:  # noqa: BLE001 (a rival that fails is a result)
         return Answer(error=f"{type(error).__name__}: {error}")
 
@@ -65,7 +65,7 @@ def scored(job: Job) -> Answer:
 def with_one_mapping(answers: Mapping[Job, Answer], *, told: bool) -> list[Comparison]:
     """The same results, a cluster of the whole set standing for the same class everywhere."""
     classes = {name for answer in answers.values() for name in answer.classes}
-    compared = joined_comparisons(list(answers.items()), len(classes) if told else None)
+    compared = join_comparisons(list(answers.items()), len(classes) if told else None)
     return [one for one in compared if one is not None]
 
 
@@ -100,7 +100,7 @@ def main() -> None:
     rows = []
     for name in options.sets:
         folder = needed(f"sets/{name}", options.data)
-        labels = labels_of(recordings_below(folder / "recordings"), folder / "labels.csv")
+        labels = find_labels(recordings_below(folder / "recordings"), folder / "labels.csv")
         chosen = list(labels.items())[:: options.every][: few(None, 2)]
         with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
             for method in methods:
@@ -124,7 +124,7 @@ def main() -> None:
                     clusters = len(np.unique(np.concatenate([one.found for one in whole])))
                     record(f"sets.{name}.{key}.{method}{part}.clusters", clusters)
     head = ["set", "recordings", *SHARES, *OTHERS, "processor s / h"]
-    print(markdown(head, rows))
+    print(format_markdown(head, rows))
 
 
 if __name__ == "__main__":

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Ints
-from kineme.evaluation.comparison import Comparison, contingency
-from kineme.evaluation.score import Score, one_of
+from kineme.evaluation.comparison import Comparison, count_frames
+from kineme.evaluation.score import Score, choose_number
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 
 
@@ -75,7 +75,7 @@ def majority_accuracy(compared: Comparison) -> tuple[float, float]:
     >>> majority_accuracy(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10))
     (0.75, 0.75)
     """
-    clusters, classes, frames = contingency(compared.found, compared.truth)
+    clusters, classes, frames = count_frames(compared.found, compared.truth)
     most = frames.max(axis=1)
     # A class needs more than half of the cluster's frames.
     given = np.where(2 * most > frames.sum(axis=1), classes[frames.argmax(axis=1)], UNLABELLED)
@@ -97,12 +97,12 @@ def _closed_spans(truth: Truth) -> tuple[Ints, Ints, NDArray[np.bool_]]:
 
 SCORES = (
     Score("strict", "strict", "share of the truth that is covered", "published protocols",
-          one_of(strict_and_tolerant, 0)),
+          choose_number(strict_and_tolerant, 0)),
     Score("tolerant", "tolerant", "strict, without the spans in which borders are uncertain",
-          "published protocols", one_of(strict_and_tolerant, 1)),
+          "published protocols", choose_number(strict_and_tolerant, 1)),
     Score("majority", "majority",
           "share of frames right, a cluster being what most of its frames are",
-          "published protocols", one_of(majority_accuracy, 0)),
+          "published protocols", choose_number(majority_accuracy, 0)),
     Score("majority_agreed", "majority, agreed", "majority, of frames on which people agree",
-          "published protocols", one_of(majority_accuracy, 1)),
+          "published protocols", choose_number(majority_accuracy, 1)),
 )  # fmt: skip

@@ -25,9 +25,9 @@ from scipy.spatial.distance import cdist
 from kineme._util.arrays import Floats, Ints
 from kineme.errors import ParameterError
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.score import Score, one_of
+from kineme.evaluation.score import Score, choose_number
 from kineme.evaluation.truth import TRANSITION, Labelling
-from kineme.features._warping_kernels import cheapest_path
+from kineme.features._warping_kernels import find_cheapest_path
 from kineme.features.point_clouds import cloud_distances
 
 Distances = Callable[[slice, slice], Floats]
@@ -165,7 +165,7 @@ def _variance(label: str, spans: list[slice], distances: Distances, fps: float) 
     lengths: Ints = np.array([span.stop - span.start for span in spans])
     normalised = []
     for i, j in combinations(range(len(spans)), 2):
-        cost, _, _ = cheapest_path(np.ascontiguousarray(distances(spans[i], spans[j])), 0.0)
+        cost, _, _ = find_cheapest_path(np.ascontiguousarray(distances(spans[i], spans[j])), 0.0)
         # The path costs the same in both directions, so one warp gives both ordered pairs.
         normalised += [cost / lengths[i], cost / lengths[j]]
     seconds = lengths / fps
@@ -199,15 +199,15 @@ def _lengths(compared: Comparison) -> tuple[float, float]:
 
 SCORES = (
     Score("cloud_distance", "cloud distance, m", "between segments of a cluster, as point clouds",
-          "clusters", one_of(_clouds, 0)),
+          "clusters", choose_number(_clouds, 0)),
     Score("cloud_variance", "cloud variance, m²", "of these distances", "clusters",
-          one_of(_clouds, 1)),
+          choose_number(_clouds, 1)),
     Score("feature_distance", "feature distance, m", "the same by their features", "clusters",
-          one_of(_vectors, 0)),
+          choose_number(_vectors, 0)),
     Score("feature_variance", "feature variance, m²", "of these distances", "clusters",
-          one_of(_vectors, 1)),
+          choose_number(_vectors, 1)),
     Score("length_mean", "length, s", "of the segments of a cluster", "clusters",
-          one_of(_lengths, 0)),
+          choose_number(_lengths, 0)),
     Score("length_variance", "length variance, s²", "of these lengths", "clusters",
-          one_of(_lengths, 1)),
+          choose_number(_lengths, 1)),
 )  # fmt: skip

@@ -17,7 +17,7 @@ from kineme.evaluation.score import scores
 @pytest.fixture
 def in_one_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """To start the others takes longer than what these tests want of them."""
-    answers_to = folder.answers_to
+    answers_to = folder.work_off
     monkeypatch.setattr(folder, "answers_to", lambda jobs, _: answers_to(jobs, 1))
 
 

@@ -15,14 +15,14 @@ from kineme.datasets import Action, synthesize
 from kineme.formats.files import load
 from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.kinematics import compute_world_rotations
 
 CLUSTER = np.array([[0.08, -0.1, 0.02], [0.06, -0.2, -0.05], [0.09, -0.3, 0.04]])
 
 
 def markers(motion: Motion, noise: float = 0.0) -> Motion:
     """Hips, ankles, toes and shoulders of a figure, and three markers on each thigh and shank."""
-    turned = world_rotations(motion.skeleton, motion.rotations)
+    turned = compute_world_rotations(motion.skeleton, motion.rotations)
     places: dict[str, np.ndarray] = {"pelvis": motion.positions[:, 0]}
     for side in ("Left", "Right"):
         for name, joint in (("hip", "UpLeg"), ("ankle", "Foot"), ("toe", "ToeBase"),
@@ -60,7 +60,7 @@ def test_a_knee_that_is_not_bent_has_no_centre() -> None:
 
 def skin(motion: Motion) -> Motion:
     """Centres of hips of a figure, and markers beside thighs, knees and ankles, on its skin."""
-    turned = world_rotations(motion.skeleton, motion.rotations)
+    turned = compute_world_rotations(motion.skeleton, motion.rotations)
     places: dict[str, np.ndarray] = {"pelvis": motion.positions[:, 0]}
     for side, outwards in (("Left", 1), ("Right", -1)):
         for name, joint, offset in (

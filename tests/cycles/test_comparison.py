@@ -22,8 +22,8 @@ from kineme.cycles import (
     foot_events,
     gait,
 )
-from kineme.cycles.channels import contacts_of
-from kineme.cycles.comparison import MEASURES, sides_of
+from kineme.cycles.channels import find_contacts
+from kineme.cycles.comparison import MEASURES, pair_sides
 from kineme.datasets import Action, synthesize
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
@@ -39,7 +39,7 @@ def cycles(walks: SyntheticRecording) -> Cycles:
 def test_channels_of_two_sides_are_told_by_their_names() -> None:
     names = ("knee_l", "knee_r", "LeftFoot.speed", "RightFoot.speed", "left_gyr", "trunk_lean",
              "total", "totar", "hip_r")  # fmt: skip
-    assert sides_of(names) == [("knee_l", "knee_r"), ("LeftFoot.speed", "RightFoot.speed")]
+    assert pair_sides(names) == [("knee_l", "knee_r"), ("LeftFoot.speed", "RightFoot.speed")]
 
 
 def test_what_differs_by_a_tenth_has_that_index(cycles: Cycles) -> None:
@@ -81,7 +81,7 @@ def test_sensors_at_feet_tell_the_share_of_stance() -> None:
     rates[:, 1] = np.tile(np.r_[np.zeros(40), -6 * np.hanning(12), 5 * np.hanning(36),
                                 -5 * np.hanning(12)], 5)  # fmt: skip
     signals = Signals(rates, 100.0, ["lf_gyr_x", "lf_gyr_y", "lf_gyr_z"])
-    assert [channel.name for channel in contacts_of(signals)] == ["stance_l"]
+    assert [channel.name for channel in find_contacts(signals)] == ["stance_l"]
     assert 45 < channels_of(signals, ["stance_l"])[0].values()[150:350].mean() < 65
     assert [channel.name for channel in channels_of(signals)] == list(signals.names)
 

@@ -15,11 +15,11 @@ from kineme.errors import ParameterError
 from kineme.evaluation.annotators import (
     Extent,
     annotator_agreement,
+    find_labels,
     fleiss_kappa,
-    labels_of_annotators,
 )
-from kineme.evaluation.comparison import runs
-from kineme.labels.collections import labels_of
+from kineme.evaluation.comparison import find_runs
+from kineme.labels.collections import find_labels
 from kineme.labels.spans import Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
 
@@ -41,7 +41,7 @@ def said(names: list[str], fps: float = 10) -> Segmentation:
     numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
     spans = [
         Span(run.start, run.stop, names[run.start])
-        for run in runs([numbers[name] for name in names])
+        for run in find_runs([numbers[name] for name in names])
         if names[run.start]
     ]
     labels = Labels(spans, "frames", fps, len(names))
@@ -128,8 +128,8 @@ def test_files_that_say_nothing_are_named_and_the_others_count(tmp_path: Path) -
         for path, text in zip(paths, texts, strict=True):
             table = f"start_s,stop_s,label\n0,1,{text}\n"
             (tmp_path / who / f"{path.stem}.csv").write_text(table)
-    sources = {who: labels_of(paths, tmp_path / who) for who in ("anna", "ben")}
-    labelled, failures = labels_of_annotators(sources, lambda _: Extent(30, 30))
+    sources = {who: find_labels(paths, tmp_path / who) for who in ("anna", "ben")}
+    labelled, failures = find_labels(sources, lambda _: Extent(30, 30))
     assert {name: list(sides) for name, sides in labelled.items()} == {
         "a.bvh": ["anna", "ben"],
         "b.bvh": ["anna"],

@@ -9,20 +9,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.evaluation.comparison import Comparison, best_mapping, compare
+from kineme.evaluation.comparison import Comparison, compare, map_clusters
 from kineme.evaluation.folder import evaluate_folder, recordings_below
 from kineme.evaluation.measures import edit_distance
 from kineme.evaluation.score import (
     SCORES,
     Ratio,
     Score,
+    compute_results,
+    get_value,
     pool_scores,
     register,
-    results_of,
     scores,
-    value_of,
 )
-from kineme.labels.collections import labels_of
+from kineme.labels.collections import find_labels
 from kineme.segments.segmentation import Segmentation
 
 per_frame = st.lists(st.integers(0, 3), min_size=1, max_size=40)
@@ -73,7 +73,7 @@ def test_f1_counts_segments_that_overlap_one_of_their_class(compared, percent) -
         if overlaps[best] >= percent / 100 and best not in taken:
             taken.append(best)
     expected = 2 * len(taken) / (len(true) + len(found))
-    assert value_of(scores()[f"f1@{percent}"].function(compared)) == pytest.approx(expected)
+    assert get_value(scores()[f"f1@{percent}"].function(compared)) == pytest.approx(expected)
 
 
 @given(compared=comparisons)
@@ -86,7 +86,7 @@ def test_covering_is_the_best_overlap_weighted_by_length(compared) -> None:
 
 @given(compared=comparisons)
 def test_a_mapping_is_one_to_one_and_no_single_exchange_betters_it(compared) -> None:
-    mapping = best_mapping([compared])
+    mapping = map_clusters([compared])
     assert len(set(mapping.values())) == len(mapping)
     right = int((compared.mapped == compared.truth).sum())
     for one in mapping:
@@ -102,13 +102,13 @@ def test_scores_do_not_depend_on_the_numbers_of_clusters(compared) -> None:
     for name, score in scores().items():
         if name in ("edit", "f1@10", "f1@25", "f1@50", "cohen_kappa"):
             continue  # of two equally good mappings either may be taken
-        mine, theirs = value_of(score.function(compared)), value_of(score.function(renamed))
+        mine, theirs = get_value(score.function(compared)), get_value(score.function(renamed))
         assert mine == pytest.approx(theirs, nan_ok=True), name
 
 
 def test_each_score_of_a_small_example_by_hand() -> None:
     compared = Comparison([0, 0, 0, 0, 1, 1, 1, 1, 2, 2], [7, 7, 7, 7, 7, 3, 3, 3, 3, 3], fps=1)
-    values = {name: value_of(score.function(compared)) for name, score in scores().items()}
+    values = {name: get_value(score.function(compared)) for name, score in scores().items()}
     assert values["mof"] == values["one_to_one"] == pytest.approx(0.7)
     assert values["edit"] == pytest.approx(2 / 3)
     assert values["f1@50"] == pytest.approx(2 * 2 / 5)
@@ -151,7 +151,7 @@ def test_repetitions_are_those_within_labelled_frames() -> None:
 def test_one_mapping_for_the_folder_asks_for_clusters_that_mean_the_same() -> None:
     first = Comparison([0, 0, 1], [5, 5, 6], fps=1)
     second = Comparison([0, 1, 1, 1], [6, 5, 5, 5], fps=1)
-    mapping = best_mapping([first, second])
+    mapping = map_clusters([first, second])
     assert mapping == {5: 1, 6: 0}
     assert Comparison(first.truth, first.found, 1, mapping).mapped.tolist() == [1, 1, 0]
 
@@ -168,7 +168,7 @@ def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> Non
     labels.mkdir()
     (labels / "a.txt").write_text("0\t20\tslow\n20\t40\tfast\n")
     (labels / "b.labels.csv").write_text("start_s,stop_s,label\n0,20,slow\n20,40,fast\n")
-    sources = labels_of(recordings_below(corpus), labels)
+    sources = find_labels(recordings_below(corpus), labels)
     assert [path.name for path in sources] == ["a.csv", "b.csv"]
     result = evaluate_folder(sources, ["uniform"], processes=1)
     assert [one.error for one in result.methods["uniform"]] == ["", ""]
@@ -176,7 +176,7 @@ def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> Non
 
 
 def test_clusters_are_joined_for_one_mapping(corpus) -> None:
-    sources = labels_of(recordings_below(corpus), corpus / "labels.csv")
+    sources = find_labels(recordings_below(corpus), corpus / "labels.csv")
     given = {"mapping": "folder", "without": ("emg*",), "processes": 1}
     result = evaluate_folder(sources, ["uniform"], n_clusters=2, **given)  # clusters of no meaning
     assert result.pool_scores("uniform")["mof"] > 0.95
@@ -186,16 +186,16 @@ def test_clusters_are_joined_for_one_mapping(corpus) -> None:
 def test_labels_that_belong_to_nothing_here_are_refused(corpus, tmp_path) -> None:
     (tmp_path / "labels.csv").write_text("recording,start_s,stop_s,label\nwalk,0,1,step\n")
     with pytest.raises(ReadError, match="no labels of any of the 4 recordings, such as 'a'"):
-        labels_of(recordings_below(corpus), tmp_path / "labels.csv")
+        find_labels(recordings_below(corpus), tmp_path / "labels.csv")
     (tmp_path / "one.csv").write_text("start_s,stop_s,label\n0,1,step\n")
     with pytest.raises(ReadError, match="names no recording in the column 'recording'"):
-        labels_of(recordings_below(corpus), tmp_path / "one.csv")
+        find_labels(recordings_below(corpus), tmp_path / "one.csv")
 
 
 def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
     register(Score("longest", "longest", "longest segment, frames", "segments", longest))
     try:
-        sources = labels_of(recordings_below(corpus), corpus / "labels.csv")
+        sources = find_labels(recordings_below(corpus), corpus / "labels.csv")
         result = evaluate_folder(sources, ["uniform"], processes=1)
         assert result.methods["uniform"][0].scores["longest"] == 15
         with pytest.raises(ParameterError, match="there is a score 'longest' already"):
@@ -212,7 +212,7 @@ def test_a_score_that_fails_costs_itself_only() -> None:
     register(Score("broken", "broken", "divides by nothing", "frames", lambda _: 1 / 0))
     try:
         with pytest.warns(KinemeWarning, match="the score 'broken' is left out, it fails: ZeroDiv"):
-            found = results_of(Comparison([0, 0, 1], [4, 4, 4], fps=1))
+            found = compute_results(Comparison([0, 0, 1], [4, 4, 4], fps=1))
     finally:
         SCORES.remove("broken")
     assert found["mof"] == Ratio(2, 3)
@@ -233,7 +233,7 @@ def test_the_figures_of_a_set_with_human_labels_come_out(data_dir, name) -> None
     home = data_dir / "sets" / name
     if not home.is_dir():
         pytest.skip(f"no {home}")
-    sources = labels_of(recordings_below(home), home / "labels.csv")
+    sources = find_labels(recordings_below(home), home / "labels.csv")
     some = dict([*sources.items()][::5])
     result = evaluate_folder(some, ["kineme"], without=("emg*",), processes=1)
     found = result.pool_scores("kineme")

@@ -14,8 +14,8 @@ from kineme.evaluation.inputs import (
     read_truth,
     score,
 )
-from kineme.evaluation.label_truth import truth_of
-from kineme.evaluation.score import results_of, value_of
+from kineme.evaluation.label_truth import make_truth
+from kineme.evaluation.score import compute_results, get_value
 from kineme.labels.collections import LabelSource
 from kineme.segments.segmentation import Segmentation
 
@@ -142,7 +142,7 @@ def test_repetitions_are_counted_however_labels_tell_them(
 
 def folder_scores(path, found: Segmentation) -> dict[str, float]:
     truth = LabelSource(path).of(n_frames=found.n_frames, fps=found.fps)
-    return {name: value_of(one) for name, one in results_of(compare(truth, found)).items()}
+    return {name: get_value(one) for name, one in compute_results(compare(truth, found)).items()}
 
 
 def test_primitives_alone_are_repetitions_with_pauses_between_them(tmp_path, counted_wrong) -> None:
@@ -166,10 +166,10 @@ def test_an_activity_may_be_called_transition_in_a_segment_table() -> None:
                "start_frame": [0, 20, 25], "stop_frame": [20, 25, 60],
                "label": ["transition", "", "walk"]}  # fmt: skip
     table = Segmentation.from_columns(columns, n_frames=60, fps=10)
-    assert truth_of(table, n_frames=60, fps=10).labels == ("transition (activity)", "walk")
+    assert make_truth(table, n_frames=60, fps=10).labels == ("transition (activity)", "walk")
     found = agreement(table, table)
     assert found["cluster_ratio"] == found["border_f1"] == found["mof"] == 1.0
-    assert value_of(results_of(compare(table, table))["mof"]) == 1.0
+    assert get_value(compute_results(compare(table, table))["mof"]) == 1.0
 
 
 def test_counts_of_neighbours_of_one_name_add_up(tmp_path) -> None:

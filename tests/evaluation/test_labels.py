@@ -28,8 +28,8 @@ from kineme.evaluation import (
     one_to_one_accuracy,
     scores,
 )
-from kineme.evaluation.measures import border_frames
-from kineme.evaluation.score import value_of
+from kineme.evaluation.measures import find_border_frames
+from kineme.evaluation.score import get_value
 from kineme.segments.segmentation import Segmentation
 
 SHARES = [
@@ -160,7 +160,7 @@ def test_exact_borders_are_matched_as_mir_eval_does(pair):
 @given(pairs())
 def test_as_many_borders_are_matched_as_can_be(pair):
     truth, found = pair
-    borders = border_frames(found)
+    borders = find_border_frames(found)
     first, last = truth.earliest[:, None] - 2.5, truth.latest[:, None] + 2.5
     near = csr_array((first <= borders) & (borders <= last))
     most = (maximum_bipartite_matching(near) >= 0).sum() if all(near.shape) else 0
@@ -180,7 +180,7 @@ def test_labels_without_gaps_score_as_a_truth_of_exact_borders(labels, data):
     for name, score in scores().items():
         # Of mappings with as many frames right any is taken, which these tell apart.
         if name not in ("cohen_kappa", "edit", "f1@10", "f1@25", "f1@50"):
-            ours, theirs = (value_of(score.function(one)) for one in (plain, exact))
+            ours, theirs = (get_value(score.function(one)) for one in (plain, exact))
             assert ours == pytest.approx(theirs, nan_ok=True), name
 
 

@@ -18,7 +18,7 @@ from kineme.features.canonical import (
     matching_poses,
     mirror_poses,
 )
-from kineme.features.canonical.joints import JOINTS, canonical_joints
+from kineme.features.canonical.joints import JOINTS, match_canonical_joints
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
 from kineme.recordings.operations import move, resample, scale, turn
@@ -53,7 +53,7 @@ def chords(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 @pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
 def test_joints_of_skeletons_and_markers(path: str, data_dir: Path) -> None:
     motion = kineme.read(data_dir / path)
-    found = canonical_joints(motion)
+    found = match_canonical_joints(motion)
     names = {joint: motion.skeleton.names[points[0]] for joint, points in found.items()}
     parts = ("hip", "knee", "ankle", "shoulder", "elbow", "wrist")
     assert tuple(names.get(f"left_{part}") for part in parts) == FORMATS[path]
@@ -111,7 +111,7 @@ def test_frames_in_which_nobody_is_seen_are_zero() -> None:
 
 def test_limbs_without_knees_elbows_and_shoulders_do() -> None:
     motion = performed()
-    found = canonical_joints(motion)
+    found = match_canonical_joints(motion)
     kept = [j for j in JOINTS if not any(part in j for part in ("knee", "elbow", "shoulder"))]
     points = np.stack([motion.positions[:, found[j][0]] for j in kept], axis=1)
     pelvis = (points[:, kept.index("left_hip")] + points[:, kept.index("right_hip")]) / 2

@@ -19,8 +19,8 @@ from kineme.features import (
     body_frame,
     end_effectors,
     heading,
-    offsets_in_frames,
     pose_features,
+    round_offsets,
     stack,
 )
 from kineme.recordings import Motion, Skeleton
@@ -202,13 +202,13 @@ def test_a_straight_line_stays_one_beyond_the_ends(frames: int, offsets: list[in
 
 
 def test_offsets_become_frames() -> None:
-    assert offsets_in_frames((1 / 3, 0, -1 / 3, 1 / 6, -1 / 6), 30.0) == (-10, -5, 0, 5, 10)
+    assert round_offsets((1 / 3, 0, -1 / 3, 1 / 6, -1 / 6), 30.0) == (-10, -5, 0, 5, 10)
     with pytest.raises(ParameterError, match="same frame at 10 Hz"):
-        offsets_in_frames((0, 0.01), 10.0)
+        round_offsets((0, 0.01), 10.0)
     with pytest.raises(ParameterError, match="finite"):
-        offsets_in_frames((0, float("nan")), 10.0)
+        round_offsets((0, float("nan")), 10.0)
     with pytest.raises(ParameterError, match="fps"):
-        offsets_in_frames((0,), 0.0)
+        round_offsets((0,), 0.0)
 
 
 @pytest.mark.parametrize(

@@ -13,12 +13,12 @@ import kineme
 from _fbx import CONSTANT, CUBIC, Keys, Name, Scene, walker
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.kinematics import compute_world_rotations
 
 
 def world(motion: Motion, name: str) -> np.ndarray:
     """(frames, 3, 3): the joint's axes."""
-    turns = world_rotations(motion.skeleton, motion.rotations)[:, motion.joint(name)]
+    turns = compute_world_rotations(motion.skeleton, motion.rotations)[:, motion.joint(name)]
     return Rotation.from_quat(np.roll(turns, -1, axis=1)).as_matrix()
 
 
@@ -197,7 +197,7 @@ def test_scales_that_differ_by_axis_or_change(tmp_path: Path) -> None:
     motion = played(Bones(said), tmp_path, "S", X=Keys([0, 1], [1, 3]))
     whole = matrix(angles=(0, 0, 30), scale=(1, 2, 1)) @ matrix((0.3, 0.5, 0), scale=(3, 1, 1))
     assert place(motion, "c")[-1] == pytest.approx((whole @ [0.1, 0.5, 0.2, 1])[:3])
-    again = kineme.recordings.kinematics.local_translations(
+    again = kineme.recordings.kinematics.compute_local_translations(
         motion.skeleton, motion.positions, motion.rotations
     )
     assert np.ptp(again[:, motion.joint("c")], axis=0).max() > 0.1  # it slides

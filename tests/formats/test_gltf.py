@@ -26,7 +26,7 @@ from kineme.formats.files import load
 from kineme.formats.scenes.gltf_file import GLTFFile
 from kineme.formats.scenes.gltf_writer import write_animations
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.kinematics import compute_world_rotations
 
 TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 ANSWERS = {"<f4": 5126, "<i2": 5122, "<i1": 5120, "<u2": 5123}
@@ -91,7 +91,7 @@ def leg() -> File:
 
 
 def degrees(motion: Motion, name: str = "Knee") -> np.ndarray:
-    turns = world_rotations(motion.skeleton, motion.rotations)[:, motion.joint(name)]
+    turns = compute_world_rotations(motion.skeleton, motion.rotations)[:, motion.joint(name)]
     return np.degrees(2 * np.arctan2(turns[:, 3], turns[:, 0]))
 
 
@@ -108,8 +108,10 @@ def test_what_is_written_is_read_again(motion: Motion) -> None:
         ends = {motion.skeleton.names[j] for j in motion.skeleton.end_sites}
         assert {again.skeleton.names[j] for j in again.skeleton.end_sites} == ends
         turned = [j for j in range(len(joints)) if j not in motion.skeleton.end_sites]
-        ours = world_rotations(motion.skeleton, motion.rotations)[:, turned]
-        theirs = world_rotations(again.skeleton, again.rotations)[:, [joints[j] for j in turned]]
+        ours = compute_world_rotations(motion.skeleton, motion.rotations)[:, turned]
+        theirs = compute_world_rotations(again.skeleton, again.rotations)[
+            :, [joints[j] for j in turned]
+        ]
         assert np.abs(np.einsum("fjc,fjc->fj", ours, theirs)).min() > 1 - 1e-5
         assert again.fps == motion.fps
 

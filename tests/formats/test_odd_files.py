@@ -10,7 +10,7 @@ import pytest
 import kineme
 from kineme.errors import ReadError
 from kineme.formats.listing import recordings_in
-from kineme.recordings.times import date_seconds
+from kineme.recordings.times import parse_date
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
@@ -25,10 +25,10 @@ def test_a_pipe_is_not_waited_for(tmp_path: Path, suffix: str) -> None:
 
 
 def test_a_leap_second(tmp_path: Path) -> None:
-    assert date_seconds("2016-12-31T23:59:60.5Z") == date_seconds("2017-01-01T00:00:00.5Z")
-    assert date_seconds("23:59:60") == 86400
+    assert parse_date("2016-12-31T23:59:60.5Z") == parse_date("2017-01-01T00:00:00.5Z")
+    assert parse_date("23:59:60") == 86400
     with pytest.raises(ValueError, match="is no ISO date"):
-        date_seconds("23:59:61")
+        parse_date("23:59:61")
     seconds = [58.0, 58.5, 59.0, 59.5, 60.0, 60.5]
     rows = "".join(f"2016-12-31T23:59:{second:04.1f}Z,{i}.5\n" for i, second in enumerate(seconds))
     (tmp_path / "a.csv").write_text("time,acc_x\n" + rows)

@@ -13,7 +13,7 @@ from kineme.formats.read_write import read_motion, takes_in
 from kineme.formats.scenes.fbx_writer import write_takes
 from kineme.recordings import Motion
 from kineme.recordings.operations import scale
-from kineme.recordings.posing import align_to_rest, pose_rig, rig_of
+from kineme.recordings.posing import align_to_rest, get_rig, pose_rig
 from kineme.recordings.rig import Rig
 
 RIGGED = [
@@ -48,7 +48,7 @@ def test_places_and_rest_pose_come_back(data_dir, tmp_path, name, suffix) -> Non
     here, there = shared(motion, again)
     assert len(here) >= motion.skeleton.n_joints - 5  # ends of limbs have other names in a BVH
     np.testing.assert_allclose(again.positions[:, there], motion.positions[:, here], atol=NEAR)
-    rest, found = (rig_of(each.skeleton).rest()[0] for each in (motion, again))
+    rest, found = (get_rig(each.skeleton).rest()[0] for each in (motion, again))
     np.testing.assert_allclose(found[there], rest[here], atol=NEAR / 10)
 
 
@@ -58,7 +58,7 @@ def test_the_same_format_keeps_every_node_as_it_is(data_dir, tmp_path, name) -> 
     motion = read(data_dir, name)
     path = tmp_path / f"clip{Path(name).suffix}"
     kineme.write(motion, path)
-    rig, found = rig_of(motion.skeleton), rig_of(read_motion(path).skeleton)
+    rig, found = get_rig(motion.skeleton), get_rig(read_motion(path).skeleton)
     assert (found.parents, found.unit) == (rig.parents, rig.unit)
     assert found.names[: rig.above] == rig.names[: rig.above]
     np.testing.assert_allclose(found.translations, rig.translations, atol=1e-8)
@@ -72,7 +72,7 @@ def test_a_bone_of_an_asf_keeps_its_axes(data_dir: Path, tmp_path: Path) -> None
     kineme.write(motion, tmp_path / "clip.amc")
     again = read_motion(tmp_path / "clip.amc")
     np.testing.assert_allclose(again.positions, motion.positions, atol=NEAR)
-    rig, found = rig_of(motion.skeleton), rig_of(again.skeleton)
+    rig, found = get_rig(motion.skeleton), get_rig(again.skeleton)
     # A quaternion and its negative are one rotation.
     alike = np.abs(np.einsum("jc,jc->j", found.rotations, rig.rotations))
     np.testing.assert_allclose(alike, 1.0, atol=1e-12)
@@ -83,7 +83,7 @@ def test_a_bone_of_an_asf_keeps_its_axes(data_dir: Path, tmp_path: Path) -> None
 def test_the_dancer_of_an_fbx_stands_on_its_feet_at_rest(data_dir: Path) -> None:
     motion = read(data_dir, "rigs/samba.fbx")
     for skeleton in (motion.skeleton, align_to_rest(motion).skeleton):
-        rest = dict(zip(skeleton.names, rig_of(skeleton).rest()[0], strict=True))
+        rest = dict(zip(skeleton.names, get_rig(skeleton).rest()[0], strict=True))
         height = rest["mixamorig:Hips"][1] - rest["mixamorig:LeftFoot"][1]
         assert height == pytest.approx(0.9555, abs=1e-3)
 
@@ -92,7 +92,7 @@ def test_the_dancer_of_an_fbx_stands_on_its_feet_at_rest(data_dir: Path) -> None
 @pytest.mark.parametrize("name", RIGGED)
 def test_nodes_of_a_rig_are_where_the_joints_are(data_dir: Path, name: str) -> None:
     motion = scale(read(data_dir, name), 2.0)
-    rig = rig_of(motion.skeleton)
+    rig = get_rig(motion.skeleton)
     shifts, turns = pose_rig(motion, rig)
     posed = Rig(
         rig.names,
@@ -123,7 +123,7 @@ def test_an_fbx_has_the_rest_pose_and_the_places(data_dir: Path, tmp_path: Path,
     here, there = shared(motion, again)
     assert len(here) == motion.skeleton.n_joints
     np.testing.assert_allclose(again.positions[:, there], motion.positions[:, here], atol=NEAR)
-    rest, found = (rig_of(each.skeleton).rest()[0] for each in (motion, again))
+    rest, found = (get_rig(each.skeleton).rest()[0] for each in (motion, again))
     np.testing.assert_allclose(found[there], rest[here], atol=1e-9)
 
 

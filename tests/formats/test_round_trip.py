@@ -16,7 +16,7 @@ from kineme import bundled_recording, segment
 from kineme.errors import KinemeWarning, WriteError
 from kineme.formats import read, read_motion, write
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.kinematics import compute_world_rotations
 
 
 def written_and_read(motion: Motion, suffix: str) -> Motion:
@@ -32,8 +32,8 @@ def assert_same_joints(one: Motion, other: Motion, names: list[str]) -> None:
     ours, theirs = [one.joint(n) for n in names], [other.joint(n) for n in names]
     np.testing.assert_allclose(one.positions[:, ours], other.positions[:, theirs], atol=1e-7)
     dots = (
-        world_rotations(one.skeleton, one.rotations)[:, ours]
-        * world_rotations(other.skeleton, other.rotations)[:, theirs]
+        compute_world_rotations(one.skeleton, one.rotations)[:, ours]
+        * compute_world_rotations(other.skeleton, other.rotations)[:, theirs]
     ).sum(axis=2)
     np.testing.assert_allclose(np.abs(dots), 1, atol=1e-9)
     assert other.fps == pytest.approx(one.fps, rel=1e-12)

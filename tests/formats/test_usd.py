@@ -14,7 +14,7 @@ import kineme
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
 from kineme.formats import read_motion, read_quietly, write
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.kinematics import compute_world_rotations
 
 pytest.importorskip("pxr")
 
@@ -33,8 +33,8 @@ def test_what_is_written_is_read_again(tmp_path: Path, suffix: str) -> None:
     assert again.skeleton.end_sites == motion.skeleton.end_sites
     assert np.abs(again.positions - motion.positions).max() < 1e-5
     assert again.fps == motion.fps
-    ours = world_rotations(motion.skeleton, motion.rotations)
-    theirs = world_rotations(again.skeleton, again.rotations)
+    ours = compute_world_rotations(motion.skeleton, motion.rotations)
+    theirs = compute_world_rotations(again.skeleton, again.rotations)
     assert np.abs(np.einsum("fjc,fjc->fj", ours, theirs)).min() > 1 - 1e-6
     assert again.provenance.format == "USD"
 

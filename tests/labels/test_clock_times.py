@@ -14,7 +14,7 @@ import kineme
 from growth import LINEAR, times_longer
 from kineme._util.checks import format_count
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.labels.collections import convert_to_frames, labels_of
+from kineme.labels.collections import convert_to_frames, find_labels
 from kineme.labels.spans import Labels, Span, convert_clock_times
 from kineme.recordings.clock import Clock
 from kineme.segments.segmentation import Segmentation
@@ -42,7 +42,7 @@ def recording(path: Path, times, head: str = "time_s") -> Path:
 def truth(home: Path, rows: str, path: Path):
     (home / "labels.csv").write_text(f"recording,start_s,stop_s,label\n{rows}")
     read = kineme.read(path)
-    source = labels_of([path], home / "labels.csv")[path]
+    source = find_labels([path], home / "labels.csv")[path]
     return source.of(n_frames=read.n_frames, fps=read.fps, clock=read.provenance.clock)
 
 
@@ -118,7 +118,7 @@ def test_a_pause_costs_a_folder_no_label(tmp_path) -> None:
         ),
     ]
     (tmp_path / "labels.csv").write_text("\n".join(["recording,start_s,stop_s,label", *rows]))
-    sources = labels_of([even, paused], tmp_path / "labels.csv")
+    sources = find_labels([even, paused], tmp_path / "labels.csv")
     one, other = evaluate_folder(sources, ["uniform"], processes=1).methods["uniform"]
     assert not one.error + other.error
     assert other.notes == ()
@@ -182,7 +182,7 @@ def test_a_table_at_another_rate_is_refused(tmp_path: Path) -> None:
     columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [90]}
     table = Segmentation.from_columns(columns, n_frames=90, fps=50)
     kineme.write_segments(table, tmp_path / "walk.json")
-    (source,) = labels_of([Path("walk.bvh")], tmp_path).values()
+    (source,) = find_labels([Path("walk.bvh")], tmp_path).values()
     assert source.of(n_frames=90, fps=50.001) == table
     with pytest.raises(ReadError, match="is of 50 frames per second, but the recording has 25"):
         source.of(n_frames=90, fps=25)

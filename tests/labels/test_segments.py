@@ -19,8 +19,8 @@ import kineme
 from kineme.datasets import bundled_truth
 from kineme.errors import KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.labels import json_table, read_segments, write_segments
-from kineme.labels.csv_table import provenance_path
-from kineme.labels.event_tables import sidecar_path
+from kineme.labels.csv_table import name_provenance
+from kineme.labels.event_tables import name_sidecar
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
@@ -63,7 +63,7 @@ def test_each_row_is_a_line_of_json(result: Segmentation) -> None:
 def test_a_csv_alone_keeps_the_whole_table(folder: Path, result: Segmentation) -> None:
     path = folder / "alone.csv"
     write_segments(result, path)
-    provenance_path(path).unlink()
+    name_provenance(path).unlink()
     alone = read_segments(path)
     assert alone.n_frames == result.n_frames
     assert alone.fps == pytest.approx(result.fps, rel=1e-15)
@@ -77,7 +77,7 @@ def test_a_csv_alone_gives_the_exact_frame_rate(tmp_path: Path, fps: float) -> N
     columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [77]}
     path = tmp_path / "cuts.csv"
     write_segments(Segmentation.from_columns(columns, n_frames=77, fps=fps), path)
-    provenance_path(path).unlink()
+    name_provenance(path).unlink()
     assert read_segments(path).table.stop_s[0] == 77 / fps
     assert read_segments(path).fps == pytest.approx(fps, rel=1e-15)
 
@@ -300,7 +300,7 @@ def test_a_table_that_a_spreadsheet_saved_with_decimal_commas(
 ) -> None:
     path = tmp_path / "cuts.csv"
     write_segments(small, path)
-    provenance_path(path).unlink()
+    name_provenance(path).unlink()
     frame = pd.read_csv(path)
     frame.to_csv(path, sep=separator, decimal=",", index=False, encoding="utf-8-sig")
     read = read_segments(path)
@@ -321,8 +321,8 @@ def test_labels_between_semicolons(tmp_path: Path) -> None:
 
 Beside = Callable[[Path], Path]
 PAIRS: list[tuple[str, str, Beside]] = [
-    ("a.csv", "csv", provenance_path),
-    ("a.tsv", "bids", sidecar_path),
+    ("a.csv", "csv", name_provenance),
+    ("a.tsv", "bids", name_sidecar),
 ]
 
 

@@ -345,9 +345,9 @@ def test_a_full_disk_ends_the_build_and_leaves_what_was_there(
 
 
 def test_one_build_at_a_time(folder: Path) -> None:
-    from kineme.library.storage.layout import writer_lock
+    from kineme.library.storage.layout import lock_for_writing
 
-    with writer_lock(folder, "build"), pytest.raises(WriteError, match="another process"):
+    with lock_for_writing(folder, "build"), pytest.raises(WriteError, match="another process"):
         build((), folder)
 
 

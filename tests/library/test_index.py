@@ -9,13 +9,13 @@ import pytest
 
 import naive
 from kineme.library import Example, Library, searching
-from kineme.library._kernels import least_squares
+from kineme.library._kernels import find_least_squares
 from kineme.library.storage import index as storage
 from kineme.library.windows import (
     FINER,
     LENGTHS,
-    parts_at_speeds,
-    windows_of,
+    describe_at_speeds,
+    describe_windows,
 )
 
 
@@ -43,11 +43,11 @@ def test_the_window_that_is_the_example_is_the_nearest() -> None:
     features = np.random.default_rng(1).normal(size=(300, 40)).astype(np.float32)
     step = LENGTHS[1] // 2
     example = features[4 * step : 4 * step + LENGTHS[1]]
-    windows, parts = windows_of(features, LENGTHS[1]), parts_at_speeds(example)
+    windows, parts = describe_windows(features, LENGTHS[1]), describe_at_speeds(example)
     least = np.empty(len(windows), np.int32)
-    least_squares(windows, parts, np.int32(FINER), least)
+    find_least_squares(windows, parts, np.int32(FINER), least)
     assert least.tolist() == naive.least_squares(windows.tolist(), parts.tolist(), FINER)
     assert least.argmin() == 4
     windows[:], parts[:] = -127, 127 * FINER  # the farthest there is
-    least_squares(windows, parts, np.int32(FINER), least)
+    find_least_squares(windows, parts, np.int32(FINER), least)
     assert least.tolist() == naive.least_squares(windows.tolist(), parts.tolist(), FINER)

@@ -12,12 +12,12 @@ from scipy.spatial.distance import cdist
 
 import kineme
 from kineme.datasets import random_recording
-from kineme.methods.doubts import doubts
+from kineme.methods.doubts import list_doubts
 from kineme.methods.kineme.confidence import (
     compute_changes,
+    compute_probability,
     compute_sharpness,
     mean_correlation,
-    probability,
 )
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
@@ -57,7 +57,7 @@ def test_what_happens_once_is_never_a_sure_repetition(seed: int) -> None:
 
 def test_one_repetition_has_nothing_that_speaks_for_it() -> None:
     alone = mean_correlation(np.ones((1, 16, 6)))
-    assert probability(np.array([alone]), KINEME.count_weights)[0] < 0.5
+    assert compute_probability(np.array([alone]), KINEME.count_weights)[0] < 0.5
 
 
 @given(st.integers(2, 8), st.floats(0.0, 0.5), st.integers(0, 99))
@@ -152,7 +152,7 @@ shares = st.lists(st.floats(0, 1), min_size=12, max_size=12)
 @given(shares, shares, shares)
 def test_notes_are_five_at_most_and_the_worst_comes_first(links, borders, counts) -> None:
     borders[0] = np.nan
-    said = doubts(columns(links, borders, counts), 10.0)
+    said = list_doubts(columns(links, borders, counts), 10.0)
     told = [int(re.search(r"\((\d+) % sure\)", note)[1]) for note in said]
     below = sorted(each for each in (*links, *borders[1:], *counts) if each < 0.5)
     assert told == [round(100 * each) for each in below[:5]]
@@ -160,7 +160,7 @@ def test_notes_are_five_at_most_and_the_worst_comes_first(links, borders, counts
 
 def test_notes_say_what_to_look_at_and_where() -> None:
     known = columns([0.9, 0.4], [np.nan, 0.3], [0.2, 0.9])
-    assert doubts(known, 10.0) == [
+    assert list_doubts(known, 10.0) == [
         "look at the number of repetitions at 0.00 to 1.00 s (20 % sure)",
         "look at the border at 1.00 s (30 % sure)",
         "look at the cluster of the activity at 1.00 to 2.00 s (40 % sure)",
@@ -170,7 +170,7 @@ def test_notes_say_what_to_look_at_and_where() -> None:
 def test_of_what_happens_once_no_count_is_doubted() -> None:
     known = columns([0.9], [np.nan], [0.1])
     once = {name: values[:2] for name, values in known.items()}
-    assert doubts(known, 10.0) == [
+    assert list_doubts(known, 10.0) == [
         "look at the number of repetitions at 0.00 to 1.00 s (10 % sure)"
     ]
-    assert doubts(once, 10.0) == []
+    assert list_doubts(once, 10.0) == []

@@ -9,7 +9,11 @@ from scipy.spatial.transform import Rotation
 from kineme._util import rotations as rot
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings import Motion, Provenance, Skeleton
-from kineme.recordings.kinematics import forward_kinematics, local_translations, world_rotations
+from kineme.recordings.kinematics import (
+    compute_local_translations,
+    compute_world_rotations,
+    forward_kinematics,
+)
 
 ARM = Skeleton(
     ("shoulder", "elbow", "hand"), (-1, 0, 1), np.array([[0, 0, 0], [1, 0, 0], [1, 0, 0]]), {2}
@@ -50,18 +54,22 @@ def test_translations_are_recovered(seed: int) -> None:
     moves = rng.normal(size=(5, 4, 3))
     motion = Motion.from_rotations(skeleton, quaternions(seed, 5, 4), 30, translations=moves)
     np.testing.assert_allclose(
-        local_translations(motion.skeleton, motion.positions, motion.rotations), moves, atol=1e-12
+        compute_local_translations(motion.skeleton, motion.positions, motion.rotations),
+        moves,
+        atol=1e-12,
     )
     rigid = Motion.from_rotations(skeleton, quaternions(seed, 5, 4), 30)
     offsets = np.broadcast_to(skeleton.offsets, (5, 4, 3))
     np.testing.assert_allclose(
-        local_translations(rigid.skeleton, rigid.positions, rigid.rotations), offsets, atol=1e-12
+        compute_local_translations(rigid.skeleton, rigid.positions, rigid.rotations),
+        offsets,
+        atol=1e-12,
     )
 
 
 def test_world_rotations_need_rotations() -> None:
     with pytest.raises(MotionError, match="positions only"):
-        world_rotations(ARM, None)
+        compute_world_rotations(ARM, None)
 
 
 def test_time() -> None:

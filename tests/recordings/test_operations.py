@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from kineme.errors import ParameterError
 from kineme.formats import read
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import forward_kinematics, local_translations
+from kineme.recordings.kinematics import compute_local_translations, forward_kinematics
 from kineme.recordings.operations import cut, move, resample, scale, turn
 
 TREE = Skeleton(
@@ -62,7 +62,7 @@ def test_steady_turns_are_interpolated_exactly() -> None:
     np.testing.assert_allclose(new.positions, expected.positions, atol=1e-9)
     assert new.rotations is not None
     bones = np.linalg.norm(
-        local_translations(new.skeleton, new.positions, new.rotations)[:, 1:], axis=2
+        compute_local_translations(new.skeleton, new.positions, new.rotations)[:, 1:], axis=2
     )
     np.testing.assert_allclose(bones, np.broadcast_to([1, 2, 1], bones.shape), atol=1e-12)
 

@@ -17,7 +17,7 @@ from kineme.evaluation import (
     Truth,
     evaluate,
 )
-from kineme.features._warping_kernels import cheapest_path
+from kineme.features._warping_kernels import find_cheapest_path
 from kineme.features.point_clouds import cloud_distances
 from kineme_reproduction.variance import feature_variance, overall, point_cloud_variance
 
@@ -27,7 +27,7 @@ from kineme_reproduction.variance import feature_variance, overall, point_cloud_
     st.floats(0, 3),
 )
 def test_the_cheapest_warp_is_its_recursion_and_its_path_costs_as_much(cost, step):
-    total, rows, columns = cheapest_path(cost, step)
+    total, rows, columns = find_cheapest_path(cost, step)
     assert total == pytest.approx(naive.warped_cost(cost, step))
     moves = np.stack([np.diff(rows, prepend=-1), np.diff(columns, prepend=-1)])
     assert (moves.max(axis=0) == 1).all()

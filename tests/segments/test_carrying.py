@@ -10,7 +10,7 @@ from test_editing import EDITS, spans, walk_pause_jump
 
 from kineme.errors import ParameterError
 from kineme.segments import editing
-from kineme.segments.editing.annotating import find_marked, mark_edited, span_of
+from kineme.segments.editing.annotating import find_marked, get_span, mark_edited
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 
@@ -96,11 +96,11 @@ def test_checked_segments_are_never_changed(before, found, data) -> None:
         row = before.table[i]
         before = editing.check(before, row.level, [row.start_frame], True)
     result = editing.carry_corrections(before, found)
-    there = {span_of(row): row.kind for row in result.segmentation}
+    there = {get_span(row): row.kind for row in result.segmentation}
     for i in chosen:
         row = before.table[i]
         if row.level == "activity" or len(found.primitives):
-            assert there[span_of(row)] == row.kind
+            assert there[get_span(row)] == row.kind
     own = editing.cluster_names(before)
     assert result.names == len(own) + sum(
         row.label not in ("", own.get(row.cluster, "")) for row in before

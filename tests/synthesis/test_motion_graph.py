@@ -23,7 +23,7 @@ from kineme.synthesis import (
     Node,
     Source,
     action_route,
-    following,
+    find_following,
     load_sources,
     motion_graph,
     parse_actions,
@@ -124,7 +124,7 @@ def test_pruning_keeps_what_reaches_itself() -> None:
 def test_actions_pass_through_nameless_nodes_only() -> None:
     made = small("a.bc", [(0, 1), (1, 2), (2, 3), (0, 0)])
     assert action_route(made, [("a", 2), ("b", 1)]) == [0, 0, 1, 2]
-    assert following(made, "a") == ["a", "b"]
+    assert find_following(made, "a") == ["a", "b"]
     with pytest.raises(
         ParameterError, match="'a' one can go on to a, b, and 'c' is reached from b"
     ):

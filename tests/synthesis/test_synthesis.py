@@ -15,9 +15,9 @@ from kineme.errors import ParameterError
 from kineme.features import end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import (
+    compute_local_translations,
+    compute_world_rotations,
     forward_kinematics,
-    local_translations,
-    world_rotations,
 )
 from kineme.recordings.operations import cut
 from kineme.segments.segmentation import Segmentation
@@ -25,14 +25,14 @@ from kineme.synthesis import (
     MotionGraph,
     Placement,
     action_route,
-    foot_contacts,
+    find_foot_contacts,
     motion_graph,
     parse_actions,
     plant_feet,
     random_route,
     synthesize,
 )
-from kineme.synthesis.blending import jump_frames, place_spans
+from kineme.synthesis.blending import find_jump_frames, place_spans
 
 
 def repetitions_in(found: Segmentation, activity: int) -> int:
@@ -59,7 +59,7 @@ def ankle_slides(motion: Motion) -> np.ndarray:
     return np.array([
         np.linalg.norm((path[a:b] - path[a])[:, [0, 2]], axis=1).max()
         for path in paths
-        for a, b in foot_contacts(path, motion.fps)
+        for a, b in find_foot_contacts(path, motion.fps)
     ])  # fmt: skip
 
 
@@ -126,7 +126,7 @@ def test_far_from_jumps_every_frame_is_one_of_the_recording(
     route = action_route(graph, [("run", 9)])
     motion = synthesize(graph, [exercises], route, plant=False)
     spans = place_spans(graph, route, Placement())
-    edges = [0, *jump_frames(spans), motion.n_frames]
+    edges = [0, *find_jump_frames(spans), motion.n_frames]
     half = round(graph.window * graph.fps / 2)
     for piece, (start, stop) in zip(spans, pairwise(edges)):
         middle = slice(start + half, stop - half)
@@ -152,23 +152,25 @@ def test_planting_keeps_bones_heights_and_the_direction_of_feet(
     assert after.rotations is not None
     assert (
         np.abs(
-            local_translations(after.skeleton, after.positions, after.rotations)
-            - local_translations(before.skeleton, before.positions, before.rotations)
+            compute_local_translations(after.skeleton, after.positions, after.rotations)
+            - compute_local_translations(before.skeleton, before.positions, before.rotations)
         ).max()
         < 1e-9
     )
     again = forward_kinematics(
         after.skeleton,
         after.rotations,
-        translations=local_translations(before.skeleton, before.positions, before.rotations),
+        translations=compute_local_translations(
+            before.skeleton, before.positions, before.rotations
+        ),
     )
     assert np.abs(again - after.positions).max() < 1e-9
     feet = list(end_effectors(before).indices[:2])
     raised = after.positions[:, feet, 1] - before.positions[:, feet, 1]
     assert np.percentile(np.abs(raised), 99) < 0.005  # where the leg is long enough
     turns = rot.multiply(
-        rot.conjugate(world_rotations(before.skeleton, before.rotations)[:, feet]),
-        world_rotations(after.skeleton, after.rotations)[:, feet],
+        rot.conjugate(compute_world_rotations(before.skeleton, before.rotations)[:, feet]),
+        compute_world_rotations(after.skeleton, after.rotations)[:, feet],
     )
     assert np.abs(np.abs(turns[..., 0]) - 1).max() < 1e-9
     assert np.abs(after.positions[:, 0] - before.positions[:, 0]).max() == 0

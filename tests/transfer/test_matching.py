@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from kineme.transfer.matching import Primitives, label_costs, same_movements
+from kineme.transfer.matching import Primitives, label_costs, number_movements
 
 DIMS = 3
 
@@ -92,4 +92,4 @@ def test_what_matches_through_others_is_one_movement() -> None:
     heights = (0.0, 0.2, 0.4, 3.0)
     frames = np.concatenate([cycles(1) + [0, 0, height] for height in heights])
     four = Primitives(frames, np.array([12] * 4), np.arange(4))
-    assert same_movements(four, 0.25).tolist() == [0, 0, 0, 1]
+    assert number_movements(four, 0.25).tolist() == [0, 0, 0, 1]

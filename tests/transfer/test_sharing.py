@@ -14,7 +14,7 @@ from kineme.errors import ParameterError
 from kineme.features.canonical import matching_poses, mirror_poses
 from kineme.recordings.operations import cut, scale, turn
 from kineme.transfer import share_clusters
-from kineme.transfer.channel_samples import channel_samples
+from kineme.transfer.channel_samples import compute_channel_samples
 from kineme.transfer.embeddings import embedding
 from kineme.transfer.sharing import share_by_samples
 
@@ -122,7 +122,7 @@ def test_clusters_of_signals_do_not_depend_on_the_order_of_recordings() -> None:
         values = np.concatenate([size * wave[:, [k]] for k, size in enumerate(kinds)])
         recordings.append(kineme.Signals(values + 0.05 * random.normal(size=values.shape), 30.0))
     found = [kineme.segment(recording, preset="uniform") for recording in recordings]
-    samples = [channel_samples(recording) for recording in recordings]
+    samples = [compute_channel_samples(recording) for recording in recordings]
     shared = share_by_samples(samples, found)
     for order in ([5, 4, 3, 2, 1, 0], [3, 0, 4, 1, 5, 2]):
         again = share_by_samples([samples[i] for i in order], [found[i] for i in order])

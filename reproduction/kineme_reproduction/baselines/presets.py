@@ -40,12 +40,12 @@ class BaselinePreset(BaselineConstants):
         progress: Progress | None = None,
     ) -> SegmentsFound:
         """Segments of the activity level; see the method's own module."""
-        from kineme.methods.stages import stopwatch
+        from kineme.methods.stages import time_stages
         from kineme_reproduction.baselines.found import SegmentsFound
 
         rows = as_features(features)
         timings: dict[str, float] = {}
-        with stopwatch(timings, progress)(self.name):
+        with time_stages(timings, progress)(self.name):
             segments = self.segments(rows)
         return SegmentsFound(rows, segments, timings)
 

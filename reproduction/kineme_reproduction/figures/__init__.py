@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.score import format_score, markdown, score_rows
+from kineme.evaluation.score import format_markdown, format_score, score_rows
 from kineme.evaluation.truth import Labelling
 from kineme_reproduction.benchmark import (
     PublishedCuts,
@@ -103,7 +103,7 @@ def markdown_scores(columns: Mapping[str, Mapping[str, float]]) -> str:
     for group, lines in score_rows(columns):
         rows.append([f"**{group}**", *[""] * len(columns)])
         rows += [[title, *cells] for title, cells in lines]
-    return markdown(["", *columns], rows)
+    return format_markdown(["", *columns], rows)
 
 
 def _uniform_table(trials: Sequence[Trial]) -> str:
@@ -116,7 +116,7 @@ def _uniform_table(trials: Sequence[Trial]) -> str:
             scores.append(strict_and_tolerant(Comparison.of(trial.truth, found)))
         strict, tolerant = np.mean(scores, axis=0)
         rows.append([f"{step / FPS:.2f} s", format_score(strict), format_score(tolerant)])
-    return markdown(["a cut every", "strict", "tolerant"], rows)
+    return format_markdown(["a cut every", "strict", "tolerant"], rows)
 
 
 def _published_table(found: Sequence[PublishedCuts]) -> str:
@@ -146,7 +146,7 @@ def _published_table(found: Sequence[PublishedCuts]) -> str:
         "", "strict", "tolerant", "printed strict", "printed tolerant", "gap strict",
         "gap tolerant", "one to one", "one to one, agreed",
     ]  # fmt: skip
-    return markdown(header, rows)
+    return format_markdown(header, rows)
 
 
 def _reoccurrence_table(recordings: Sequence[Recording]) -> str:
@@ -160,7 +160,7 @@ def _reoccurrence_table(recordings: Sequence[Recording]) -> str:
          f"{float(np.mean([r.share for r in recordings])):.1%}"],
         ["recordings in which at least half of the poses reoccur", f"{mostly:.1%}"],
     ]  # fmt: skip
-    return markdown(["", "share"], rows)
+    return format_markdown(["", "share"], rows)
 
 
 def _published(data: Path) -> list[PublishedCuts]:

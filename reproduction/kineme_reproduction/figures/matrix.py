@@ -26,8 +26,8 @@ from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.neighbors import NeighborGraph
 from kineme.methods.region_growing.preset import RegionGrowingPreset
-from kineme.methods.region_growing.primitives import primitive_cuts
-from kineme.methods.region_growing.warping import component_labels
+from kineme.methods.region_growing.primitives import find_primitive_cuts
+from kineme.methods.region_growing.warping import label_components
 from kineme.plot.matrix import PIXELS, SHADES
 from kineme.segments.colors import PALETTE
 from kineme_reproduction.figures.style import BETWEEN, heading, new_figure, save
@@ -79,7 +79,7 @@ def plot_paths(
     lengths = np.diff(analysis.borders) * analysis.repeats
     first, stop = analysis.borders[lengths.argmax() :][:2].tolist()
     graph, fps = analysis.graph, preset.working_fps
-    labels = component_labels(graph, steps=preset.steps)
+    labels = label_components(graph, steps=preset.steps)
     figure = new_figure(9.2, 3.5)
     panels = figure.subplots(1, 3)
     block = _block(graph, graph.distances, first, stop)
@@ -89,7 +89,7 @@ def plot_paths(
     for axes, image in zip(panels, (shades, groups, shades), strict=True):
         axes.imshow(image, extent=extent, interpolation="nearest")
         axes.tick_params(labelsize=7, length=2)
-    paths = primitive_cuts(
+    paths = find_primitive_cuts(
         graph,
         (first, min(stop, len(graph) - 1)),
         steps=preset.steps,

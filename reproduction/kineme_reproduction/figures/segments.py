@@ -18,7 +18,7 @@ from matplotlib.collections import PatchCollection
 from matplotlib.patches import Rectangle
 
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.label_truth import labelling_of
+from kineme.evaluation.label_truth import make_labelling
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 from kineme.segments.colors import PALETTE
 from kineme_reproduction.benchmark import Result
@@ -72,7 +72,7 @@ def units(result: Result) -> Labelling:
     """The smallest segments of a result, at the rate of the truth."""
     truth, found = result.trial.truth, result.found
     rows = found.primitives if len(found.primitives) else found.activities
-    return labelling_of(rows, fps=found.fps).at(frames=truth.frames, fps=truth.fps)
+    return make_labelling(rows, fps=found.fps).at(frames=truth.frames, fps=truth.fps)
 
 
 def classes_of(truth: Labelling, found: Labelling) -> dict[str, str]:

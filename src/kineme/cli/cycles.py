@@ -255,9 +255,9 @@ def _choose_channels(
     recordings: list[Motion | Signals], names: list[str] | None
 ) -> list[str] | None:
     """Return the channels to measure, and when each foot stands if all recordings tell it."""
-    from kineme.cycles.channels import channels_of, contacts_of
+    from kineme.cycles.channels import channels_of, find_contacts
 
-    stances = [[each.name for each in contacts_of(recording)] for recording in recordings]
+    stances = [[each.name for each in find_contacts(recording)] for recording in recordings]
     if min(map(len, stances)) < 2:
         return names
     chosen = names or [channel.name for channel in channels_of(recordings[0])]
@@ -270,10 +270,10 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
 
     from kineme._util.files import atomic_write
     from kineme.cycles import compare_curves
-    from kineme.cycles.comparison import sides_of
+    from kineme.cycles.comparison import pair_sides
     from kineme.plot import plot_curves, plot_sessions, plot_sides
 
-    groups, pairs, channels = cycles.groups, sides_of(cycles.channels), cycles.channels
+    groups, pairs, channels = cycles.groups, pair_sides(cycles.channels), cycles.channels
     panels: list[tuple[Callable[..., Axes], tuple[Any, ...]]]
     if sides and pairs:
         panels = [(plot_sides, (cycles, *pair, group)) for pair in pairs for group in groups]
@@ -373,12 +373,12 @@ def _liveliest(cycles: Cycles, *, ends: bool) -> list[str]:
 
     Of several units, which cannot be compared, the first ones.
     """
-    from kineme.cycles.comparison import sides_of
+    from kineme.cycles.comparison import pair_sides
 
     if len(set(cycles.units)) > 1:
         return [*cycles.channels[:SHOWN]]
     values = _tabulate_measures(cycles, ends=ends)
-    pairs = sides_of(cycles.channels)
+    pairs = pair_sides(cycles.channels)
     opposite = dict(pairs) | {right: left for left, right in pairs}
 
     def extent(channel: str) -> float:

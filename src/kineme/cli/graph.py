@@ -105,10 +105,10 @@ def graph(
 
 def _show(made: MotionGraph) -> None:
     """One line per super-node: its nodes, and where one can go from them."""
-    from kineme.synthesis import following
+    from kineme.synthesis import find_following
 
     for name, count in made.names.items():
-        onward = ", ".join(following(made, name)) or "nothing"
+        onward = ", ".join(find_following(made, name)) or "nothing"
         typer.echo(f"{name}: {format_count(count, 'primitive')}, then {onward}")
     jumps = sum(edge.jump for edge in made.edges)
     typer.echo(

@@ -114,7 +114,7 @@ def _fill_names(text: str) -> str:
     if "@" not in text:
         return text
     from kineme.formats import supported_formats
-    from kineme.labels import label_formats, written_suffixes
+    from kineme.labels import label_formats, list_written_suffixes
     from kineme.methods import PRESETS as ALL_PRESETS
 
     default, *others = ALL_PRESETS
@@ -122,7 +122,7 @@ def _fill_names(text: str) -> str:
     names = {
         RECORDINGS: reversed(recordings),  # the oldest first
         LABELS: label_formats(),
-        TABLES: written_suffixes(),
+        TABLES: list_written_suffixes(),
         PRESETS: (f"{default} (default)", *others),
     }
     for mark, entries in names.items():

@@ -30,7 +30,11 @@ from numpy.typing import NDArray
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import forward_kinematics, local_translations, world_rotations
+from kineme.recordings.kinematics import (
+    compute_local_translations,
+    compute_world_rotations,
+    forward_kinematics,
+)
 
 NEAR_S = 0.035
 """Seconds of a clip that tell how it ends and begins."""
@@ -85,11 +89,11 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
     above = skeleton.parents[hips]
     free = np.array(skeleton.parents) < 0
     rotations = np.array(motion.rotations)
-    translations = local_translations(skeleton, motion.positions, motion.rotations)
+    translations = compute_local_translations(skeleton, motion.positions, motion.rotations)
     # The rotation of the hips in world axes, as the carry needs it.
     if above >= 0:  # root bones stay where they are: the carry is of the hips, in world axes
         free = np.arange(skeleton.n_joints) == hips
-        around = world_rotations(skeleton, rotations)[:, above]
+        around = compute_world_rotations(skeleton, rotations)[:, above]
         rotations[:, hips] = rot.multiply(around, rotations[:, hips])
         translations[:, hips] = motion.positions[:, hips]
     rotations = _closed_rotations(rotations, fps, carry, free)
@@ -97,7 +101,7 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
     if above >= 0:
         positions = forward_kinematics(skeleton, rotations, translations=translations)
         # Back to the axes of the bone above, as they are after blending.
-        back = rot.conjugate(world_rotations(skeleton, rotations)[:, above])
+        back = rot.conjugate(compute_world_rotations(skeleton, rotations)[:, above])
         rotations[:, hips] = rot.multiply(back, rotations[:, hips])
         translations[:, hips] = rot.rotate(back, translations[:, hips] - positions[:, above])
     positions = forward_kinematics(skeleton, rotations, translations=translations)

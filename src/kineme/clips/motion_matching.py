@@ -32,7 +32,7 @@ from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import end_effectors, heading
 from kineme.recordings import Motion
 from kineme.recordings.arrays import to_samples
-from kineme.recordings.kinematics import local_translations
+from kineme.recordings.kinematics import compute_local_translations
 from kineme.recordings.operations import resample
 from kineme.segments.table import Segment
 
@@ -144,7 +144,7 @@ def _describe(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[Any]]:
     turn = rot.rotate_about_y(np.arctan2(facing[:, 0], facing[:, 1]))
     back = rot.conjugate(turn)
     skeleton, rotations = motion.skeleton, np.array(motion.rotations)
-    places = local_translations(skeleton, motion.positions, motion.rotations)
+    places = compute_local_translations(skeleton, motion.positions, motion.rotations)
     for joint in (j for j, parent in enumerate(skeleton.parents) if parent < 0):
         places[:, joint] = rot.rotate(back, motion.positions[:, joint] - place)
         rotations[:, joint] = rot.multiply(back, rotations[:, joint])

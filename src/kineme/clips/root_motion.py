@@ -22,8 +22,8 @@ from kineme.clips.loops import Carry
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import heading
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import world_rotations
-from kineme.recordings.posing import add_root, rig_of
+from kineme.recordings.kinematics import compute_world_rotations
+from kineme.recordings.posing import add_root, get_rig
 
 STILL = 1e-9
 """Radians a round below which a path is a line."""
@@ -96,10 +96,10 @@ def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
     positions, rotations = np.array(motion.positions), motion.rotations
     positions[:, root] = places
     if rotations is not None:
-        world = world_rotations(skeleton, rotations)
+        world = compute_world_rotations(skeleton, rotations)
         rotations = np.array(rotations)
         # Turned as at rest where the body faces +z.
-        rest = rig_of(skeleton).rest()[1][root]
+        rest = get_rig(skeleton).rest()[1][root]
         rotations[:, root] = rot.multiply(rot.rotate_about_y(turns + facing), rest)
         for child in skeleton.children[root]:
             back = rot.conjugate(rotations[:, root])

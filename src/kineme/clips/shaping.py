@@ -27,7 +27,7 @@ from kineme.cycles.joints import find_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import PARTS, body_frame, end_effectors
 from kineme.recordings import Motion
-from kineme.recordings.arrays import spans_of, to_samples
+from kineme.recordings.arrays import find_spans, to_samples
 from kineme.recordings.operations import cut, resample
 from kineme.segments.table import Segment
 
@@ -301,7 +301,7 @@ def _shape_clip(
 def _intervals(feet: Feet, row: Segment) -> dict[str, list[tuple[int, int]]]:
     """Frames of the clip in which each foot is planted."""
     return {
-        side: [(a, b) for a, b in spans_of(mask[row.start_frame : row.stop_frame]).tolist()]
+        side: [(a, b) for a, b in find_spans(mask[row.start_frame : row.stop_frame]).tolist()]
         for side, (_, mask) in feet.items()
     }
 

@@ -20,8 +20,8 @@ from kineme.errors import EndEffectorError, MotionError
 from kineme.features import EndEffectors, end_effectors, heading
 from kineme.features.body_frame import find_facing, find_parting
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import world_rotations
-from kineme.recordings.posing import rig_of
+from kineme.recordings.kinematics import compute_world_rotations
+from kineme.recordings.posing import get_rig
 
 Tag = Literal[
     "forwards", "backwards", "left", "right", "in place", "turn left", "turn right", "start", "stop"
@@ -123,11 +123,11 @@ def _looks(motion: Motion, rotations: Floats, ends: EndEffectors) -> Floats:
     """Return where the head looks, radians from +z towards +x."""
     skeleton = motion.skeleton
     _, left, right = find_parting(skeleton, ends.left_wrist, ends.right_wrist, "arms")
-    places, turns = rig_of(skeleton).rest()
+    places, turns = get_rig(skeleton).rest()
     # Where the arms part, at rest: head and chest face the same way there.
     to_left = places[left] - places[right]
     to_left /= max(float(np.linalg.norm(to_left)), 1e-12)
     axis = rot.rotate(rot.conjugate(turns[ends.head]), to_left)
-    turned = rot.rotate(world_rotations(skeleton, rotations)[:, ends.head], axis)
+    turned = rot.rotate(compute_world_rotations(skeleton, rotations)[:, ends.head], axis)
     cos, sin = find_facing(turned, _LEAST)
     return np.arctan2(-sin, cos)[:, 0]

@@ -110,14 +110,14 @@ def _warp_to_mean(curves: Floats) -> Floats:
 
 def _warp_cycle(mean: Floats, curve: Floats) -> Floats:
     """Return the phase of a cycle at each time of the mean, on the cheapest path within a band."""
-    from kineme.features._warping_kernels import cheapest_path
+    from kineme.features._warping_kernels import find_cheapest_path
 
     grid, points = np.linspace(0, 1, GRID), np.arange(GRID)
     # (GRID, GRID): squared distance of each point of the mean to each point of the cycle.
     apart = np.square(curve[:, None] - mean[:, :, None]).sum(axis=0)
     # Only pairs near the diagonal (Sakoe-Chiba band).
     apart[np.abs(points[:, None] - points) > round(BAND * GRID)] = np.inf
-    _, rows, columns = cheapest_path(apart, STEP)
+    _, rows, columns = find_cheapest_path(apart, STEP)
     # A point of the mean may be paired with several points of a cycle: their mean is taken.
     phases = np.bincount(rows, columns) / np.bincount(rows) / (GRID - 1)
     # Smooth the deviation from an even course. It is 0 at both ends, so zeros continue it.

@@ -114,7 +114,7 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
     for step, window in enumerate(WINDOWS):
         # Shares of a cycle before and after a border, symmetric about 0.
         offsets = np.arange(-round(window * POINTS), round(window * POINTS) + 1) / POINTS
-        template, weights = _template(runs, features, rates, offsets)
+        template, weights = _make_template(runs, features, rates, offsets)
         # Halved with each step: the windows become narrower.
         reach = FARTHEST / 2**step
         moved = [
@@ -197,7 +197,7 @@ def _turn_borders(runs: list[Run], features: list[Floats], rates: list[float]) -
     means = {id(run): _mean_cycle(run, features, rates) for run in repeated}
     longest = max(repeated, key=lambda run: len(run.borders))
     # In cycles, relative to the run with the most repetitions.
-    late = {id(run): _lateness(means[id(run)], means[id(longest)]) for run in repeated}
+    late = {id(run): _measure_lateness(means[id(run)], means[id(longest)]) for run in repeated}
     weights = {id(run): len(run.borders) - 1 for run in repeated}
 
     def moves(origin: float) -> float:
@@ -227,7 +227,7 @@ def _mean_cycle(run: Run, features: list[Floats], rates: list[float]) -> Floats:
     return np.asarray(values.mean(axis=0))
 
 
-def _lateness(mean: Floats, reference: Floats) -> float:
+def _measure_lateness(mean: Floats, reference: Floats) -> float:
     """By how much of a cycle later than its border a mean cycle is as the reference at its own.
 
     0 where no phase makes them similar, or none much more than the present one.
@@ -245,11 +245,11 @@ def _lateness(mean: Floats, reference: Floats) -> float:
     if correlation[best] < SIMILAR or correlation[best] - correlation[0] < BETTER:
         return 0.0
     left, right = correlation[best - 1], correlation[(best + 1) % POINTS]
-    # `vertex` finds a minimum, so the correlations are negated. Lags beyond half a cycle wrap.
-    return _wrap_phase((best + vertex(-left, -correlation[best], -right)) / POINTS)
+    # `find_vertex` finds a minimum, so the correlations are negated. Lags beyond half a cycle wrap.
+    return _wrap_phase((best + find_vertex(-left, -correlation[best], -right)) / POINTS)
 
 
-def _template(
+def _make_template(
     runs: list[Run], features: list[Floats], rates: list[float], offsets: Floats
 ) -> tuple[Floats, Floats]:
     """(window, dims): the mean about all inner borders; and (dims,): what share it explains."""
@@ -299,16 +299,16 @@ def _move_borders(
         shift = shifts[best]
         if 0 < best < len(shifts) - 1:
             # Vertex of the parabola through the three best shifts, in units of their spacing.
-            shift += vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
+            shift += find_vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
         borders[i] = border + shift * run.period
         window = sample_at(values, rate, borders[i] + pace)
         # Differences that remain at the new border give its uncertainty.
         left = roots * (window - template[used])
-        uncertainty[i] = _deviation(left, roots * slope[used]) * run.period
+        uncertainty[i] = _estimate_deviation(left, roots * slope[used]) * run.period
     return replace(run, borders=borders, uncertainty=uncertainty)
 
 
-def _deviation(left: Floats, slope: Floats) -> float:
+def _estimate_deviation(left: Floats, slope: Floats) -> float:
     """Standard deviation of a place, in cycles; nan where the template has no slope."""
     steepness = float((slope**2).sum())
     if steepness == 0:
@@ -319,7 +319,7 @@ def _deviation(left: Floats, slope: Floats) -> float:
     return DOUBT * float(np.sqrt(BLOCKS / (BLOCKS - 1) * np.square(pulls).sum()) / steepness)
 
 
-def vertex(left: float, middle: float, right: float) -> float:
+def find_vertex(left: float, middle: float, right: float) -> float:
     """Where the parabola through three values at -1, 0 and 1 is least, from -1/2 to 1/2."""
     # Positive curvature only: other parabolas have no minimum.
     curvature = left - 2 * middle + right

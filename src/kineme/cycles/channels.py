@@ -30,12 +30,12 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_texts
-from kineme.cycles.events import foot_of, stance_of
+from kineme.cycles.events import find_foot, mark_stance
 from kineme.cycles.joints import (
     add_joint_centres,
     bend,
     cardan,
-    hinge_axis,
+    find_hinge_axis,
     landmarks,
     measure_angle,
     measure_turn,
@@ -44,10 +44,10 @@ from kineme.cycles.joints import (
 )
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import body_frame, heading
-from kineme.features.feet import speed_of
+from kineme.features.feet import measure_speed
 from kineme.recordings import Motion, Signals
 from kineme.recordings.joint_names import SIDES
-from kineme.recordings.kinematics import place_at_rest, world_rotations
+from kineme.recordings.kinematics import compute_world_rotations, place_at_rest
 
 Compute = Callable[[], Floats]
 Add = Callable[[str, str, str, Sequence[str | int], Compute], None]
@@ -143,7 +143,7 @@ def channels_of(
     else:
         every = _make_signal_channels(recording)
     # Contacts follow, unless a channel of this name is there already.
-    every += [each for each in contacts_of(recording) if each.name not in {c.name for c in every}]
+    every += [each for each in find_contacts(recording) if each.name not in {c.name for c in every}]
     for signals in beside:
         every += _make_signal_channels(signals)
     usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
@@ -171,13 +171,13 @@ def _make_signal_channels(signals: Signals) -> list[Channel]:
     ]
 
 
-def contacts_of(recording: Motion | Signals) -> list[Channel]:
+def find_contacts(recording: Motion | Signals) -> list[Channel]:
     """When each foot stands, of the feet that are there."""
     return [
         Channel(f"stance_{side[0]}", "%", CONTACT, ", ".join(foot), recording.fps,
-                partial(stance_of, recording, side), recording.gaps)
+                partial(mark_stance, recording, side), recording.gaps)
         for side in SIDES
-        if (foot := foot_of(recording, side))
+        if (foot := find_foot(recording, side))
     ]  # fmt: skip
 
 
@@ -226,7 +226,7 @@ def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
         compute = partial(body_frame, motion, (joint,))
         add_axes(name, ("left", "up", "ahead"), "m", "from the pelvis", joint, compute)
     for joint, name in joints:
-        compute = partial(speed_of, places[:, joint], motion.fps)
+        compute = partial(measure_speed, places[:, joint], motion.fps)
         add(f"{name}.speed", "m/s", "speed", [joint], compute)
 
 
@@ -251,7 +251,7 @@ def _add_bends(places: Floats, joints: Mapping[str, int], add: Add) -> None:
             compute = partial(_bend, places, chain, less)
             if name == "knee" and thigh is not None:
                 hips = [joints[f"{each}_hip"] for each in SIDES]
-                compute = partial(_flexion, places, chain, thigh, hips)
+                compute = partial(_measure_flexion, places, chain, thigh, hips)
             if min(chain) >= 0:
                 add(f"{name}_{side[0]}", DEGREES, ANGLE, chain, compute)
 
@@ -269,10 +269,10 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
             pelvis = motion.skeleton.parents[hip]
             if motion.rotations is not None and pelvis >= 0:
                 against = f"against {motion.skeleton.names[pelvis]}"
-                compute = partial(_against_pelvis, motion, *thigh, hips)
+                compute = partial(_measure_against_pelvis, motion, *thigh, hips)
             elif min(shoulders) >= 0:
                 against = "against the trunk"
-                compute = partial(_against_trunk, places, *thigh, hips, shoulders)
+                compute = partial(_measure_against_trunk, places, *thigh, hips, shoulders)
             else:
                 continue
             add(f"hip_{side[0]}", DEGREES, ANGLE, [against, *thigh], compute)
@@ -285,7 +285,7 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
             add(f"shoulder_{side[0]}", DEGREES, ANGLE, ["against the trunk", shoulder, elbow],
                 compute)  # fmt: skip
     for name, sideways in (("trunk_lean", False), ("trunk_side", True)):
-        compute = partial(_lean, places, hips, shoulders, sideways=sideways)
+        compute = partial(_measure_lean, places, hips, shoulders, sideways=sideways)
         add(name, DEGREES, ANGLE, [*hips, *shoulders], compute)
 
 
@@ -293,12 +293,14 @@ def _bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
     return bend(*(places[:, joint] for joint in chain)) + less
 
 
-def _flexion(places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[int]) -> Floats:
+def _measure_flexion(
+    places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[int]
+) -> Floats:
     """By how much a knee is bent about its axis, or that of the hips if it hardly moves."""
     hip, knee, ankle = (places[:, joint] for joint in chain)
     # Without what lies along the leg: an axis at right angles to it.
     to_left = normalize(remove_along(places[:, hips[0]] - places[:, hips[1]], ankle - hip))
-    axis = hinge_axis(hip, knee, ankle, places[:, thigh])
+    axis = find_hinge_axis(hip, knee, ankle, places[:, thigh])
     # Cosine of the fitted axis with the line of the hips, in each frame.
     alike = np.zeros(1) if axis is None else (axis * to_left).sum(axis=1)
     if axis is None or np.median(np.abs(alike)) < ALIKE:
@@ -307,10 +309,10 @@ def _flexion(places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[in
     return measure_turn(axis, knee - hip, ankle - knee)
 
 
-def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:
+def _measure_against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:
     """Return how far the thigh is turned forward from the pose of rest, in the pelvis's frame."""
     skeleton = motion.skeleton
-    turned = world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
+    turned = compute_world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
     # The thigh as the pelvis sees it: rotated by the inverse of its rotation.
     thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])
     places = place_at_rest(skeleton)
@@ -319,28 +321,30 @@ def _against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) ->
     return -measure_turn(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
 
 
-def _trunk(places: Floats, hips: Sequence[int], shoulders: Sequence[int]) -> Floats:
+def _find_trunk(places: Floats, hips: Sequence[int], shoulders: Sequence[int]) -> Floats:
     """From the middle of the hips to the middle of the shoulders."""
     return np.asarray(places[:, shoulders].mean(axis=1) - places[:, hips].mean(axis=1))
 
 
-def _against_trunk(
+def _measure_against_trunk(
     places: Floats, hip: int, knee: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
     to_left, thigh = places[:, hips[0]] - places[:, hips[1]], places[:, knee] - places[:, hip]
-    return -measure_turn(to_left, -_trunk(places, hips, shoulders), thigh)
+    return -measure_turn(to_left, -_find_trunk(places, hips, shoulders), thigh)
 
 
 def _measure_arm_raise(
     places: Floats, shoulder: int, elbow: int, hips: Sequence[int], shoulders: Sequence[int]
 ) -> Floats:
-    return measure_angle(places[:, elbow] - places[:, shoulder], -_trunk(places, hips, shoulders))
+    return measure_angle(
+        places[:, elbow] - places[:, shoulder], -_find_trunk(places, hips, shoulders)
+    )
 
 
-def _lean(
+def _measure_lean(
     places: Floats, hips: Sequence[int], shoulders: Sequence[int], *, sideways: bool
 ) -> Floats:
-    trunk = _trunk(places, hips, shoulders)
+    trunk = _find_trunk(places, hips, shoulders)
     # The line of the hips, level.
     to_left = (places[:, hips[0]] - places[:, hips[1]]) * [1, 0, 1]
     up = np.broadcast_to([0.0, 1.0, 0.0], trunk.shape)

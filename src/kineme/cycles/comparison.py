@@ -25,10 +25,10 @@ from kineme.cycles.table import (
     Columns,
     Cycles,
     as_columns,
-    half_width,
+    compute_half_width,
+    compute_phase_differences,
     is_phase,
     mean_phase,
-    phase_differences,
 )
 from kineme.errors import ParameterError
 
@@ -76,7 +76,7 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
     lines: list[tuple[str | float, ...]] = []
     for group in cycles.groups:
         rows = used & (cycles.columns["group"] == group)
-        for left, right in sides_of(cycles.channels):
+        for left, right in pair_sides(cycles.channels):
             is_stance = left in stances
             for measure in ("mean",) if is_stance else MEASURES:
                 of_left, of_right = (
@@ -90,7 +90,7 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
     return as_columns(names, lines)
 
 
-def sides_of(channels: tuple[str, ...]) -> list[tuple[str, str]]:
+def pair_sides(channels: tuple[str, ...]) -> list[tuple[str, str]]:
     """Return the channels of left sides, each with that of the right, where both are there."""
     pairs = []
     for left in channels:
@@ -114,9 +114,9 @@ def _compare_values(
     apart = left[both] - right[both]
     of_left, of_right = left[both].mean(), right[both].mean()
     if is_phase(measure):
-        apart = phase_differences(apart)
+        apart = compute_phase_differences(apart)
         of_left, of_right = mean_phase(left[both]), mean_phase(right[both])
-    mean, half = apart.mean(), half_width(apart.std(ddof=1) if n > 1 else np.nan, n)
+    mean, half = apart.mean(), compute_half_width(apart.std(ddof=1) if n > 1 else np.nan, n)
     total = of_left + of_right
     # Per cent of the mean of both sides: 100 / (total / 2).
     index = 200 * mean / total if indexed and total > 0 else np.nan
@@ -162,7 +162,7 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
     # A difference of phases goes the shorter way round; its bounds are moved as much.
     difference = compared["difference"]
     turned = np.where([is_phase(measure) for measure in compared["measure"].tolist()],
-                      phase_differences(difference) - difference, 0.0)  # fmt: skip
+                      compute_phase_differences(difference) - difference, 0.0)  # fmt: skip
     return compared | {name: compared[name] + turned for name in ("difference", "low", "high")}
 
 
@@ -236,7 +236,9 @@ def _join_sessions(keys: Sequence[str], first: Columns, second: Columns) -> Colu
     first = {name: column[rows] for name, column in first.items()}
     second = {name: column[order] for name, column in second.items()}
     numbers = ("n", "mean", "sd")
-    difference, low, high = _welch(*(each[name] for each in (first, second) for name in numbers))
+    difference, low, high = _compare_means(
+        *(each[name] for each in (first, second) for name in numbers)
+    )
     return {
         **{name: first[name] for name in keys},
         **{f"first_{name}": first[name] for name in numbers},
@@ -247,7 +249,7 @@ def _join_sessions(keys: Sequence[str], first: Columns, second: Columns) -> Colu
     }
 
 
-def _welch(
+def _compare_means(
     n: Floats, mean: Floats, sd: Floats, other_n: Floats, other_mean: Floats, other_sd: Floats
 ) -> tuple[Floats, Floats, Floats]:
     """Return the second mean less the first, and its bounds."""

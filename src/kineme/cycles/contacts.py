@@ -24,8 +24,8 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
 from kineme.errors import ParameterError
-from kineme.features.feet import low_and_slow
-from kineme.recordings.arrays import spans_of
+from kineme.features.feet import find_low_and_slow
+from kineme.recordings.arrays import find_spans
 
 STEADY = 0.12
 """Of the usual turning of a foot that moves: slower than this, it stands."""
@@ -79,7 +79,7 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     """
     from scipy.ndimage import gaussian_filter1d
 
-    turning = _points(rates, "rates")
+    turning = _find_points(rates, "rates")
     # Remove the constant bias of the sensor.
     turning = turning - np.median(turning, axis=0)
     turning = gaussian_filter1d(turning, SMOOTH_S * fps, axis=0, mode="nearest")
@@ -88,7 +88,7 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
         return np.empty((0, 2))
     # Most of the time the foot may stand; only frames in which it moves tell how fast it turns.
     usual = float(np.percentile(size[size > 0.1 * size.max()], 75))
-    steady = spans_of(size < STEADY * usual).tolist()
+    steady = find_spans(size < STEADY * usual).tolist()
     stands = [(a, b) for a, b in steady if b - a >= FLAT_S * fps]
     moves = [(before[1], after[0]) for before, after in pairwise(stands)]
     # Main axis of turning: the eigenvector of the largest eigenvalue, which is the last.
@@ -101,8 +101,8 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     swings = [
         (start + swing[0], start + swing[1])
         for move in _join_movements(moves, pitch, fps)
-        for start, stop in _parts(pitch, *move, fps)
-        if (swing := _swing(pitch[start:stop])) is not None
+        for start, stop in _split_parts(pitch, *move, fps)
+        if (swing := _find_swing(pitch[start:stop])) is not None
     ]
     seconds = np.array(swings, np.float64).reshape(-1, 2) / fps
     # The shortest spans are no swings, but jerks of a standing foot.
@@ -128,12 +128,12 @@ def _join_movements(
     return joined
 
 
-def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, int]]:
+def _split_parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, int]]:
     """Return a movement, parted where the foot stands too shortly to be seen standing.
 
     There are two swings where two turns forward are `APART_S` from each other.
     """
-    forward = spans_of(pitch[start:stop] > HIGH * pitch[start:stop].max(initial=0.0)).tolist()
+    forward = find_spans(pitch[start:stop] > HIGH * pitch[start:stop].max(initial=0.0)).tolist()
     cuts = [start]
     for (_, before), (after, _) in pairwise(forward):
         if after - before >= APART_S * fps:
@@ -146,7 +146,7 @@ def _parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, 
     return [*pairwise([*cuts, stop])]
 
 
-def _swing(pitch: Floats) -> tuple[float, float] | None:
+def _find_swing(pitch: Floats) -> tuple[float, float] | None:
     """Frames at which the foot is off and on again, in a movement between two stands."""
     middle = int(pitch.argmax())
     # A maximum at the very start leaves no heel rise before it.
@@ -156,17 +156,17 @@ def _swing(pitch: Floats) -> tuple[float, float] | None:
     if pitch[rise] >= 0:
         return None
     # The heel rises with a negative turn; the toes leave while that fades.
-    off = _crossing(pitch, rise, middle, OFF * pitch[rise])
+    off = _find_crossing(pitch, rise, middle, OFF * pitch[rise])
     # The sole comes down with a negative turn after the swing.
     slap = middle + int(pitch[middle:].argmin())
     positive = np.flatnonzero(pitch[middle:slap] > 0)
     last = middle + (int(positive[-1]) if len(positive) else 0)
     # Without a negative turn the level is 0.
-    on = _crossing(pitch, last, slap, ON * min(float(pitch[slap]), 0.0))
+    on = _find_crossing(pitch, last, slap, ON * min(float(pitch[slap]), 0.0))
     return off, on
 
 
-def _crossing(values: Floats, start: int, stop: int, level: float) -> float:
+def _find_crossing(values: Floats, start: int, stop: int, level: float) -> float:
     """Where values from one frame to another first reach a level, between two frames."""
     # Values relative to the level: the crossing is a change of sign.
     span = values[start : stop + 1] - level
@@ -203,18 +203,18 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     """
     if not points:
         raise ParameterError("a foot needs one point at least: its heel, its toe or its ankle")
-    paths = [_points(each, "points") for each in points]
+    paths = [_find_points(each, "points") for each in points]
     if len({len(path) for path in paths}) > 1:
         raise ParameterError("the points of a foot must be of the same frames")
     # (frames, 3): how far the ground has moved since the start.
-    carried = np.arange(len(paths[0]))[:, None] / fps * ground_velocity(paths, fps)
+    carried = np.arange(len(paths[0]))[:, None] / fps * measure_ground_velocity(paths, fps)
     stands = np.zeros(len(paths[0]), bool)
     for path in paths:
-        stands |= low_and_slow(path - carried, fps, height=LOW, speed=SLOW)
-    return _lasting(stands, fps)
+        stands |= find_low_and_slow(path - carried, fps, height=LOW, speed=SLOW)
+    return _join_stands(stands, fps)
 
 
-def ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
+def measure_ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
     """Return the velocity of what carries a foot: of the belt of a treadmill, else 0.
 
     A foot is low mostly while it stands, so the median velocity of its low points is the ground's.
@@ -224,7 +224,7 @@ def ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
     if len(points[0]) < 2:
         return np.zeros(3)
     # Without a limit of speed: a foot that stands on a belt is fast.
-    low = [low_and_slow(path, fps, height=LOW, speed=np.inf) for path in points]
+    low = [find_low_and_slow(path, fps, height=LOW, speed=np.inf) for path in points]
     velocities = [np.gradient(path, axis=0)[each] * fps
                   for path, each in zip(points, low, strict=True)]  # fmt: skip
     # The belt is level: no vertical velocity.
@@ -264,13 +264,13 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
     # Frames in which the plate is empty; their median is the offset of its amplifier.
     empty = values[np.abs(values) < EMPTY * np.abs(values).max(initial=0.0)]
     offset = float(np.median(empty)) if len(empty) else 0.0
-    return _lasting(np.abs(values - offset) > least, fps)
+    return _join_stands(np.abs(values - offset) > least, fps)
 
 
-def _lasting(stands: NDArray[np.bool_], fps: float) -> Floats:
+def _join_stands(stands: NDArray[np.bool_], fps: float) -> Floats:
     """Seconds of stands, joined over short breaks, without short ones."""
     joined: list[list[int]] = []
-    for start, stop in spans_of(stands).tolist():
+    for start, stop in find_spans(stands).tolist():
         if joined and start - joined[-1][1] < BRIDGE_S * fps:
             joined[-1][1] = stop
         else:
@@ -279,7 +279,7 @@ def _lasting(stands: NDArray[np.bool_], fps: float) -> Floats:
     return np.array(lasting, np.float64).reshape(-1, 2) / fps
 
 
-def _points(values: ArrayLike, name: str) -> Floats:
+def _find_points(values: ArrayLike, name: str) -> Floats:
     array = as_floats(values, name)
     if array.ndim != 2 or array.shape[1] != 3 or len(array) == 0:
         raise ParameterError(f"{name} must be frames x 3, not of shape {array.shape}")

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import check_type, format_count, join_names
 from kineme.cycles.contacts import (
-    ground_velocity,
+    measure_ground_velocity,
     stands_from_force,
     stands_from_positions,
     swings_from_gyroscope,
@@ -85,7 +85,7 @@ class Events:
         name : str
             ``left foot contact`` and ``left_foot_strike`` are one.
         """
-        return np.asarray(self.times[self.names == plain_name(name)])
+        return np.asarray(self.times[self.names == normalize_name(name)])
 
     def columns(self) -> Columns:
         """Return a table: ``time_s``, ``frame`` (between two of them) and ``event``."""
@@ -110,7 +110,7 @@ class Events:
             There are no such events.
         """
         # Names compare elementwise: a mask of the events.
-        chosen = np.ones(len(self), bool) if name is None else self.names == plain_name(name)
+        chosen = np.ones(len(self), bool) if name is None else self.names == normalize_name(name)
         frames = np.rint(self.times[chosen] * self.fps).astype(np.int64)
         pairs = zip(frames.tolist(), self.names[chosen].tolist(), strict=True)
         # Of several events in one frame the last one names the segment; cuts must be distinct.
@@ -135,7 +135,7 @@ class Events:
         )
 
 
-def plain_name(name: str) -> str:
+def normalize_name(name: str) -> str:
     """Return a name of an event as `Events` has it: lower case, a strike for a contact."""
     # Spellings of files differ in spaces, underscores and capitals.
     words = re.sub(r"[\s_]+", " ", name).strip().lower()
@@ -181,11 +181,11 @@ def foot_events(
     for side, pattern in zip(SIDES, (left, right), strict=True):
         if is_body and pattern is not None:
             raise ParameterError("left= and right= name channels of signals; this is a body")
-        foot = foot_of(recording, side, pattern)
+        foot = find_foot(recording, side, pattern)
         if not foot:
             continue
         sources[side] = (" and " if is_body else ", ").join(foot)
-        spans, are_stands = _contact_spans(recording, foot)
+        spans, are_stands = _find_contact_spans(recording, foot)
         starts, stops = spans.T.tolist()
         if are_stands:
             # At an end of the recording or in a gap nobody saw the foot move.
@@ -214,7 +214,7 @@ def foot_events(
     )
 
 
-def foot_of(recording: Motion | Signals, side: str, pattern: str | None = None) -> list[str]:
+def find_foot(recording: Motion | Signals, side: str, pattern: str | None = None) -> list[str]:
     """Return the joints or channels that tell whether the foot of a side stands; or none.
 
     Channels are those that a pattern names, else the three axes of a gyroscope at the foot, else
@@ -245,9 +245,9 @@ def foot_of(recording: Motion | Signals, side: str, pattern: str | None = None) 
     return []
 
 
-def stance_of(recording: Motion | Signals, side: str) -> Floats:
+def mark_stance(recording: Motion | Signals, side: str) -> Floats:
     """100 in each frame in which the foot of a side stands, 0 in which it swings."""
-    spans, are_stands = _contact_spans(recording, foot_of(recording, side))
+    spans, are_stands = _find_contact_spans(recording, find_foot(recording, side))
     inside = 100.0 if are_stands else 0.0
     values = np.full(recording.n_frames, 100.0 - inside)
     for start, stop in np.rint(spans * recording.fps).astype(np.intp).tolist():
@@ -255,7 +255,7 @@ def stance_of(recording: Motion | Signals, side: str) -> Floats:
     return values
 
 
-def _contact_spans(recording: Motion | Signals, foot: Sequence[str]) -> tuple[Floats, bool]:
+def _find_contact_spans(recording: Motion | Signals, foot: Sequence[str]) -> tuple[Floats, bool]:
     """(spans, 2), seconds from when and to when a foot stands (True), or swings."""
     if isinstance(recording, Motion):
         joints = [recording.skeleton.joint(name) for name in foot]
@@ -370,11 +370,11 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
     ['foot', 'start_s', 'stop_s', 'stride_s', 'stance_s', 'swing_s', 'stance_percent', ...]
     """
     check_type(events, Events, "gait", "foot_events(recording) gives them")
-    left, right = (_strides(events, side, recording) for side in SIDES)
+    left, right = (_measure_strides(events, side, recording) for side in SIDES)
     return {name: np.concatenate([left[name], right[name]]) for name in left}
 
 
-def _strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:
+def _measure_strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:
     """Return of each stride of a foot, from strike to strike, what can be measured."""
     strikes, offs = events.at(f"{side} {STRIKE}"), events.at(f"{side} {OFF}")
     others = events.at(f"{OTHER_SIDE[side]} {STRIKE}")
@@ -412,7 +412,7 @@ def _strides(events: Events, side: str, recording: Motion | Signals | None) -> C
         # (2, strides, 3): the foot at both strikes.
         ends = recording.positions[frames, foot[0]]
         paths = [recording.positions[:, joint] for joint in foot]
-        ground = ground_velocity(paths, recording.fps)
+        ground = measure_ground_velocity(paths, recording.fps)
         # On a treadmill the belt carried the foot back meanwhile.
         walked = (ends[1] - ends[0]) - stride[:, None] * ground
         # Axes 0 and 2 are level.

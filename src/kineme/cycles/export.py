@@ -102,19 +102,19 @@ def write_table(columns: Columns, path: str | PathLike[str]) -> None:
             parquet.write_table(table(columns), draft)
     elif target.suffix.lower() == ".csv":
         with atomic_write(target) as draft, draft.open("w", encoding="utf-8", newline="") as file:
-            write_rows(file, [*columns], zip(*map(_cells, columns.values()), strict=True))
+            write_rows(file, [*columns], zip(*map(_format_cells, columns.values()), strict=True))
     else:
         raise WriteError(target, "must end in .csv or .parquet")
 
 
-def _cells(column: np.ndarray[Any, Any]) -> list[Any]:
+def _format_cells(column: np.ndarray[Any, Any]) -> list[Any]:
     """Return the cells of a column; an empty one where a number is not known."""
     if column.dtype.kind != "f":
         return list(column.tolist())
     return ["" if isnan(cell) else cell for cell in column.tolist()]
 
 
-def _tables(cycles: Cycles, ends: bool) -> dict[str, Columns]:
+def _make_tables(cycles: Cycles, ends: bool) -> dict[str, Columns]:
     return {
         "cycles": cycles.columns,
         "summary": cycles.summary(ends=ends),
@@ -123,7 +123,7 @@ def _tables(cycles: Cycles, ends: bool) -> dict[str, Columns]:
 
 
 def _write_three(cycles: Cycles, path: Path, ends: bool) -> None:
-    for name, columns in _tables(cycles, ends).items():
+    for name, columns in _make_tables(cycles, ends).items():
         place = path if name == "cycles" else path.with_suffix(f".{name}{path.suffix}")
         write_table(columns, place)
 
@@ -132,14 +132,14 @@ def _write_excel(cycles: Cycles, path: Path, ends: bool) -> None:
     with require_extra("openpyxl", "excel"):
         from openpyxl import Workbook
     book = Workbook(write_only=True)
-    for name, columns in _tables(cycles, ends).items():
+    for name, columns in _make_tables(cycles, ends).items():
         n = len(next(iter(columns.values()))) if columns else 0
         if n > SHEET_ROWS:
             raise WriteError(path, f"a sheet cannot hold {n} rows of {name}: write .parquet")
         sheet = book.create_sheet(name)
         sheet.append([*columns])
         # Excel stores None as an empty cell, and "" as a text.
-        for row in zip(*map(_cells, columns.values()), strict=True):
+        for row in zip(*map(_format_cells, columns.values()), strict=True):
             sheet.append([None if cell == "" else cell for cell in row])
     sheet = book.create_sheet("provenance")
     for key, value in cycles.provenance.items():
@@ -152,11 +152,11 @@ def _write_excel(cycles: Cycles, path: Path, ends: bool) -> None:
 def _write_matlab(cycles: Cycles, path: Path, ends: bool) -> None:
     from scipy.io import savemat
 
-    tables = _tables(cycles, ends)
+    tables = _make_tables(cycles, ends)
     content = {
-        "cycles": _struct(tables["cycles"]),
-        "summary": _struct(tables["summary"]),
-        "mean_curves": _struct(tables["curves"]),
+        "cycles": _make_struct(tables["cycles"]),
+        "summary": _make_struct(tables["summary"]),
+        "mean_curves": _make_struct(tables["curves"]),
         "curves": cycles.curves,
         "channels": np.array(cycles.channels, object),
         "units": np.array(cycles.units, object),
@@ -166,7 +166,7 @@ def _write_matlab(cycles: Cycles, path: Path, ends: bool) -> None:
         savemat(file, content, long_field_names=True, oned_as="column")
 
 
-def _struct(columns: Columns) -> dict[str, Any]:
+def _make_struct(columns: Columns) -> dict[str, Any]:
     """Columns by names that MATLAB takes; texts as cells."""
     struct: dict[str, Any] = {}
     for name, column in columns.items():

@@ -11,7 +11,7 @@ Bodies that are markers on the skin get the centres of hips and knees as well (`
 magnetic resonance imaging"; or where the file has it (``LHJC``).
 
 *Knee.* A marker on it is beside its centre, which does not matter to an angle about the axis of the
-knee (`hinge_axis`), as long as the ankle is a marker at the same side. Without one, thigh and shank
+knee (`find_hinge_axis`), as long as the ankle is a marker at the same side. Without one, thigh and shank
 are rigid bodies, each fitted to its markers. Both have one point in common, about which they turn
 (Ehrig et al. 2006, "A survey of formal methods for determining the centre of rotation of ball
 joints", section 2.2.2). A knee turns about an axis, so that this point may lie anywhere on it: that
@@ -128,7 +128,7 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     # A skeleton with rotations has its joints at their centres; only markers need this.
     if motion.rotations is not None:
         return motion, dict(joints)
-    centres = _hips(places, marker)
+    centres = _find_hips(places, marker)
     # Without pelvis markers, joints that are named hips serve.
     hips = centres or {
         side: places[:, joints[f"{side}_hip"]] for side in SIDES if f"{side}_hip" in joints
@@ -149,7 +149,7 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
             chosen |= {} if outer is None else {f"{side}_ankle": outer}
         elif ankle is not None and min(map(len, bodies)) >= LEAST:
             ends = hips[side], places[:, ankle]
-            knee = _knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
+            knee = _find_knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
             made |= {} if knee is None else {f"{side}_knee": knee}
     if not made and not centres:
         return motion, chosen
@@ -178,7 +178,7 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     return replace(motion, skeleton=extended, positions=positions), chosen
 
 
-def _hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
+def _find_hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
     """Both centres, from the file or the markers of the pelvis; none where these are not there."""
     given, fronts, backs = (
         [marker.get(f"{side}_{part}", -1) for side in SIDES]
@@ -205,11 +205,11 @@ def _hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
     return {"left": middle + aside, "right": middle - aside}
 
 
-def _knee(
+def _find_knee(
     thigh: Floats, shank: Floats, ends: tuple[Floats, Floats], to_left: Floats
 ) -> Floats | None:
     """(frames, 3): the point about which two bodies turn, in line with hip and ankle."""
-    upper, lower = _poses(thigh), _poses(shank)
+    upper, lower = _find_poses(thigh), _find_poses(shank)
     chosen = np.unique(np.linspace(0, len(thigh) - 1, min(len(thigh), MOST)).astype(np.intp))
     # Evenly spread frames; both rotations and both centres of these only.
     (turned, centre), (other, below) = ((r[chosen], c[chosen]) for r, c in (upper, lower))
@@ -237,7 +237,7 @@ def _knee(
     return np.asarray(at + float(np.median(aside)) * axis)
 
 
-def _poses(markers: Floats) -> tuple[Floats, Floats]:
+def _find_poses(markers: Floats) -> tuple[Floats, Floats]:
     """Rotations (frames, 3, 3) against the middle frame (Kabsch), and places of the middle."""
     # Centred markers (frames, markers, 3); the middle frame is the reference shape.
     centre = markers.mean(axis=1)
@@ -313,7 +313,7 @@ def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
     return np.asarray(np.degrees(np.arctan2(sine, cosine)))
 
 
-def hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats) -> Floats | None:
+def find_hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats) -> Floats | None:
     """Return the axis (frames, 3) of a hinge such as a knee, which is fixed to the upper limb.
 
     The lower limb moves in a plane, as seen from the upper one. The axis is what is most at right

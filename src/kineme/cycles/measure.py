@@ -27,7 +27,7 @@ from kineme.cycles.repetitions import (
     Repetition,
     anchor_repetitions,
     find_repetitions,
-    movement,
+    name_movement,
 )
 from kineme.cycles.table import BY_HAND, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
@@ -116,9 +116,9 @@ def cycles(
     given, tables = _check_inputs(recordings, segments, beside, points)
     check_flag(common, "common")
     check_one_of(align, ALIGNMENTS, "align")
-    names = _names(given)
+    names = _name_files(given)
     # Equal cluster numbers mean nothing across recordings, unless they are common.
-    groups = [_groups(table, "" if common or len(given) == 1 else f"{name}: ")
+    groups = [_group_movements(table, "" if common or len(given) == 1 else f"{name}: ")
               for table, name in zip(tables, names, strict=True)]  # fmt: skip
     measured = [channels_of(recording, channels, beside=beside) for recording in given]
     first = [channel.name for channel in measured[0]]
@@ -133,8 +133,8 @@ def cycles(
         if not isinstance(anchor, str) and len(given) > 1:
             raise ParameterError("seconds of events belong to one recording: name them instead")
         found = anchor_repetitions(found, given, groups, anchor, beside)
-    columns = _columns(found, tables, names, groups)
-    provenance = _provenance(given, tables, found, columns)
+    columns = _make_columns(found, tables, names, groups)
+    provenance = _make_provenance(given, tables, found, columns)
     spans = [(each.recording, each.start, each.stop) for each in found]
     return drop_left_out(_measure(spans, measured, columns, align, points, provenance), tables)
 
@@ -152,7 +152,7 @@ def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
     return replace(cycles, columns={**cycles.columns, "excluded": reasons})
 
 
-def measured_anew(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
+def measure_again(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
     """Return the same cycles of one recording with other channels of it.
 
     As if `kineme.cycles` had measured these, without all that finds the borders.
@@ -201,7 +201,7 @@ def _check_inputs(
     return list(given), list(tables)
 
 
-def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
+def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:
     """Return the files' names without suffix, numbered where there are none, or equal ones.
 
     Equal names of several people are told apart by the person.
@@ -220,12 +220,12 @@ def _names(recordings: Sequence[Motion | Signals]) -> list[str]:
     ]
 
 
-def _groups(table: Segmentation, prefix: str) -> dict[int | str, str]:
-    """By `movement` what its repetitions are summarised with: the label, or the cluster."""
+def _group_movements(table: Segmentation, prefix: str) -> dict[int | str, str]:
+    """By `name_movement` what its repetitions are summarised with: the label, or the cluster."""
     labels: defaultdict[int | str, Counter[str]] = defaultdict(Counter)
     for row in table.primitives:
         if row.kind == "primitive":
-            labels[movement(row)][row.label or str(table.activities.label[row.activity])] += 1
+            labels[name_movement(row)][row.label or str(table.activities.label[row.activity])] += 1
     # The most frequent label of a movement names all of its repetitions.
     return {
         what: counts.most_common(1)[0][0]
@@ -234,7 +234,7 @@ def _groups(table: Segmentation, prefix: str) -> dict[int | str, str]:
     }
 
 
-def _columns(
+def _make_columns(
     found: Sequence[Repetition],
     tables: Sequence[Segmentation],
     names: Sequence[str],
@@ -260,7 +260,7 @@ def _columns(
         "number": np.array(numbers, int),
         "cluster": column(int, lambda each: each.segment.cluster),
         "label": column(str, lambda each: each.segment.label),
-        "group": column(str, lambda each: groups[each.recording][movement(each.segment)]),
+        "group": column(str, lambda each: groups[each.recording][name_movement(each.segment)]),
         "place": column(str, lambda each: each.place),
         "start_frame": start * fps,
         "stop_frame": stop * fps,
@@ -350,7 +350,7 @@ def _measure_cycle(
     ]  # fmt: skip
 
 
-def _provenance(
+def _make_provenance(
     recordings: Sequence[Motion | Signals],
     tables: Sequence[Segmentation],
     found: Sequence[Repetition],

@@ -19,12 +19,12 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
-from kineme.cycles.borders import Run, run_of, shift_to_common_phase, vertex
+from kineme.cycles.borders import Run, find_vertex, run_of, shift_to_common_phase
 from kineme.cycles.channels import channels_of
-from kineme.cycles.events import OFF, STRIKE, foot_events, plain_name
+from kineme.cycles.events import OFF, STRIKE, foot_events, normalize_name
 from kineme.cycles.table import CYCLE, INCOMPLETE, mean_phase
 from kineme.errors import EndEffectorError, MotionError, ParameterError
-from kineme.features import distance_features, pose_features
+from kineme.features import compute_distance_features, pose_features
 from kineme.labels.c3d_events import SAME_S
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
@@ -47,7 +47,7 @@ _EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
 _CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")
 
 Groups = Sequence[Mapping[int | str, Hashable]]
-"""Of each recording: the group of a `movement`. Repetitions of one group begin at one phase."""
+"""Of each recording: the group of a `name_movement`. Repetitions of one group begin at one phase."""
 
 
 @dataclass(frozen=True)
@@ -96,10 +96,10 @@ def find_repetitions(
     members: dict[Hashable, list[tuple[Run, list[Segment]]]] = defaultdict(list)
     for number, table in enumerate(tables):
         dims, comparable = fine[number].values.shape[1], fine[number].comparable
-        for segments in _back_to_back(table):
+        for segments in _list_runs(table):
             frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
             run = run_of(number, np.array(frames) / table.fps)
-            what = movement(segments[0])
+            what = name_movement(segments[0])
             # A run without cluster or label is alone; features that do not compare stay in their
             # recording.
             alone = id(run) if what == "" else -1 if comparable else number
@@ -108,14 +108,14 @@ def find_repetitions(
     features, rates = [each.values for each in fine], [each.rate for each in fine]
     for runs in members.values():
         aligned = shift_to_common_phase([run for run, _ in runs], features, rates)
-        still = _stillness(aligned, fine)
+        still = _measure_stillness(aligned, fine)
         for run, (_, segments) in zip(aligned, runs, strict=True):
             each = _cut_to_activity(run, segments, tables[run.recording])
             found += _trim_pauses(each, fine[run.recording], still)
     return sorted(found, key=lambda each: (each.recording, each.segment.start_frame))
 
 
-def movement(segment: Segment) -> int | str:
+def name_movement(segment: Segment) -> int | str:
     """What repetitions of one movement have in common: the cluster, else the label, if any."""
     return segment.cluster if segment.cluster >= 0 else segment.label
 
@@ -148,7 +148,7 @@ class _FineFeatures:
                 comparable, positions = False, recording.positions
                 # A single point has no distances: its path is compared.
                 is_point = recording.skeleton.n_joints < 2
-                values = positions[:, 0] if is_point else distance_features(positions)[0]
+                values = positions[:, 0] if is_point else compute_distance_features(positions)[0]
         # The mean about each frame, of which every n-th is kept.
         if many > 1:
             values = uniform_filter1d(values, many, axis=0, mode="nearest")[::many]
@@ -171,7 +171,7 @@ class _FineFeatures:
         return np.asarray(np.linalg.norm(np.gradient(steady, axis=0), axis=1) * self.rate)
 
 
-def _back_to_back(table: Segmentation) -> list[list[Segment]]:
+def _list_runs(table: Segmentation) -> list[list[Segment]]:
     """Return the repetitions of one movement in one activity, one after the other without a gap."""
     runs: list[list[Segment]] = []
     for row in table.primitives:
@@ -180,8 +180,8 @@ def _back_to_back(table: Segmentation) -> list[list[Segment]]:
         last = runs[-1][-1] if runs else None
         if (
             last is not None
-            and movement(row) != ""
-            and (movement(last), last.activity) == (movement(row), row.activity)
+            and name_movement(row) != ""
+            and (name_movement(last), last.activity) == (name_movement(row), row.activity)
             and last.stop_frame == row.start_frame
         ):
             runs[-1].append(row)
@@ -225,7 +225,7 @@ def _cut_to_activity(
     return found
 
 
-def _stillness(runs: Sequence[Run], fine: Sequence[_FineFeatures]) -> float:
+def _measure_stillness(runs: Sequence[Run], fine: Sequence[_FineFeatures]) -> float:
     """Return the speed below which repetitions of these runs stand still."""
     total, count = 0.0, 0
     # The root mean square over all frames of all runs; no run is weighed by itself.
@@ -242,7 +242,7 @@ def _trim_pauses(run: list[Repetition], fine: _FineFeatures, still: float) -> li
 
     Standing still counts as a pause where it lasts `PAUSE_S`, on both sides of a border together.
     """
-    trimmed, moves = list(run), [_movement(each, fine, still) for each in run]
+    trimmed, moves = list(run), [_find_movement(each, fine, still) for each in run]
     # Standing still before the first repetition is not a part of it.
     if moves[0][0] - run[0].start >= PAUSE_S:
         trimmed[0] = replace(trimmed[0], start=moves[0][0])
@@ -258,7 +258,7 @@ def _trim_pauses(run: list[Repetition], fine: _FineFeatures, still: float) -> li
     return trimmed
 
 
-def _movement(each: Repetition, fine: _FineFeatures, still: float) -> tuple[float, float]:
+def _find_movement(each: Repetition, fine: _FineFeatures, still: float) -> tuple[float, float]:
     """When the first and the last movement of a repetition are; its ends where there is none."""
     # The frames of `speed` that lie within the repetition.
     first = max(0, int(np.ceil(each.start * fine.rate)))
@@ -280,18 +280,18 @@ def anchor_repetitions(
     extreme = _EXTREME.fullmatch(anchor.strip()) if isinstance(anchor, str) else None
     members: dict[Hashable, list[int]] = {}
     for i, each in enumerate(found):
-        what = movement(each.segment)
+        what = name_movement(each.segment)
         members.setdefault(groups[each.recording].get(what, what), []).append(i)
     starts = np.full(len(found), np.nan)
     if extreme is not None:
         sign = 1.0 if extreme["which"] == "max" else -1.0
-        curves = [_curve(each, extreme["channel"], beside) for each in recordings]
+        curves = [_sample_curve(each, extreme["channel"], beside) for each in recordings]
         # Negative for a minimum, so that the largest value is searched in both cases.
         signed = [(sign * values, fps) for values, fps in curves]
         for rows in members.values():
             starts[rows] = _find_largest([found[i] for i in rows], signed)
     else:
-        times = [_event_times(each, anchor, beside) for each in recordings]
+        times = [_find_event_times(each, anchor, beside) for each in recordings]
         for rows in members.values():
             starts[rows] = _find_nearest([found[i] for i in rows], times)
     anchored = []
@@ -315,7 +315,7 @@ Curve = tuple[Floats, float]
 """Values of a channel, and frames per second."""
 
 
-def _curve(recording: Motion | Signals, name: str, beside: Sequence[Signals]) -> Curve:
+def _sample_curve(recording: Motion | Signals, name: str, beside: Sequence[Signals]) -> Curve:
     channels = channels_of(recording, [name], beside=beside)
     if len(channels) > 1:
         raise ParameterError(f"an anchor is one channel, and {name!r} names {len(channels)}")
@@ -340,14 +340,14 @@ def _find_largest(found: Sequence[Repetition], curves: Sequence[Curve]) -> Float
     phase = share[int(usual[complete].mean(axis=0).argmax())]
     for i, each in enumerate(found):
         values, fps = curves[each.recording]
-        first, last = _window(each, phase)
+        first, last = _find_window(each, phase)
         # Whole frames within the window, limited to the recording.
         frames = np.arange(max(0, int(np.ceil(first * fps))), min(len(values), int(last * fps) + 1))
         if len(frames) and np.isfinite(values[frames]).all():
             frame = int(frames[values[frames].argmax()])
             # An end of the recording has no neighbour for the parabola, which finds a minimum.
             inner = 0 < frame < len(values) - 1
-            shift = vertex(*-values[frame - 1 : frame + 2]) if inner else 0.0
+            shift = find_vertex(*-values[frame - 1 : frame + 2]) if inner else 0.0
             times[i] = (frame + shift) / fps
     return times
 
@@ -363,7 +363,7 @@ def _find_nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Float
     phase = mean_phase(np.concatenate(phases)) / CYCLE
     chosen = np.full(len(found), np.nan)
     for i, each in enumerate(found):
-        first, last = _window(each, phase)
+        first, last = _find_window(each, phase)
         events = times[each.recording]
         inside = events[(events >= first) & (events < last)]
         if len(inside):
@@ -372,27 +372,27 @@ def _find_nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Float
     return chosen
 
 
-def _window(each: Repetition, phase: float) -> tuple[float, float]:
+def _find_window(each: Repetition, phase: float) -> tuple[float, float]:
     """Seconds within half a cycle of a phase of a repetition."""
     length = each.stop - each.start
     return each.start + (phase - 0.5) * length, each.start + (phase + 0.5) * length
 
 
-def _event_times(
+def _find_event_times(
     recording: Motion | Signals, anchor: str | Sequence[float], beside: Sequence[Signals]
 ) -> Floats:
     """Return the seconds of the events of a recording that an anchor names."""
     if not isinstance(anchor, str):
         return np.sort(as_floats(anchor, "anchor").ravel())
     if (crossing := _CROSSING.fullmatch(anchor.strip())) is not None:
-        values, fps = _curve(recording, crossing["channel"], beside)
+        values, fps = _sample_curve(recording, crossing["channel"], beside)
         over = (values - float(crossing["level"])) * (1.0 if crossing["sign"] == ">" else -1.0)
         # Comparisons with nan are False: no crossing is found next to a gap.
         frames = np.flatnonzero((over[:-1] <= 0) & (over[1:] > 0))
         # Where the straight line between both frames crosses the level.
         return (frames + over[frames] / (over[frames] - over[frames + 1])) / fps
-    name, events = plain_name(anchor), recording.provenance.events
-    marked = np.array([at for at, text in events if plain_name(text) == name], np.float64)
+    name, events = normalize_name(anchor), recording.provenance.events
+    marked = np.array([at for at, text in events if normalize_name(text) == name], np.float64)
     if name.endswith((STRIKE, OFF)):
         try:
             found = foot_events(recording).at(name)

@@ -44,7 +44,7 @@ def mean_phase(phases: Floats) -> float:
     return float(np.angle(directions.sum()) / (2 * np.pi) * CYCLE % CYCLE)
 
 
-def phase_differences(differences: Floats) -> Floats:
+def compute_phase_differences(differences: Floats) -> Floats:
     """Differences of places in a cycle, from -50 to 50."""
     # Shifted by half a cycle, so that the modulo leaves -50 to 50 instead of 0 to 100.
     return np.asarray((differences + CYCLE / 2) % CYCLE - CYCLE / 2)
@@ -219,7 +219,7 @@ class Cycles:
                 continue
             curves, duration = self.curves[rows], self.columns["duration_s"][rows]
             # (rows, channels): distance from the median curve; a mean would follow outliers.
-            apart = _distances(curves - np.median(curves, axis=0))
+            apart = _measure_distances(curves - np.median(curves, axis=0))
             # The factor makes a median deviation the standard one of a normal distribution.
             for values in (DEVIATION * np.abs(duration - np.median(duration)), *apart.T):
                 far |= set(rows[values > deviations * np.median(values)].tolist())
@@ -326,7 +326,7 @@ class Cycles:
                 missing = np.full(points, np.nan)
                 mean = curves.mean(axis=0) if n else missing
                 sd = curves.std(axis=0, ddof=1) if n > 1 else missing
-                half = half_width(sd, n)
+                half = compute_half_width(sd, n)
                 blocks.append(
                     {
                         "group": np.full(points, group),
@@ -434,7 +434,7 @@ class Cycles:
         )
 
 
-def half_width(sd: Floats | float, n: int) -> Floats:
+def compute_half_width(sd: Floats | float, n: int) -> Floats:
     """Return by how much a mean of n may be off, with `CONFIDENCE`; nan of fewer than two."""
     from scipy.special import stdtrit
 
@@ -471,7 +471,7 @@ def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
     circular = is_phase(measure)
     if circular:  # as near to their mean as they can be
         middle = mean_phase(values)
-        values = middle + phase_differences(values - middle)
+        values = middle + compute_phase_differences(values - middle)
     mean, sd = float(values.mean()), float(values.std(ddof=1)) if n > 1 else np.nan
     # Of angles a share of the mean says nothing: their zero is chosen.
     cv = sd / mean if measure in ("duration_s", "cadence_per_min") else np.nan
@@ -482,7 +482,7 @@ def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
     return n, mean, sd, cv, median, low, high
 
 
-def _distances(differences: Floats) -> Floats:
+def _measure_distances(differences: Floats) -> Floats:
     """Return the root of the mean square of each curve; what was not recorded does not count."""
     recorded = np.isfinite(differences)
     total = (np.where(recorded, differences, 0.0) ** 2).sum(axis=2)

@@ -16,7 +16,7 @@ from kineme.datasets.actions import ACTIONS, mirror_posture
 from kineme.datasets.figure import ANGLES, joint_rotations
 from kineme.datasets.timeline import Part, phase_of, weight_of
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.kinematics import compute_world_rotations
 
 _HEEL = np.array([1.0, 1.0, -0.4])  # where it is, in units of the way from ankle to ball
 _FLOOR_SHARED = 0.006  # metres of height within which contacts bear together
@@ -55,7 +55,7 @@ def _contacts(skeleton: Skeleton, rotations: Floats, fps: float) -> Floats:
     """(frames, 6, 3): heels, balls and tips of the feet, from a root at the origin."""
     at_origin = np.zeros((len(rotations), 3))
     motion = Motion.from_rotations(skeleton, rotations, fps, at_origin)
-    world = world_rotations(motion.skeleton, motion.rotations)
+    world = compute_world_rotations(motion.skeleton, motion.rotations)
     points = []
     for side in ("Left", "Right"):
         ankle, ball = skeleton.joint(f"{side}Foot"), skeleton.joint(f"{side}ToeBase")

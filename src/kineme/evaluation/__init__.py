@@ -13,7 +13,7 @@ from kineme.evaluation.annotators import (
     fleiss_kappa,
 )
 from kineme.evaluation.comparison import Comparison, Spans, compare
-from kineme.evaluation.label_truth import labelling_of
+from kineme.evaluation.label_truth import make_labelling
 from kineme.evaluation.measures import (
     BorderScore,
     border_ratio,
@@ -64,7 +64,7 @@ __all__ = [
     "evaluate_segmentation",
     "fleiss_kappa",
     "frames_right",
-    "labelling_of",
+    "make_labelling",
     "mutual_information",
     "one_to_one_accuracy",
     "overlap_f1",

@@ -6,7 +6,7 @@ tallied (Bakeman, Quera and Gnisci, Observer agreement for timed-event sequentia
 
 A class is a name, in capitals or small letters. Where people name things differently, or not at
 all, the classes of a second one stand for those of a first by the one-to-one mapping in which most
-frames of all recordings agree (`best_mapping`); for all together, the first of all is meant.
+frames of all recordings agree (`map_clusters`); for all together, the first of all is meant.
 
 Over a folder the kappas count the frames of all recordings together: of two people on those that
 both labelled, of all on those that all labelled. Border F1 is the mean over recordings, and either
@@ -29,11 +29,11 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Ints
 from kineme._version import __version__
 from kineme.errors import KinemeError, ParameterError
-from kineme.evaluation.comparison import Comparison, Spans, best_mapping, runs
-from kineme.evaluation.inputs import comparison
-from kineme.evaluation.label_truth import truth_of
+from kineme.evaluation.comparison import Comparison, Spans, find_runs, map_clusters
+from kineme.evaluation.inputs import make_comparison
+from kineme.evaluation.label_truth import make_truth
 from kineme.evaluation.measures import border_score, cohen_kappa
-from kineme.evaluation.score import finite, plain
+from kineme.evaluation.score import to_finite, to_plain
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 from kineme.labels.collections import Extent, LabelSource
 from kineme.segments.segmentation import Segmentation
@@ -137,18 +137,18 @@ class AnnotatorAgreement:
             "annotators": self.annotators,
             "by": self.by,
             "fleiss_kappa": self.fleiss_kappa,
-            "pairs": [plain(pair._asdict()) for pair in self.pairs],
+            "pairs": [to_plain(pair._asdict()) for pair in self.pairs],
             "recordings": [
                 {
                     "recording": one.recording,
                     "annotators": one.annotators,
-                    "fleiss_kappa": finite(one.fleiss_kappa),
+                    "fleiss_kappa": to_finite(one.fleiss_kappa),
                     "differences": [each._asdict() for each in one.differences],
                 }
                 for one in self.recordings
             ],
         }
-        return json.dumps(plain(content), ensure_ascii=False)
+        return json.dumps(to_plain(content), ensure_ascii=False)
 
 
 def fleiss_kappa(counts: ArrayLike) -> float:
@@ -231,7 +231,7 @@ def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
         raise ParameterError("no recording has labels of two people")
     people = tuple(dict.fromkeys(who for sides in labelled.values() for who in sides))
     truths = {
-        name: {who: _truth(found) for who, found in sides.items()}
+        name: {who: _make_truth(found) for who, found in sides.items()}
         for name, sides in several.items()
     }
     # Names are compared only if people use the same ones; else clusters are mapped.
@@ -240,13 +240,15 @@ def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
     pairs = tuple(sides_by.pair(first, second) for first, second in combinations(people, 2))
     stacks = sides_by.stacks(people[0])
     all_of = [stacks[name] for name, sides in truths.items() if len(sides) == len(people)]
-    together = fleiss_kappa(_counts(np.concatenate(all_of, axis=1))) if all_of else math.nan
+    together = (
+        fleiss_kappa(_count_annotators(np.concatenate(all_of, axis=1))) if all_of else math.nan
+    )
     recordings = tuple(
         RecordingAgreement(
             name,
             tuple(sides),
-            fleiss_kappa(_counts(stacks[name])),
-            tuple(_differences(tuple(sides.values()), stacks[name])),
+            fleiss_kappa(_count_annotators(stacks[name])),
+            tuple(_find_differences(tuple(sides.values()), stacks[name])),
         )
         for name, sides in truths.items()
     )
@@ -299,7 +301,10 @@ class _Sides:
 
     def _numbered(self, who: str, truth: Truth) -> Ints:
         labelling = truth.labelling()
-        keys = [("" if self._by == "names" else who, _class(label)) for label in labelling.labels]
+        keys = [
+            ("" if self._by == "names" else who, _normalize_label(label))
+            for label in labelling.labels
+        ]
         # Numbers are shared by all recordings; by mapping, each person has their own.
         values = [
             UNLABELLED
@@ -326,17 +331,17 @@ class _Sides:
 
     def _mapping(self, compared: Sequence[Comparison]) -> Mapping[int, int]:
         if self._by == "mapping":
-            return best_mapping(compared)
+            return map_clusters(compared)
         return {number: number for number in (UNLABELLED, *self._numbers.values())}
 
 
-def _truth(found: Segmentation) -> Truth:
-    n_frames, fps = comparison(found)
-    truth = truth_of(found, n_frames=n_frames, fps=fps)
+def _make_truth(found: Segmentation) -> Truth:
+    n_frames, fps = make_comparison(found)
+    truth = make_truth(found, n_frames=n_frames, fps=fps)
     return Truth.from_labelling(truth.labelling().merged())
 
 
-def _class(label: str) -> str:
+def _normalize_label(label: str) -> str:
     """Return a label as it is compared."""
     return " ".join(label.split()).casefold()
 
@@ -349,7 +354,7 @@ def _have_names_in_common(labelled: Labelled, truths: Truths) -> bool:
             rows = labelled[recording][who].activities
             if any(row.kind == "activity" and not row.label for row in rows):
                 return False
-            found = {_class(label) for label in truth.labels} - {TRANSITION}
+            found = {_normalize_label(label) for label in truth.labels} - {TRANSITION}
             names.setdefault(who, set()).update(found)
     pairs = combinations(names.values(), 2)
     return all(len(a & b) >= SHARED * min(len(a), len(b)) for a, b in pairs)
@@ -362,27 +367,27 @@ def _map_classes(classes: Ints, mapping: Mapping[int, int]) -> Ints:
     return np.array([mapping.get(int(n), int(n)) for n in numbers], np.int64)[where]
 
 
-def _counts(stack: Ints) -> Ints:
+def _count_annotators(stack: Ints) -> Ints:
     """How many annotators (rows) put each frame (column) into each class: frames x classes."""
     # Rows of the stack are annotators, columns frames; the sum counts annotators.
     classes = np.unique(stack)
     return np.stack([(stack == each).sum(axis=0) for each in classes], axis=1)
 
 
-def _differences(sides: Sequence[Truth], stack: Ints) -> Iterator[Difference]:
+def _find_differences(sides: Sequence[Truth], stack: Ints) -> Iterator[Difference]:
     """Where the rows of a stack are not equal, and what each side says there."""
     labels = [side.labelling().per_frame() for side in sides]
     fps, least = sides[0].fps, sides[0].tolerance_s * sides[0].fps
     # Numbers of the different columns: a run of one number says the same throughout.
     _, columns = np.unique(stack, axis=1, return_inverse=True)
-    for run in runs(columns.ravel()):
+    for run in find_runs(columns.ravel()):
         # No longer than the tolerance of borders: a border that is a little off is no difference.
         if run.stop - run.start > least and (stack[:, run.start] != stack[0, run.start]).any():
             names = ("" if (name := each[run.start]) == TRANSITION else name for each in labels)
             yield Difference(run.start / fps, run.stop / fps, tuple(names))
 
 
-def extent_of(path: Path) -> Extent:
+def read_extent(path: Path) -> Extent:
     """Return the extent of the recording in a file."""
     from kineme.formats import read
 
@@ -390,13 +395,13 @@ def extent_of(path: Path) -> Extent:
     return Extent(recording.n_frames, recording.fps, recording.provenance.clock)
 
 
-def labels_of_annotators(
+def find_labels(
     sources: Mapping[str, Mapping[Path, LabelSource]],
-    extent: Callable[[Path], Extent] = extent_of,
+    extent: Callable[[Path], Extent] = read_extent,
 ) -> tuple[dict[str, dict[str, Segmentation]], list[str]]:
     """Return the labels of the recordings for which two people or more have some.
 
-    The sources are by annotator and recording, see `kineme.labels.collections.labels_of`; the
+    The sources are by annotator and recording, see `kineme.labels.collections.find_labels`; the
     labels by recording and annotator: the names of recordings, or their paths where names come
     again. With them comes a sentence on each that could not be read.
     """
@@ -427,7 +432,7 @@ def labels_of_annotators(
     return labelled, failures
 
 
-def annotator_names(paths: Sequence[Path]) -> list[str]:
+def name_annotators(paths: Sequence[Path]) -> list[str]:
     """What tells the files or folders of people apart: their names, with folders where needed.
 
     Examples

@@ -30,7 +30,7 @@ from scipy.optimize import linear_sum_assignment
 
 from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
-from kineme.evaluation.label_truth import add_repetitions, labelling_of, truth_of
+from kineme.evaluation.label_truth import add_repetitions, make_labelling, make_truth
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling, Truth
 from kineme.labels.spans import text_of
 from kineme.segments.segmentation import Segmentation
@@ -178,7 +178,7 @@ class Comparison:
     @cached_property
     def mapped(self) -> Ints:
         """Class that each frame's cluster stands for; below 0 where it stands for none."""
-        mapping = best_mapping([self]) if self.mapping is None else self.mapping
+        mapping = map_clusters([self]) if self.mapping is None else self.mapping
         clusters, where = np.unique(self.found, return_inverse=True)
         # Clusters without a class get numbers of their own, below that of transitions.
         classes = [mapping.get(int(c), -2 - i) for i, c in enumerate(clusters)]
@@ -204,8 +204,8 @@ class Comparison:
         """Both sides in intervals."""
         if self.intervals is not None:
             return self.intervals
-        found = _labelling(self.found_runs, self.fps)
-        truth = _labelling(self.true_runs, self.fps)
+        found = _make_labelling(self.found_runs, self.fps)
+        truth = _make_labelling(self.true_runs, self.fps)
         actions = Truth.from_labelling(truth, tolerance_s=LABELS_TOLERANCE_S)
         return Spans(actions, found, found)
 
@@ -257,17 +257,17 @@ class Comparison:
     @cached_property
     def true_runs(self) -> list[Run]:
         """Return the runs of one class."""
-        return runs(self.truth)
+        return find_runs(self.truth)
 
     @cached_property
     def mapped_runs(self) -> list[Run]:
         """Return the runs of clusters that stand for one class."""
-        return runs(self.mapped)
+        return find_runs(self.mapped)
 
     @cached_property
     def found_runs(self) -> list[Run]:
         """Return the runs of one cluster."""
-        return runs(self.found)
+        return find_runs(self.found)
 
     def once(self, measure: Callable[[Comparison], R]) -> R:
         """What a function gives of this comparison, computed once for all scores that ask."""
@@ -328,15 +328,15 @@ def compare(
         UNLABELLED if row.kind == "transition" else row.cluster if row.cluster >= 0 else lonely + i
         for i, row in enumerate(found.activities)
     ]
-    labels, clusters = _spread(truth, classes_of_rows), _spread(found, groups)
+    labels, clusters = _spread_labels(truth, classes_of_rows), _spread_labels(found, groups)
     counted = labels != UNLABELLED
     if not counted.any():
         raise ParameterError("the labels say nothing of this recording: every frame is unlabelled")
     # Frames without a label are cut out of both sides.
     compared = Comparison(labels[counted], clusters[counted], found.fps)
     spans = compared.spans
-    single = labelling_of(found.primitives or found.activities, fps=truth.fps)
-    actions = truth_of(truth, n_frames=truth.n_frames, fps=truth.fps)
+    single = make_labelling(found.primitives or found.activities, fps=truth.fps)
+    actions = make_truth(truth, n_frames=truth.n_frames, fps=truth.fps)
     intervals = replace(
         spans,
         # Primitives without the frames that were cut out; repetitions are counted on every frame.
@@ -346,7 +346,7 @@ def compare(
     return replace(compared, intervals=intervals)
 
 
-def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
+def map_clusters(comparisons: Sequence[Comparison]) -> dict[int, int]:
     """Return the class of each cluster by which most frames of all the recordings are right.
 
     One-to-one: of more clusters than classes, those that would add least stand for none.
@@ -365,13 +365,13 @@ def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
         mapping = {UNLABELLED: UNLABELLED}
         free = (found != UNLABELLED) & (truth != UNLABELLED)
         truth, found = truth[free], found[free]
-    clusters, classes, frames = contingency(found, truth)
+    clusters, classes, frames = count_frames(found, truth)
     # Hungarian method: the assignment of clusters to classes with the most common frames.
     pairs = zip(*linear_sum_assignment(frames, maximize=True), strict=True)
     return mapping | {int(clusters[row]): int(classes[column]) for row, column in pairs}
 
 
-def contingency(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
+def count_frames(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
     """Clusters, classes, and how many frames are of each cluster (row) and class (column)."""
     clusters, given = np.unique(found, return_inverse=True)
     classes, true = np.unique(truth, return_inverse=True)
@@ -381,7 +381,7 @@ def contingency(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
     return clusters, classes, frames
 
 
-def runs(labels: ArrayLike) -> list[Run]:
+def find_runs(labels: ArrayLike) -> list[Run]:
     """Return the runs of equal labels, in order.
 
     Examples
@@ -395,12 +395,12 @@ def runs(labels: ArrayLike) -> list[Run]:
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
 
 
-def _labelling(found: Sequence[Run], fps: float) -> Labelling:
+def _make_labelling(found: Sequence[Run], fps: float) -> Labelling:
     """Runs as intervals; the number of a label is its name, that of transitions, too."""
     borders = [*(run.start for run in found), found[-1].stop]
     return Labelling(np.array(borders), tuple(f"{run.label}" for run in found), fps)
 
 
-def _spread(segmentation: Segmentation, values: Sequence[int]) -> Ints:
+def _spread_labels(segmentation: Segmentation, values: Sequence[int]) -> Ints:
     rows = segmentation.activities
     return np.repeat(np.asarray(values, np.int64), rows.stop_frame - rows.start_frame)

@@ -24,8 +24,8 @@ from typing import Any, Literal
 from kineme._util.parallel import defer_interrupt, make_process_pool
 from kineme._version import __version__
 from kineme.errors import KinemeError, KinemeWarning, MotionError, ParameterError, ReadError
-from kineme.evaluation.comparison import Comparison, best_mapping, compare
-from kineme.evaluation.score import Ratio, plain, pool_scores, results_of, scores, value_of
+from kineme.evaluation.comparison import Comparison, compare, map_clusters
+from kineme.evaluation.score import Ratio, compute_results, get_value, pool_scores, scores, to_plain
 from kineme.formats import ReadOptions, read
 from kineme.labels.collections import LabelSource
 from kineme.methods.presets import PRESETS
@@ -33,7 +33,7 @@ from kineme.recordings.motion import Motion
 from kineme.recordings.signals import Signals
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.channel_samples import ChannelSamples, channel_samples
+from kineme.transfer.channel_samples import ChannelSamples, compute_channel_samples
 from kineme.transfer.sharing import share_by_samples, share_clusters
 
 Mapped = Literal["recording", "folder"]
@@ -62,7 +62,7 @@ class Evaluated:
     @property
     def scores(self) -> dict[str, float]:
         """Return the scores of this recording by name."""
-        return {name: value_of(result) for name, result in self.results.items()}
+        return {name: get_value(result) for name, result in self.results.items()}
 
 
 @dataclass(frozen=True)
@@ -100,13 +100,13 @@ class FolderScores:
         """Everything as one JSON object; scores that are not defined are null."""
         methods = {
             method: {
-                "scores": plain(self.pool_scores(method)),
+                "scores": to_plain(self.pool_scores(method)),
                 "recordings": [
                     {"recording": one.recording, "error": one.error}
                     if one.error
                     else {
                         "recording": one.recording,
-                        "scores": plain(one.scores),
+                        "scores": to_plain(one.scores),
                         "seconds": one.seconds,
                         "notes": list(one.notes),
                     }
@@ -135,7 +135,7 @@ def evaluate_folder(
     Parameters
     ----------
     labels : Mapping of Path to LabelSource
-        The recordings and where their labels are, see `kineme.labels.collections.labels_of`.
+        The recordings and where their labels are, see `kineme.labels.collections.find_labels`.
     methods : sequence of str
         Names of methods, in the order of the tables.
     mapping : {"recording", "folder"}
@@ -182,7 +182,7 @@ def evaluate_folder(
         for name in methods
     ]
     answers: dict[Job, Answer] = {}
-    for done, (job, answer) in enumerate(answers_to(jobs, processes), 1):
+    for done, (job, answer) in enumerate(work_off(jobs, processes), 1):
         answers[job] = answer
         if progress is not None:
             progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
@@ -192,21 +192,21 @@ def evaluate_folder(
         if progress is not None and mapping == "folder":
             progress(f"joining the clusters of all recordings, {name}")
         if mapping == "folder":
-            compared = joined_comparisons(of_method, n_clusters)
+            compared = join_comparisons(of_method, n_clusters)
         else:
             compared = [answer.compared for _, answer in of_method]
         results[name] = [
             Evaluated(job.path.name, error=answer.error)
             if one is None
             else Evaluated(
-                job.path.name, answer.seconds, answer.length_s, results_of(one), answer.notes
+                job.path.name, answer.seconds, answer.length_s, compute_results(one), answer.notes
             )
             for (job, answer), one in zip(of_method, compared, strict=True)
         ]
     return FolderScores(results, mapping)
 
 
-def joined_comparisons(
+def join_comparisons(
     answers: Sequence[tuple[Job, Answer]], n_clusters: int | None = None
 ) -> list[Comparison | None]:
     """Return the comparisons of one method by one mapping of joined clusters; None of failures."""
@@ -215,7 +215,7 @@ def joined_comparisons(
         i: compare(sides.truth, found, classes=classes)
         for i, (sides, found) in _join_clusters(answers, n_clusters).items()
     }
-    mapping = best_mapping(list(compared.values())) if compared else {}
+    mapping = map_clusters(list(compared.values())) if compared else {}
     mapped = {i: replace(one, mapping=mapping) for i, one in compared.items()}
     return [mapped.get(i) for i in range(len(answers))]
 
@@ -238,7 +238,7 @@ def _join_clusters(
         shared = _share_clusters(jobs, sides, n_clusters)
         for i, side, one in zip(rows, sides, shared, strict=True):
             # Numbers of different kinds must not meet.
-            found[i] = side, _numbered_on(one, following)
+            found[i] = side, _renumber(one, following)
         following += 1 + max(int(one.table.cluster.max()) for one in shared)
     return dict(sorted(found.items()))
 
@@ -257,12 +257,12 @@ def _share_clusters(
     except MotionError:  # no body whose movements could be compared: nothing is one cluster
         apart, following = [], 0
         for found in segmentations:
-            apart.append(_numbered_on(found, following))
+            apart.append(_renumber(found, following))
             following += 1 + int(found.table.cluster.max())
         return apart
 
 
-def _numbered_on(found: Segmentation, first: int) -> Segmentation:
+def _renumber(found: Segmentation, first: int) -> Segmentation:
     """Return the same with clusters numbered from a number on."""
     return renumber_clusters(found, {c: c + first for c in found.table.cluster.tolist() if c >= 0})
 
@@ -368,16 +368,16 @@ class Answer:
     error: str = ""
 
 
-def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
+def work_off(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
     """Yield each job and its answer, as they come."""
     if processes == 1:
         for job in jobs:
-            yield job, _answer(job)
+            yield job, _try_job(job)
         return
     pool = make_process_pool(processes)
     try:
         with defer_interrupt():
-            waiting: dict[Future[Answer], Job] = {pool.submit(_answer, job): job for job in jobs}
+            waiting: dict[Future[Answer], Job] = {pool.submit(_try_job, job): job for job in jobs}
         for future in as_completed(waiting):
             failure = future.exception()
             answer = future.result() if failure is None else _describe_failure(failure)
@@ -387,16 +387,16 @@ def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answe
         pool.shutdown(cancel_futures=True)  # none is left, or nobody asks any more
 
 
-def _answer(job: Job) -> Answer:
+def _try_job(job: Job) -> Answer:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", KinemeWarning)
-            return worked_out(job)
+            return run_job(job)
     except (KinemeError, ValueError, ArithmeticError, MemoryError) as error:
         return _describe_failure(error)
 
 
-def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
+def run_job(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
     """Return what comes out of a job; raises what its method raises, and times it by this clock."""
     recording = job.read()
     truth = job.source.of(
@@ -411,7 +411,7 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     compared = compare(truth, found, classes=classes)
     sides = None
     if job.joins:
-        samples = channel_samples(recording) if isinstance(recording, Signals) else None
+        samples = compute_channel_samples(recording) if isinstance(recording, Signals) else None
         # The hierarchy is large and is not needed for joining.
         sides = Sides(truth, replace(found, hierarchy=None), samples)
     unmet = (str(note) for note in recording.provenance.notes if note.startswith(UNMET))

@@ -23,9 +23,9 @@ import numpy as np
 from kineme._util.json import decode_json
 from kineme.datasets.annotated_trials import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.evaluation.comparison import Comparison, runs
-from kineme.evaluation.label_truth import add_repetitions, truth_of
-from kineme.evaluation.score import comparison_of, results_of, value_of
+from kineme.evaluation.comparison import Comparison, find_runs
+from kineme.evaluation.label_truth import add_repetitions, make_truth
+from kineme.evaluation.score import compare_with_truth, compute_results, get_value
 from kineme.evaluation.truth import UNLABELLED, Truth, check_length, round_half_up
 from kineme.labels.registry import read_content
 from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
@@ -52,7 +52,7 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
     ``fps`` is that of labels which count frames, if not the result's. What is unusual about the
     labels is a `KinemeWarning`.
     """
-    n_frames, rate = comparison(found)
+    n_frames, rate = make_comparison(found)
     label_format, content = read_content(path)
     try:
         if isinstance(content, Labels):
@@ -67,7 +67,7 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
             if unusual:
                 warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
         check_length(content.n_frames, content.fps, found.n_frames, found.fps)
-        return truth_of(add_repetitions(content), n_frames=n_frames, fps=rate)
+        return make_truth(add_repetitions(content), n_frames=n_frames, fps=rate)
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
 
@@ -84,7 +84,7 @@ def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
     1.0
     """
     compared = _compare_to_truth(truth, found)
-    scores = {} if compared is None else _scores(compared)
+    scores = {} if compared is None else _compute_scores(compared)
     return {name: value for name, value in scores.items() if isfinite(value)}
 
 
@@ -110,8 +110,8 @@ def differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, f
     wrong = (compared.truth != compared.mapped) & (compared.truth != UNLABELLED)
     return [
         (run.start / compared.fps, run.stop / compared.fps)
-        for run in runs(wrong)
-        # `runs` of a mask: label 1 where it is true.
+        for run in find_runs(wrong)
+        # `find_runs` of a mask: label 1 where it is true.
         if run.label and run.stop - run.start > least
     ]
 
@@ -120,15 +120,17 @@ def _compare_to_truth(truth: Segmentation, found: Segmentation) -> Comparison | 
     """Both at the rate of comparison; None where the truth has no activity."""
     if not (truth.activities.kind == "activity").any():
         return None
-    n_frames, fps = comparison(found)
-    return comparison_of(truth_of(add_repetitions(truth), n_frames=n_frames, fps=fps), found)
+    n_frames, fps = make_comparison(found)
+    return compare_with_truth(make_truth(add_repetitions(truth), n_frames=n_frames, fps=fps), found)
 
 
-def _scores(compared: Comparison) -> dict[str, float]:
-    return {name: value_of(one) for name, one in results_of(compared.without_silence()).items()}
+def _compute_scores(compared: Comparison) -> dict[str, float]:
+    return {
+        name: get_value(one) for name, one in compute_results(compared.without_silence()).items()
+    }
 
 
-def comparison(found: Segmentation) -> tuple[int, float]:
+def make_comparison(found: Segmentation) -> tuple[int, float]:
     """Frames and rate at which a result is compared: 30 Hz, or its own if lower."""
     rate = min(FPS, found.fps)
     # Frames that fit up to the last one; the small number guards against rounding.
@@ -137,7 +139,7 @@ def comparison(found: Segmentation) -> tuple[int, float]:
 
 def score(truth: Truth, found: Segmentation) -> dict[str, float]:
     """Return every score, of a truth at the rate of comparison."""
-    return _scores(comparison_of(truth, found))
+    return _compute_scores(compare_with_truth(truth, found))
 
 
 def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Truth]:
@@ -149,7 +151,7 @@ def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Tr
     found = {}
     for name, rows in read_actions(path).items():
         try:
-            found[name] = _trial_truth(rows, fps)
+            found[name] = _find_trial_truth(rows, fps)
         except ParameterError as error:
             raise ReadError(path, f"trial {name}: {error}") from error
     return found
@@ -184,7 +186,7 @@ def is_annotations(path: Path) -> bool:
     return isinstance(content, dict) and "trials" in content
 
 
-def _trial_truth(rows: list[Action], fps: float) -> Truth:
+def _find_trial_truth(rows: list[Action], fps: float) -> Truth:
     earliest, mean, latest = (
         # Marks count frames from 1. The last row ends with the recording, and has no border.
         round_half_up(np.array([row[i] for row in rows[:-1]]) * (fps / TRIAL_FPS)) - 1

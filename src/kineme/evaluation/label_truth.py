@@ -14,7 +14,7 @@ import numpy as np
 
 from kineme.evaluation.truth import TRANSITION, Labelling, Truth
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment, SegmentTable, kind_of
+from kineme.segments.table import COLUMNS, Segment, SegmentTable, choose_kind
 
 Count = int | None
 
@@ -37,10 +37,10 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
     """
     rows = list(labels.activities)
     origin = labels.provenance.get("labels", {})
-    given = _counts(labels)
+    given = _count_repetitions(labels)
     single = origin.get("level") == "primitive"
-    groups = _groups(rows, pauses=single)
-    inner = list(labels.primitives) or _repetitions(rows, groups, given, single=single)
+    groups = _group_rows(rows, pauses=single)
+    inner = list(labels.primitives) or _make_repetitions(rows, groups, given, single=single)
     # A sum is known only if each row's count is.
     known = [[given[i] for i in group if not _is_transition(rows[i])] for group in groups]
     counts: list[Count] = [
@@ -64,7 +64,7 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
     )
 
 
-def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
+def make_truth(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
     """Return the activities of a segmentation as a truth at a rate.
 
     Transitions are uncertain borders.
@@ -73,9 +73,9 @@ def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
     provenance, and repetitions the primitives, see `add_repetitions`.
     """
     rows = truth.activities
-    clusters = labelling_of(rows, fps=truth.fps)
+    clusters = make_labelling(rows, fps=truth.fps)
     names = [
-        TRANSITION if _is_transition(row) else _class(row.label) or name
+        TRANSITION if _is_transition(row) else _name_class(row.label) or name
         for row, name in zip(rows, clusters.labels, strict=True)
     ]
     # Numbered, so that the rows that remain at the new rate can be told.
@@ -83,15 +83,15 @@ def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
     numbered = numbered.at(frames=n_frames, fps=fps)
     kept = [int(label) for label in numbered.labels]  # the others vanished at this rate
     labels = replace(numbered, labels=tuple(names[i] for i in kept))
-    counts = _counts(truth)
+    counts = _count_repetitions(truth)
     actions = Truth.from_labelling(labels, counts=[counts[i] for i in kept])
     if not len(truth.primitives):
         return actions
-    repetitions = labelling_of(truth.primitives, fps=truth.fps).at(frames=n_frames, fps=fps)
+    repetitions = make_labelling(truth.primitives, fps=truth.fps).at(frames=n_frames, fps=fps)
     return replace(actions, repetitions=repetitions)
 
 
-def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
+def make_labelling(rows: SegmentTable, *, fps: float) -> Labelling:
     """Return the clusters of one level of a segmentation, as labels.
 
     Transitions are `TRANSITION`; what is in no cluster goes by its label, and without one
@@ -122,20 +122,20 @@ def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
         if row.kind == "transition"
         else f"{row.cluster}"
         if row.cluster >= 0
-        else _class(row.label) or f"~{i}"
+        else _name_class(row.label) or f"~{i}"
         for i, row in enumerate(rows)
     ]
     return Labelling(np.append(rows.start_frame, rows.stop_frame[-1]), tuple(labels), fps)
 
 
-def _counts(labels: Segmentation) -> Sequence[Count]:
+def _count_repetitions(labels: Segmentation) -> Sequence[Count]:
     """Repetitions of each row of the activity level."""
     counts: Sequence[Count] = labels.provenance.get("labels", {}).get("counts", ())
     rows = len(labels.activities)
     return counts if len(counts) == rows else [None] * rows  # edited since, or none at all
 
 
-def _class(label: str) -> str:
+def _name_class(label: str) -> str:
     """Return a label as the name of a class, also where people call one what belongs to none."""
     return f"{label} (activity)" if label == TRANSITION else label
 
@@ -151,7 +151,7 @@ def _name(row: Segment) -> str:
     return row.label or (f"cluster {row.cluster}" if row.cluster >= 0 else "")
 
 
-def _groups(rows: Sequence[Segment], *, pauses: bool) -> list[list[int]]:
+def _group_rows(rows: Sequence[Segment], *, pauses: bool) -> list[list[int]]:
     """Numbers of the rows that are one activity, or one transition."""
     groups: list[list[int]] = []
     for i, row in enumerate(rows):
@@ -172,7 +172,7 @@ def _is_pause(before: Segment, between: Segment, after: Segment) -> bool:
     return equal and between.duration_s <= shorter
 
 
-def _repetitions(
+def _make_repetitions(
     rows: Sequence[Segment],
     groups: Sequence[Sequence[int]],
     given: Sequence[Count],
@@ -186,7 +186,7 @@ def _repetitions(
         cut = not _is_transition(first) and all(given[i] is None for i in group)
         if cut and (single or len(group) > 1):
             for row in (rows[i] for i in group):
-                kind = kind_of("primitive", transition=_is_transition(row))
+                kind = choose_kind("primitive", transition=_is_transition(row))
                 inner.append(replace(row, level="primitive", kind=kind))
         else:  # nobody says
             # Primitives cover the whole recording, so the rest is a transition.

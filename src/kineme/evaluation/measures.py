@@ -30,8 +30,8 @@ from numpy.typing import ArrayLike
 from sklearn.metrics import adjusted_rand_score, normalized_mutual_info_score
 
 from kineme._util.arrays import Floats, Ints
-from kineme.evaluation.comparison import Comparison, Run, contingency
-from kineme.evaluation.score import Ratio, Score, one_of
+from kineme.evaluation.comparison import Comparison, Run, count_frames
+from kineme.evaluation.score import Ratio, Score, choose_number
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 
 OVERLAPS = (10, 25, 50)
@@ -131,7 +131,7 @@ def cohen_kappa(compared: Comparison) -> float:
     >>> cohen_kappa(Comparison([0, 0, 1, 1], [4, 4, 4, 4], fps=1))
     0.0
     """
-    found, true, frames = contingency(compared.mapped, compared.truth)
+    found, true, frames = count_frames(compared.mapped, compared.truth)
     # Places of the classes that both sides have.
     row, column = np.nonzero(found[:, None] == true)
     shares = frames / frames.sum()
@@ -209,7 +209,7 @@ def overlap_f1(compared: Comparison, *, percent: float) -> Ratio:
     >>> overlap_f1(Comparison([0, 0, 1, 1], [4, 6, 6, 6], fps=1), percent=50).value
     1.0
     """
-    hits = _hits(compared.true_runs, compared.mapped_runs, percent / 100)
+    hits = _count_hits(compared.true_runs, compared.mapped_runs, percent / 100)
     return Ratio(2 * hits, len(compared.true_runs) + len(compared.mapped_runs))
 
 
@@ -234,7 +234,7 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
     (0.0, 1.0)
     """
     truth, primitives = compared.repetitions
-    starts, stops = _single(primitives)
+    starts, stops = _find_ends(primitives)
     # A repetition belongs to the action that its middle lies in.
     found = np.histogram((starts + stops) / 2, bins=truth.at_means().borders)[0]
     # There are no counts where the truth knows none.
@@ -243,7 +243,7 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
     return (float(np.mean(errors)), float(np.mean(np.array(errors) == 0))) if errors else None
 
 
-def _hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
+def _count_hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
     """Return how many true segments are found."""
     # Columns of the runs: label, start, stop.
     labels, starts, stops = np.array(true).T
@@ -284,7 +284,7 @@ def border_score(compared: Comparison) -> BorderScore:
     >>> border_score(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10)).f1
     1.0
     """
-    truth, found = compared.spans.actions, border_frames(compared.spans.activities)
+    truth, found = compared.spans.actions, find_border_frames(compared.spans.activities)
     if not truth.mean.size + found.size:
         return BorderScore(1.0, 1.0, 1.0)
     # The tolerance beyond the span in which people put the border, in frames.
@@ -307,7 +307,7 @@ def repetition_f1(compared: Comparison) -> Ratio | None:
     if truth.repetitions is None:
         return None
     ends = truth.at_means().borders
-    starts, stops = _single(truth.repetitions)
+    starts, stops = _find_ends(truth.repetitions)
     # Action of each repetition, by its middle.
     actions = np.searchsorted(ends, (starts + stops) / 2, "right")
     # Neighbouring repetitions of one action have a border between them.
@@ -317,7 +317,7 @@ def repetition_f1(compared: Comparison) -> Ratio | None:
     lengths = np.minimum((stops - starts)[before], (stops - starts)[before + 1])
     slack = np.minimum(REPETITION_TOLERANCE_S * truth.fps, REPETITION_TOLERANCE * lengths)
 
-    first, last = _single(primitives)
+    first, last = _find_ends(primitives)
     found = (last[:-1] + first[1:]) / 2
     # Only within actions whose repetitions people cut.
     found = found[np.isin(np.searchsorted(ends, found, "right"), actions)]
@@ -333,7 +333,7 @@ def repetition_f1(compared: Comparison) -> Ratio | None:
     return Ratio(2 * len(hits), total) if total else None
 
 
-def border_frames(found: Labelling) -> Floats:
+def find_border_frames(found: Labelling) -> Floats:
     """Where the result changes from one thing to another, frames.
 
     A transition shorter than 1 s between two others gives its middle alone.
@@ -385,7 +385,7 @@ def border_ratio(compared: Comparison) -> Ratio:
     >>> border_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
     Ratio(part=3, total=1)
     """
-    found = border_frames(compared.spans.activities)
+    found = find_border_frames(compared.spans.activities)
     return Ratio(found.size, compared.spans.actions.mean.size)
 
 
@@ -415,7 +415,7 @@ def cluster_ratio(compared: Comparison) -> Ratio:
     return Ratio(*map(len, sides))
 
 
-def _single(repetitions: Labelling) -> tuple[Ints, Ints]:
+def _find_ends(repetitions: Labelling) -> tuple[Ints, Ints]:
     """Where repetitions start and stop."""
     kept = np.array([label != TRANSITION for label in repetitions.labels])
     return repetitions.starts[kept], repetitions.stops[kept]
@@ -456,15 +456,15 @@ SCORES = (
         for percent in OVERLAPS
     ),
     Score("count_error", "count error", "repetitions too many or too few", "repetitions",
-          one_of(count_errors, 0)),
+          choose_number(count_errors, 0)),
     Score("count_exact", "counted exactly", "share of actions counted right", "repetitions",
-          one_of(count_errors, 1)),
+          choose_number(count_errors, 1)),
     Score("border_precision", "border precision", "share of found borders that are right",
-          "borders", one_of(border_score, 0)),
+          "borders", choose_number(border_score, 0)),
     Score("border_recall", "border recall", "share of true borders that are found",
-          "borders", one_of(border_score, 1)),
+          "borders", choose_number(border_score, 1)),
     Score("border_f1", "border F1", "harmonic mean of border precision and recall",
-          "borders", one_of(border_score, 2)),
+          "borders", choose_number(border_score, 2)),
     Score("covering", "covering", "overlap of true segments with found ones", "borders", covering),
     Score("border_ratio", "borders, found / true", "how many, short transitions being one",
           "borders", border_ratio),

@@ -30,7 +30,7 @@ from kineme._util.files import atomic_write
 from kineme._version import __version__
 from kineme.errors import KinemeError, KinemeWarning, WriteError
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.label_truth import labelling_of
+from kineme.evaluation.label_truth import make_labelling
 from kineme.evaluation.truth import Labelling, Truth
 from kineme.formats.delimited import as_text
 from kineme.segments.segmentation import Segmentation
@@ -153,12 +153,12 @@ def register(new: Score, *, replace: bool = False) -> None:
     SCORES.register(new, replace=replace)
 
 
-def results_of(compared: Comparison) -> dict[str, float | Ratio]:
+def compute_results(compared: Comparison) -> dict[str, float | Ratio]:
     """Return all scores of a comparison by name, those left out that cannot be had.
 
     A score that fails costs itself only: a `KinemeWarning` names it.
     """
-    found = {name: _result(score, compared) for name, score in scores().items()}
+    found = {name: _compute_result(score, compared) for name, score in scores().items()}
     return {name: result for name, result in found.items() if result is not None}
 
 
@@ -218,7 +218,7 @@ def evaluate(
         positions=positions,
         features=features,
     )
-    return {name: value_of(result) for name, result in results_of(compared).items()}
+    return {name: get_value(result) for name, result in compute_results(compared).items()}
 
 
 def evaluate_segmentation(
@@ -244,11 +244,11 @@ def evaluate_segmentation(
     >>> evaluate_segmentation(truth, labels)["one_to_one"]
     1.0
     """
-    compared = comparison_of(truth, found, positions=positions, features=features)
-    return {name: value_of(result) for name, result in results_of(compared).items()}
+    compared = compare_with_truth(truth, found, positions=positions, features=features)
+    return {name: get_value(result) for name, result in compute_results(compared).items()}
 
 
-def comparison_of(
+def compare_with_truth(
     truth: Truth,
     found: Segmentation,
     *,
@@ -257,8 +257,8 @@ def comparison_of(
 ) -> Comparison:
     """A segmentation beside a truth; which of its clusters count, `evaluate_segmentation` says."""
     rows = found.activities
-    activities = labelling_of(rows, fps=found.fps)
-    primitives = labelling_of(found.primitives, fps=found.fps) if len(found.primitives) else None
+    activities = make_labelling(rows, fps=found.fps)
+    primitives = make_labelling(found.primitives, fps=found.fps) if len(found.primitives) else None
     # Activities without clusters or labels say nothing: then primitives are compared.
     grouped = bool(np.any((rows.cluster >= 0) | (rows.label != "")))
     return Comparison.of(
@@ -271,7 +271,7 @@ def comparison_of(
     )
 
 
-def value_of(result: Value) -> float:
+def get_value(result: Value) -> float:
     """Return the number that a score's function gave, be it one or a ratio; nan for None."""
     number = result.value if isinstance(result, Ratio) else result
     return math.nan if number is None else float(number)
@@ -290,11 +290,11 @@ def pool_scores(results: Iterable[Value]) -> float:
     if ratios:
         return Ratio(sum(r.part for r in ratios), sum(r.total for r in ratios)).value
     # A score that is not defined for a recording leaves it out.
-    numbers = [value for value in map(value_of, kept) if math.isfinite(value)]
+    numbers = [value for value in map(get_value, kept) if math.isfinite(value)]
     return sum(numbers) / len(numbers) if numbers else math.nan
 
 
-def _result(score: Score, compared: Comparison) -> Value:
+def _compute_result(score: Score, compared: Comparison) -> Value:
     try:
         return score.function(compared)
     except KinemeError:
@@ -306,7 +306,7 @@ def _result(score: Score, compared: Comparison) -> Value:
         return None
 
 
-def one_of(
+def choose_number(
     measure: Callable[[Comparison], Sequence[float] | None], number: int
 ) -> Callable[[Comparison], float | None]:
     """Return the function of a score that is one of several numbers which are computed together."""
@@ -366,7 +366,7 @@ def format_score(value: float) -> str:
     return f"{value:.3f}" if math.isfinite(value) else ""
 
 
-def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+def format_markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a Markdown table whose first column is left-aligned, the others right."""
     lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
@@ -382,9 +382,9 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
         draft.open("w", encoding="utf-8", newline="\n" if suffix == ".json" else "") as file,
     ):
         if suffix == ".json":
-            file.write(f"{records_json(records)}\n")
+            file.write(f"{format_json(records)}\n")
         else:
-            rows = [plain(record) for record in records]
+            rows = [to_plain(record) for record in records]
             names = list(dict.fromkeys(name for record in rows for name in record))
             table = csv.DictWriter(file, names, lineterminator="\n")
             table.writeheader()
@@ -395,9 +395,9 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
             )
 
 
-def records_json(records: Sequence[Mapping[str, Any]]) -> str:
+def format_json(records: Sequence[Mapping[str, Any]]) -> str:
     """Records as one JSON object, with the version."""
-    content = {"kineme": __version__, "scores": [plain(record) for record in records]}
+    content = {"kineme": __version__, "scores": [to_plain(record) for record in records]}
     return json.dumps(content, indent=1, ensure_ascii=False)
 
 
@@ -418,11 +418,11 @@ def write_result(result: Result, path: Path) -> None:
         draft.write_text(f"{result.to_json()}\n", encoding="utf-8")
 
 
-def finite(value: Any) -> Any:
+def to_finite(value: Any) -> Any:
     """Return the value; None in place of a number that cannot be had."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def plain(record: Mapping[str, Any]) -> dict[str, Any]:
+def to_plain(record: Mapping[str, Any]) -> dict[str, Any]:
     """Return the record with None in place of numbers that cannot be had."""
-    return {name: finite(value) for name, value in record.items()}
+    return {name: to_finite(value) for name, value in record.items()}

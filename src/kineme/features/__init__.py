@@ -5,10 +5,10 @@ here: it comes with compiled code.
 """
 
 from kineme.features.body_frame import body_frame, heading
-from kineme.features.distances import distance_features
+from kineme.features.distances import compute_distance_features
 from kineme.features.effectors import PARTS, EndEffectors, Names, body_size, end_effectors
 from kineme.features.mirroring import mirror, mirror_features
-from kineme.features.pose import offsets_in_frames, pose_features, stack
+from kineme.features.pose import pose_features, round_offsets, stack
 
 __all__ = [
     "PARTS",
@@ -16,12 +16,12 @@ __all__ = [
     "Names",
     "body_frame",
     "body_size",
-    "distance_features",
+    "compute_distance_features",
     "end_effectors",
     "heading",
     "mirror",
     "mirror_features",
-    "offsets_in_frames",
     "pose_features",
+    "round_offsets",
     "stack",
 ]

@@ -9,7 +9,7 @@ from kineme._util.parallel import OPTIONS
 
 
 @njit("Tuple((float64, int64[:], int64[:]))(float64[:, ::1], float64)", **OPTIONS)
-def cheapest_path(cost, step):
+def find_cheapest_path(cost, step):
     """Return the least sum of ``cost`` from the first to the last corner, and its path.
 
     The path is given by its rows and columns. A move along one axis alone costs ``step`` besides;

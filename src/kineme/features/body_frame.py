@@ -61,7 +61,7 @@ def body_frame(
     >>> body_frame(motion).shape == motion.positions.shape
     True
     """
-    pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
+    pelvis, cos, sin = _compute_turns(motion, effectors or end_effectors(motion))
     positions = motion.positions if joints is None else motion.positions[:, joints]
     relative = positions - motion.positions[:, pelvis, None]
     # A copy of x, since its column is overwritten before z needs it.
@@ -86,12 +86,12 @@ def heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[i
     >>> motion.skeleton.names[pelvis], angles.shape
     ('Hips', (2898,))
     """
-    pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
-    # `_turns` gives the turn back to +z, which is the opposite of the heading.
+    pelvis, cos, sin = _compute_turns(motion, effectors or end_effectors(motion))
+    # `_compute_turns` gives the turn back to +z, which is the opposite of the heading.
     return pelvis, np.arctan2(-sin, cos)[:, 0]
 
 
-def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats]:
+def _compute_turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats]:
     """Return the pelvis, and cosine and sine (frames, 1) of the turns that face the body to +z."""
     ankles = effectors.left_ankle, effectors.right_ankle
     pelvis, left_hip, right_hip = find_parting(motion.skeleton, *ankles)
@@ -100,7 +100,9 @@ def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats
         # A line shorter than the threshold stays shorter than a unit vector and counts as upright.
         to_left /= np.maximum(np.linalg.norm(to_left, axis=1, keepdims=True), _UPRIGHT)
     else:
-        to_left = _turned_axis(motion.skeleton, motion.rotations, pelvis, left_hip, right_hip)
+        to_left = _compute_turned_axis(
+            motion.skeleton, motion.rotations, pelvis, left_hip, right_hip
+        )
     return pelvis, *find_facing(to_left, _UPRIGHT)
 
 
@@ -138,7 +140,7 @@ def _measure_hip_axis(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip:
     return from_pelvis(left_hip) - from_pelvis(right_hip)
 
 
-def _turned_axis(
+def _compute_turned_axis(
     skeleton: Skeleton, rotations: Floats, pelvis: int, left_hip: int, right_hip: int
 ) -> Floats:
     """(frames, 3): the pelvis's axis to the left, in the world."""

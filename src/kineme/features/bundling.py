@@ -84,12 +84,12 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
             f"not {neighbors} and {variance}"
         )
     center = points.mean(axis=0)
-    axes = _principal_axes(points - center, variance)
+    axes = _find_principal_axes(points - center, variance)
     # The kernel needs rows that are contiguous in memory.
     reduced = np.ascontiguousarray((points - center) @ axes)
     # At least as many neighbours as dimensions.
-    nearest = _nearest_others(reduced, max(neighbors, axes.shape[1]))
-    directions = _directions(reduced)
+    nearest = _find_nearest_others(reduced, max(neighbors, axes.shape[1]))
+    directions = _compute_directions(reduced)
     moved = np.empty_like(reduced)
 
     def move(part: slice) -> None:
@@ -100,7 +100,7 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
     return cast(Floats, moved @ axes.T + center)
 
 
-def _principal_axes(centered: Floats, variance: float) -> Floats:
+def _find_principal_axes(centered: Floats, variance: float) -> Floats:
     """(dims, components): the fewest orthonormal axes that hold this share of the variance."""
     spread, axes = np.linalg.eigh(centered.T @ centered)
     # Eigenvalues ascend, so both are reversed; rounding can make the smallest ones negative.
@@ -111,7 +111,7 @@ def _principal_axes(centered: Floats, variance: float) -> Floats:
     return axes[:, : max(enough, FEWEST_COMPONENTS)]
 
 
-def _nearest_others(points: Floats, count: int) -> NDArray[np.int64]:
+def _find_nearest_others(points: Floats, count: int) -> NDArray[np.int64]:
     """(frames, count): each frame's nearest without itself; fewer where there are not as many."""
     n = len(points)
     count = min(count, n - 1)
@@ -122,7 +122,7 @@ def _nearest_others(points: Floats, count: int) -> NDArray[np.int64]:
     return cast(NDArray[np.int64], found[others].reshape(n, count))
 
 
-def _directions(points: Floats) -> Floats:
+def _compute_directions(points: Floats) -> Floats:
     """Unit vectors along the curve of the points; zero where it stands still."""
     # Steps at both ends; the sum makes them 0 where there is only one point.
     first, last = np.diff(points[:2], axis=0).sum(axis=0), np.diff(points[-2:], axis=0).sum(axis=0)

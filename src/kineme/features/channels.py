@@ -120,7 +120,7 @@ def standardize_channels(values: ArrayLike) -> Floats:
     return scaled
 
 
-def channel_statistics(
+def compute_channel_statistics(
     channels: Floats, fps: float, *, rate: float, window: float, bands: tuple[float, ...]
 ) -> Floats:
     """Means and energies of channels.
@@ -168,21 +168,23 @@ def compute_statistics(
     A band at a time: all bands of a long recording are many times as large as itself.
     """
     # Windows of this width about each sample, cut at the ends.
-    at, width = sampled_at(len(channels), fps, rate), max(1, round(window * fps))
+    at, width = choose_frames(len(channels), fps, rate), max(1, round(window * fps))
     first = np.clip(at - width // 2, 0, len(channels))
     last = np.clip(at - width // 2 + width, 0, len(channels))
     # None stands for the unfiltered channels, of which means are taken.
     edges = [None, *(edge for edge in pairwise(bands) if edge[0] < NYQUIST * fps)]
     groups = []
     for edge in edges:
-        band = channels if edge is None else _band(channels, fps, *edge)
+        band = channels if edge is None else _filter_band(channels, fps, *edge)
         mixed = (mixture.of(band) for mixture in mixtures)
-        groups.append([_means(each, first, last, squared=edge is not None) for each in mixed])
+        groups.append(
+            [_compute_means(each, first, last, squared=edge is not None) for each in mixed]
+        )
     # One array for each mixture: its means and bands side by side.
     return [np.hstack(each) for each in zip(*groups, strict=True)]
 
 
-def sampled_at(frames: int, fps: float, rate: float) -> Ints:
+def choose_frames(frames: int, fps: float, rate: float) -> Ints:
     """Return the frames that are looked at, `rate` times a second."""
     # The small number keeps a last sample that rounding would lose.
     n = int((frames - 1) / fps * rate + 1e-9) + 1
@@ -190,7 +192,7 @@ def sampled_at(frames: int, fps: float, rate: float) -> Ints:
     return at
 
 
-def _means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
+def _compute_means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
     """Return the means over the frames from first to last, at the ends over what is there.
 
     Of squares, the root of it.
@@ -204,7 +206,7 @@ def _means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
     return np.sqrt(np.maximum(means, 0.0)) if squared else means
 
 
-def _band(channels: Floats, fps: float, low: float, high: float) -> Floats:
+def _filter_band(channels: Floats, fps: float, low: float, high: float) -> Floats:
     """Return the channels between two frequencies, without delay (Butterworth, both ways)."""
     high = min(high, NYQUIST * fps)
     if low >= high:

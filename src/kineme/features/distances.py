@@ -45,7 +45,7 @@ _STILL = 0.01  # of the largest movement: less than this is none
 _APART = 0.5  # of its movement: a point's distance from what it is fixed to varies less
 
 
-def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
+def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     """Features (frames, at most 15) that vary by `VARIATION` metres, and the points they are of.
 
     All zero where no distance varies.
@@ -78,8 +78,8 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     array = np.asarray(positions, np.float64)
     if array.shape[1] < 2:
         raise MotionError("a single point is in no distance: segment its coordinates as signals")
-    points = spread_points(array)
-    features = _filter_median(_distances(array[:, points]))
+    points = choose_spread_points(array)
+    features = _filter_median(_compute_distances(array[:, points]))
     # Before centring: the largest mean distance tells the size of the whole.
     largest = float(features.mean(axis=0).max(initial=0))
     features -= features.mean(axis=0)
@@ -97,7 +97,7 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     return features, points
 
 
-def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
+def choose_spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     """Return the points (at most so many, ascending) that lie farthest from each other in the mean.
 
     Points of the lab, which stay where they are while the others go elsewhere,
@@ -161,7 +161,7 @@ def _filter_median(values: Floats) -> Floats:
     return np.concatenate([values[:1], middle, values[1:][-1:]])
 
 
-def _distances(positions: Floats) -> Floats:
+def _compute_distances(positions: Floats) -> Floats:
     """(frames, pairs)"""
     pairs = list(combinations(range(positions.shape[1]), 2))
     distances = np.empty((len(positions), len(pairs)))

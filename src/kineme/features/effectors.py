@@ -107,13 +107,13 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     ways = [(_find_named(skeleton, names), "as named"), (of_rig, f"by {rig} name"),
             (_find_by_names(skeleton), "by name")]  # fmt: skip
     if len({part for joints, _ in ways for part in joints}) < len(PARTS):
-        ways.append((find_by_shape(skeleton.parents, _upright_pose(source)), "by shape"))
+        ways.append((find_by_shape(skeleton.parents, _find_upright_pose(source)), "by shape"))
     found = {part: (at, how) for joints, how in reversed(ways) for part, at in joints.items()}
     missing = [part.replace("_", " ") for part in PARTS if part not in found]
     if missing:
         raise EndEffectorError(
             f"{_list_words(missing)} not found among the joints "
-            f"{join_names(skeleton.names, SHOWN)}; " + remedy(skeleton),
+            f"{join_names(skeleton.names, SHOWN)}; " + suggest_remedy(skeleton),
             reason=f"no {_list_words(missing, 'or')} among the joints",
         )
     joints = [found[part][0] for part in PARTS]
@@ -127,7 +127,7 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     return EndEffectors(*joints, how=tuple(found[part][1] for part in PARTS))
 
 
-def remedy(skeleton: Skeleton) -> str:
+def suggest_remedy(skeleton: Skeleton) -> str:
     """How a recording becomes that of a body in which the end effectors were not found."""
     if max(skeleton.parents) < 0:  # where a body stands and faces, a pelvis tells
         return (
@@ -168,10 +168,10 @@ def _find_named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
 def _find_by_names(skeleton: Skeleton) -> dict[str, int]:
     named = find_joints(skeleton.names, _NAMED, single=True)
     found = {part: points[0] for part, points in named.items()}
-    return found | {"head": _crown(skeleton, found["head"])} if "head" in found else found
+    return found | {"head": _find_crown(skeleton, found["head"])} if "head" in found else found
 
 
-def _crown(skeleton: Skeleton, head: int) -> int:
+def _find_crown(skeleton: Skeleton, head: int) -> int:
     """Return the leaf that ends the head joint, or the head joint itself."""
     leaves = [
         joint
@@ -183,7 +183,7 @@ def _crown(skeleton: Skeleton, head: int) -> int:
     return max(leaves, key=lambda j: float(np.linalg.norm(skeleton.offsets[j])), default=head)
 
 
-def _upright_pose(source: Skeleton | Motion) -> NDArray[np.float64]:
+def _find_upright_pose(source: Skeleton | Motion) -> NDArray[np.float64]:
     if isinstance(source, Motion):
         heights = source.positions[:, :, 1]
         # The frame with the largest difference in height.
@@ -212,10 +212,14 @@ def body_size(motion: Motion, effectors: EndEffectors) -> float:
     >>> round(body_size(motion, kineme.end_effectors(motion)), 2)
     1.72
     """
-    legs = [_chain(motion, joint) for joint in (effectors.left_ankle, effectors.right_ankle)]
-    size = float(np.mean(legs)) + _chain(motion, effectors.head)
+    legs = [
+        _measure_chain(motion, joint) for joint in (effectors.left_ankle, effectors.right_ankle)
+    ]
+    size = float(np.mean(legs)) + _measure_chain(motion, effectors.head)
     if not size > 0:
-        lacking = "" if max(motion.skeleton.parents) >= 0 else f": {remedy(motion.skeleton)}"
+        lacking = (
+            "" if max(motion.skeleton.parents) >= 0 else f": {suggest_remedy(motion.skeleton)}"
+        )
         raise MotionError(
             "the bones between ankles and head have no length, as among markers without a pelvis"
             + lacking
@@ -223,7 +227,7 @@ def body_size(motion: Motion, effectors: EndEffectors) -> float:
     return size
 
 
-def _chain(motion: Motion, joint: int) -> float:
+def _measure_chain(motion: Motion, joint: int) -> float:
     """Return the length of the bones from a joint up to the hips."""
     length = 0.0
     parent = motion.skeleton.parents[joint]

@@ -11,7 +11,7 @@ LOWEST = 5.0
 """Per cent of the frames in which a point is as low as its lowest place."""
 
 
-def speed_of(path: Floats, fps: float) -> Floats:
+def measure_speed(path: Floats, fps: float) -> Floats:
     """How fast a point is, metres per second; 0 for a single frame.
 
     Parameters
@@ -25,7 +25,9 @@ def speed_of(path: Floats, fps: float) -> Floats:
     return np.asarray(np.linalg.norm(np.gradient(path, axis=0), axis=1) * fps)
 
 
-def low_and_slow(path: Floats, fps: float, *, height: float, speed: float) -> NDArray[np.bool_]:
+def find_low_and_slow(
+    path: Floats, fps: float, *, height: float, speed: float
+) -> NDArray[np.bool_]:
     """Return the frames in which a point stands.
 
     Parameters
@@ -41,4 +43,4 @@ def low_and_slow(path: Floats, fps: float, *, height: float, speed: float) -> ND
     """
     # A low percentile instead of the minimum, which may be a tracking error.
     low = path[:, 1] < np.percentile(path[:, 1], LOWEST) + height
-    return np.asarray(low & (speed_of(path, fps) < speed))
+    return np.asarray(low & (measure_speed(path, fps) < speed))

@@ -29,9 +29,9 @@ from kineme._util.rotations import matrices, quaternions
 from kineme.errors import MotionError, ParameterError
 from kineme.features.effectors import PARTS
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import forward_kinematics, local_translations
+from kineme.recordings.kinematics import compute_local_translations, forward_kinematics
 from kineme.recordings.motion import check_motion
-from kineme.recordings.posing import rig_of
+from kineme.recordings.posing import get_rig
 
 FLIP = np.array([-1.0, 1.0, 1.0])
 HALF_TURN = np.array([0.0, 1.0, 0.0, 0.0])  # its opposite is that flip
@@ -77,7 +77,7 @@ def mirror(motion: Motion) -> Motion:
     True
     """
     check_motion(motion, "mirror")
-    skeleton, partners = motion.skeleton, _partners(motion.skeleton)
+    skeleton, partners = motion.skeleton, _find_partners(motion.skeleton)
     provenance = motion.provenance.noted("mirrored")
     positions = motion.positions[:, partners] * FLIP
     if motion.rotations is None:
@@ -87,7 +87,7 @@ def mirror(motion: Motion) -> Motion:
     around = np.array([HALF_TURN if p < 0 else flips[p] for p in skeleton.parents])
     rotations = rot.multiply(around, motion.rotations[:, partners])
     rotations = rot.multiply(rotations, rot.conjugate(flips))
-    shifts = local_translations(skeleton, motion.positions, motion.rotations)
+    shifts = compute_local_translations(skeleton, motion.positions, motion.rotations)
     spread = np.linalg.norm(shifts - shifts.mean(axis=0), axis=2).max(axis=0)
     # Rigid bones keep their offset, and what they leave it by is mirrored. Of joints that slide,
     # and of those above the hips, the whole place is.
@@ -114,9 +114,9 @@ def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) ->
         A rotation, whose opposite is the reflection X: with o the offset of a child of the
         partner, X o is that of the child's partner. X of the partner is the inverse.
     """
-    places, turns = rig_of(skeleton).rest()
+    places, turns = get_rig(skeleton).rest()
     frames, means = matrices(turns), [matrices(rotations[:, j]).mean(0) for j in range(len(turns))]
-    image = _image_at_rest(skeleton, places, partners)
+    image = _reflect_rest(skeleton, places, partners)
     found = np.empty((skeleton.n_joints, 3, 3))
     for joint, (other, parent) in enumerate(zip(partners, skeleton.parents, strict=True)):
         around = np.diag(FLIP) if parent < 0 else found[parent]
@@ -147,7 +147,7 @@ def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) ->
     return flips
 
 
-def _image_at_rest(skeleton: Skeleton, places: Floats, partners: list[int]) -> Floats | None:
+def _reflect_rest(skeleton: Skeleton, places: Floats, partners: list[int]) -> Floats | None:
     """Return the reflection (3, 3) of a body at rest; None where the rest pose is that of no body.
 
     So it is in a BVH whose bones lie along their local axes.
@@ -200,7 +200,7 @@ def mirror_features(features: ArrayLike) -> Floats:
     return mirrored.reshape(values.shape)
 
 
-def _partners(skeleton: Skeleton) -> list[int]:
+def _find_partners(skeleton: Skeleton) -> list[int]:
     """Return for each joint that of the other side; itself on the midline."""
     names = skeleton.names
     index = {name: joint for joint, name in enumerate(names)}

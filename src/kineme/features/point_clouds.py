@@ -35,8 +35,8 @@ def cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -
     half : int
         Frames of the window on either side; the ends are repeated.
     """
-    floor_a, height_a, _ = _clouds(points, np.arange(rows.start, rows.stop), half)
-    floor_b, height_b, _ = _clouds(points, np.arange(columns.start, columns.stop), half)
+    floor_a, height_a, _ = _make_clouds(points, np.arange(rows.start, rows.stop), half)
+    floor_b, height_b, _ = _make_clouds(points, np.arange(columns.start, columns.stop), half)
     # Squares of (a - b) summed are |a|² + |b|² - 2 ab: matrix products give all pairs at once.
     squares_a = (np.abs(floor_a) ** 2).sum(1) + (height_a**2).sum(1)
     squares_b = (np.abs(floor_b) ** 2).sum(1) + (height_b**2).sum(1)
@@ -83,8 +83,8 @@ def fit_clouds(
 def _fit(
     points: Floats, first: NDArray[np.int64], second: NDArray[np.int64], half: int
 ) -> tuple[Floats, Floats, Floats]:
-    floor_a, height_a, center_a = _clouds(points, first, half)
-    floor_b, height_b, center_b = _clouds(points, second, half)
+    floor_a, height_a, center_a = _make_clouds(points, first, half)
+    floor_b, height_b, center_b = _make_clouds(points, second, half)
     shared = (floor_a * floor_b.conj()).sum(axis=1)
     # The turn that lays the second cloud onto the first, as a complex number of length 1.
     turn = np.exp(1j * np.angle(shared))
@@ -99,7 +99,7 @@ def _fit(
     )
 
 
-def _clouds(
+def _make_clouds(
     points: Floats, centers: NDArray[np.int64], half: int
 ) -> tuple[Complex, Floats, Complex]:
     """Floor coordinates about their centre, heights, and the centre, one row per cloud."""

@@ -98,7 +98,7 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
     return stacked.reshape(frames, -1)
 
 
-def offsets_in_frames(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]:
+def round_offsets(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]:
     """Offsets in whole frames, ascending, from offsets in seconds.
 
     Raises

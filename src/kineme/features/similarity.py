@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 
 from kineme._util.arrays import Float32s, Floats
 from kineme.errors import MotionError, ParameterError
-from kineme.features.distances import SIZE, distance_features
+from kineme.features.distances import SIZE, compute_distance_features
 from kineme.features.effectors import Names, body_size, end_effectors
 from kineme.features.pose import pose_features
 from kineme.recordings import Motion, Signals
@@ -97,7 +97,7 @@ def compare_frames_of_motion(motion: Motion, *, effectors: Names | None = None) 
         values /= BODY_SCALE * body_size(motion, found)
     except MotionError:
         motion = resample(motion, min(motion.fps, 3 * RATE))  # distances are many
-        values = _distances(motion)
+        values = _measure_distances(motion)
     for start, stop in motion.gaps:
         values[start:stop] = np.nan
     return _stack_levels(values, motion.fps, motion.duration)
@@ -133,7 +133,7 @@ def compare_frames_of_signal(values: ArrayLike, fps: float) -> SimilarityMatrix:
     return _stack_levels(_standardise(means), fps / averaged, len(signal) / fps)
 
 
-def _distances(motion: Motion) -> Floats:
+def _measure_distances(motion: Motion) -> Floats:
     """Return the features of a motion without a body, in units of the scale.
 
     Any values in its gaps.
@@ -144,7 +144,7 @@ def _distances(motion: Motion) -> Floats:
     if motion.skeleton.n_joints < 2 or not visible.any():
         return np.zeros((motion.n_frames, 1))
     # Frames in gaps would distort the scale, and are left out.
-    features, _ = distance_features(motion.positions[visible])
+    features, _ = compute_distance_features(motion.positions[visible])
     values = np.zeros((motion.n_frames, features.shape[1]))
     values[visible] = features / (BODY_SCALE * SIZE)
     return values

@@ -46,14 +46,14 @@ def find_by_shape(parents: Sequence[int], pose: Floats) -> dict[str, int]:
     pose : ndarray of shape (joints, 3)
         Metres, y up: a pose in which the legs are the lower limbs.
     """
-    paths, lengths = _longest_paths(parents, pose)
-    pairs = _limb_pairs(parents, paths, lengths, pose)[:2]
+    paths, lengths = _find_longest_paths(parents, pose)
+    pairs = _find_limb_pairs(parents, paths, lengths, pose)[:2]
     if len(pairs) < 2:
         return {}
     # Both limbs of the lower pair end lower.
     legs, arms = sorted(pairs, key=lambda pair: float(pose[[limb.end for limb in pair], 1].sum()))
-    found = _head(parents, arms, paths, lengths)
-    left = _left(legs, pose)
+    found = _find_head(parents, arms, paths, lengths)
+    left = _find_left(legs, pose)
     if left is not None:
         for part, pair in (("ankle", legs), ("wrist", arms)):
             # Along the direction of the left, the right limb comes first.
@@ -62,7 +62,9 @@ def find_by_shape(parents: Sequence[int], pose: Floats) -> dict[str, int]:
     return found
 
 
-def _longest_paths(parents: Sequence[int], pose: Floats) -> tuple[list[list[int]], list[float]]:
+def _find_longest_paths(
+    parents: Sequence[int], pose: Floats
+) -> tuple[list[list[int]], list[float]]:
     """For each joint the longest way down to a leaf, and its length from the joint's parent."""
     paths: list[list[int]] = [[joint] for joint in range(len(parents))]
     below = [0.0] * len(parents)
@@ -77,7 +79,7 @@ def _longest_paths(parents: Sequence[int], pose: Floats) -> tuple[list[list[int]
     return paths, [bone + rest for bone, rest in zip(bones, below, strict=True)]
 
 
-def _limb_pairs(
+def _find_limb_pairs(
     parents: Sequence[int], paths: list[list[int]], lengths: list[float], pose: Floats
 ) -> list[tuple[_Limb, _Limb]]:
     """Pairs of like branches of one joint, the longest first."""
@@ -91,12 +93,12 @@ def _limb_pairs(
         longest = sorted(branches, key=lambda joint: -lengths[joint])[:_MOST_BRANCHES]
         # Sorted by joint again, so that the order in a pair does not depend on lengths.
         for one, other in combinations(sorted(longest), 2):
-            if pair := _pair(parents, paths[one], paths[other], pose):
+            if pair := _pair_limbs(parents, paths[one], paths[other], pose):
                 pairs.append(pair)
     return sorted(pairs, key=lambda pair: -pair[0].length - pair[1].length)
 
 
-def _pair(
+def _pair_limbs(
     parents: Sequence[int], one: list[int], other: list[int], pose: Floats
 ) -> tuple[_Limb, _Limb] | None:
     """Return the two branches as a pair of limbs, or None where their bones differ."""
@@ -121,7 +123,7 @@ def _pair(
     return left_and_right[0], left_and_right[1]
 
 
-def _left(legs: tuple[_Limb, _Limb], pose: Floats) -> Floats | None:
+def _find_left(legs: tuple[_Limb, _Limb], pose: Floats) -> Floats | None:
     """Direction of the body's left in the pose, or None where the feet do not tell."""
     # From the ankles to the tips of the toes, both feet together.
     feet = sum((pose[leg.tip] - pose[leg.end] for leg in legs), start=np.zeros(3))
@@ -131,7 +133,7 @@ def _left(legs: tuple[_Limb, _Limb], pose: Floats) -> Floats | None:
     return np.cross([0.0, 1.0, 0.0], ahead)
 
 
-def _head(
+def _find_head(
     parents: Sequence[int], arms: tuple[_Limb, _Limb], paths: list[list[int]], lengths: list[float]
 ) -> dict[str, int]:
     """Return the end of the longest branch beside the arms."""

@@ -33,7 +33,7 @@ from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import numbers_in, place_points, table_timing
 from kineme.formats.units import METRIC, metres
 from kineme.recordings import Motion, Note
-from kineme.recordings.coordinates import COORDINATE, axes_by_point, beginnings, is_body
+from kineme.recordings.coordinates import COORDINATE, group_axes, is_body, list_beginnings
 from kineme.recordings.times import is_timing
 
 Joints = Mapping[str, Mapping[str, str]]
@@ -98,12 +98,12 @@ def is_used(column: str) -> bool:
 
 def joint_names(columns: Iterable[str]) -> list[str]:
     """Return the joints that columns of these names are the coordinates of, in order."""
-    return list(axes_by_point(columns))
+    return list(group_axes(columns))
 
 
 def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
     """For each joint the columns of its axes; without those of its velocity, rotation and such."""
-    points = axes_by_point(columns)
+    points = group_axes(columns)
     if not points:
         shown = ", ".join(list(columns)[:8])
         raise content.error(
@@ -117,7 +117,7 @@ def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
     for name, axes in points.items():
         if name in plain:
             joints[plain[name] if all_positions else name] = axes
-        elif plain_names.isdisjoint(beginnings(name)):
+        elif plain_names.isdisjoint(list_beginnings(name)):
             joints[name] = axes
     return joints
 

@@ -25,12 +25,12 @@ from kineme._util.checks import unique
 from kineme.formats.files import FileContent, numbers
 from kineme.recordings.times import (
     append_unit,
-    date_columns,
-    date_seconds,
-    day_comes_first,
+    find_date_columns,
     is_ambiguous,
     is_date,
+    is_day_first,
     is_timing,
+    parse_date,
 )
 
 EMPTY = frozenset(
@@ -134,7 +134,7 @@ class DelimitedText:
     def dates(self) -> list[int]:
         """Return the columns that tell the time by dates."""
         if self.clocks is None:
-            return date_columns(self.names, self.first_cells)
+            return find_date_columns(self.names, self.first_cells)
         cells = zip(self.names, self.first_cells, strict=False)
         return [i for i, (name, cell) in enumerate(cells) if name in self.clocks and is_date(cell)]
 
@@ -162,7 +162,7 @@ class DelimitedText:
         first = (self.first_cells[i] for i in self.dates)
         if not any(map(is_ambiguous, first)):
             return None
-        return day_comes_first(self.texts(self.dates[0]))
+        return is_day_first(self.texts(self.dates[0]))
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -171,7 +171,7 @@ class DelimitedText:
         doubtful = next(filter(is_ambiguous, (self.first_cells[i] for i in self.dates)), None)
         if doubtful is None or self.day_first is not None:
             return notes
-        day = datetime.fromtimestamp(date_seconds(doubtful), UTC)
+        day = datetime.fromtimestamp(parse_date(doubtful), UTC)
         return (*notes, f"{doubtful!r} is taken for {day:%-d %B %Y}")
 
     def numbered(self) -> DelimitedText:
@@ -317,7 +317,7 @@ def is_finite(cell: str) -> bool:
 def _seconds(content: FileContent, cell: str, line: int, day_first: bool | None) -> str:
     """Return a date as a number in text; what is empty stays so."""
     try:
-        return cell if cell.lower() in EMPTY else repr(date_seconds(cell, day_first=day_first))
+        return cell if cell.lower() in EMPTY else repr(parse_date(cell, day_first=day_first))
     except ValueError as error:
         raise content.error(str(error), line) from None
 

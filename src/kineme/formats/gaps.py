@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats, bridge_line
 from kineme._util.checks import warn
 from kineme.recordings import Motion
-from kineme.recordings.arrays import spans_of
+from kineme.recordings.arrays import find_spans
 from kineme.recordings.regular import LONGEST_S
 
 Spans = NDArray[np.intp]
@@ -46,7 +46,7 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
     longest = int(LONGEST_S * fps + 1e-9)
     gaps = Gaps({}, {})
     for point in np.flatnonzero(missing.any(axis=0)).tolist():
-        spans = spans_of(missing[:, point])
+        spans = find_spans(missing[:, point])
         lengths = spans[:, 1] - spans[:, 0]
         long = np.asarray((lengths > longest) | (lengths == len(points)))
         at = np.concatenate([np.arange(*span) for span in spans[~long]] or [np.empty(0, np.intp)])
@@ -78,10 +78,10 @@ def bridge(
         for axis in range(points.shape[2]):
             bridge_line(points[:, point, axis], hidden)
         missing |= hidden
-    for start, stop in spans_of(~missing).tolist():
+    for start, stop in find_spans(~missing).tolist():
         if missing.any() and stop - start <= longest:
             missing[start:stop] = True
-    return tuple((start, stop) for start, stop in spans_of(missing).tolist())
+    return tuple((start, stop) for start, stop in find_spans(missing).tolist())
 
 
 def mark_spans(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
@@ -95,7 +95,7 @@ def mark_spans(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
 def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
     """Return the motion with these frames [start, stop) in its gaps, besides those that it has."""
     joined = mark_spans([*motion.gaps, *spans], motion.n_frames)
-    return replace(motion, gaps=tuple((a, b) for a, b in spans_of(joined).tolist()))
+    return replace(motion, gaps=tuple((a, b) for a, b in find_spans(joined).tolist()))
 
 
 def unseen(motion: Motion) -> list[bool]:

@@ -12,9 +12,9 @@ from kineme._util.checks import join_names
 from kineme.errors import ParameterError
 from kineme.formats.files import FileContent
 from kineme.recordings import Note
-from kineme.recordings.arrays import spans_of
+from kineme.recordings.arrays import find_spans
 from kineme.recordings.regular import Timing, place_rows
-from kineme.recordings.times import UNITS_NAMED, as_seconds, is_rate, is_time, time_unit
+from kineme.recordings.times import UNITS_NAMED, as_seconds, find_time_unit, is_rate, is_time
 
 _SLOWEST = 1.0  # frames per second: at or below, times of no stated unit are hardly seconds
 
@@ -39,7 +39,7 @@ def table_timing(
     stopped = [column for column in clocks if len(clocks) > 1 and _is_stopped(columns[column])]
     # Of several clocks those count that run; a single one is refused with the reason.
     for column in [name for name in clocks if name not in stopped] or clocks:
-        unit = time_unit(column)
+        unit = find_time_unit(column)
         try:
             times, guessed = as_seconds(columns[column], unit)
         except (ValueError, TypeError) as error:
@@ -85,7 +85,7 @@ def place_points(timing: Timing, points: Floats) -> tuple[Floats, tuple[tuple[in
         found.values[found.missing & ~pause[:, None]] = np.nan
         for start, stop in gaps:
             pause[start:stop] = True
-        gaps = tuple((start, stop) for start, stop in spans_of(pause).tolist())
+        gaps = tuple((start, stop) for start, stop in find_spans(pause).tolist())
     return found.values.reshape(-1, *points.shape[1:]), gaps
 
 

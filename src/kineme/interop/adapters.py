@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.checks import require_extra
 from kineme.errors import ParameterError
-from kineme.labels.spans import meaning, one_line, text_of
+from kineme.labels.spans import join_lines, parse_text, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
@@ -185,7 +185,7 @@ def _touching(
 
 
 def _activities(borders: Sequence[Any], texts: Sequence[str], fps: float) -> Segmentation:
-    kinds, clusters, labels = zip(*(meaning(one_line(text)) for text in texts), strict=True)
+    kinds, clusters, labels = zip(*(parse_text(join_lines(text)) for text in texts), strict=True)
     columns: dict[str, Any] = {
         "level": ["activity"] * len(texts),
         "kind": kinds,

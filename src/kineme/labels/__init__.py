@@ -36,10 +36,10 @@ from kineme.labels.registry import (
     LabelFormat,
     holds_labels,
     label_formats,
+    list_written_suffixes,
     read_segments,
     register,
     write_segments,
-    written_suffixes,
 )
 from kineme.labels.spans import Labels, Span
 
@@ -49,8 +49,8 @@ __all__ = [
     "Span",
     "holds_labels",
     "label_formats",
+    "list_written_suffixes",
     "read_segments",
     "register",
     "write_segments",
-    "written_suffixes",
 ]

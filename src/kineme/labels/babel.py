@@ -25,7 +25,7 @@ from kineme._util.checks import format_count
 from kineme._util.files import atomic_write
 from kineme._util.json import load_json
 from kineme.errors import ReadError
-from kineme.labels.delimited import head
+from kineme.labels.delimited import read_first_bytes
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
@@ -70,12 +70,12 @@ def read(path: Path) -> Labels:
         content = next(iter(content.values()), None)
     if not isinstance(content, dict) or "dur" not in content:
         raise ReadError(path, 'is not a BABEL annotation: it has no "dur"')
-    return labels_of(content, path)
+    return convert_labels(content, path)
 
 
-def labels_of(recording: Mapping[str, Any], path: Path) -> Labels:
+def convert_labels(recording: Mapping[str, Any], path: Path) -> Labels:
     """Return the labels of one recording of BABEL as Python has it."""
-    length = _seconds(recording, "dur", path)
+    length = _parse_seconds(recording, "dur", path)
     annotation = recording.get("frame_ann") or recording.get("seq_ann")
     one_span = not recording.get("frame_ann")
     labels = annotation.get("labels") if isinstance(annotation, dict) else None
@@ -83,25 +83,25 @@ def labels_of(recording: Mapping[str, Any], path: Path) -> Labels:
         raise ReadError(path, "has no labels: neither frame_ann nor seq_ann holds a list of them")
     spans = [
         Span(
-            0.0 if one_span else _seconds(label, "start_t", path),
-            length if one_span else _seconds(label, "end_t", path),
+            0.0 if one_span else _parse_seconds(label, "start_t", path),
+            length if one_span else _parse_seconds(label, "end_t", path),
             str(label.get("proc_label") or label.get("raw_label") or ""),
         )
         for label in labels
     ]
-    apart, shared = _apart(spans, path)
+    apart, shared = _cut_apart(spans, path)
     note = f"labels overlap; with the texts of several: {format_count(shared, 'segment')}"
     return Labels(apart, "seconds", None, length, (note,) if shared else ())
 
 
-def _seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
+def _parse_seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
     value: Any = holder.get(name)
     if type(value) not in (int, float) or not 0 <= value < 1e15:
         raise ReadError(path, f"{name} must be seconds, not {value!r:.60}")
     return float(value)
 
 
-def _apart(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
+def _cut_apart(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
     """Return the spans cut where another begins or ends, with all texts; how many have several."""
     solid = [span for span in spans if span.start < span.stop]
     # Empty and backward spans are kept as they are: reading refuses or drops them later.
@@ -125,7 +125,7 @@ def _apart(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
 
 
 def _recognises(path: Path) -> bool:
-    start = head(path)
+    start = read_first_bytes(path)
     return any(word in start for word in (b'"seq_ann"', b'"frame_ann"', b'"seg_id"'))
 
 

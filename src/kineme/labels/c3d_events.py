@@ -125,7 +125,7 @@ def write_events(
     with translate_read_errors(source):
         content = load(source)
         present = [(at, " ".join(name.lower().split())) for at, name in parse_c3d(content).events]
-        events = [C3DEvent(at, *_side_and_label(name))
+        events = [C3DEvent(at, *_split_side(name))
                   for at, name in zip(seconds, texts, strict=True)]  # fmt: skip
         added = [
             each
@@ -142,7 +142,7 @@ def write_events(
     return len(added)
 
 
-def _side_and_label(name: str) -> tuple[str, str]:
+def _split_side(name: str) -> tuple[str, str]:
     """Side and label as Vicon's programs write them; a name without a side as it is."""
     side, _, label = " ".join(name.split()).partition(" ")
     if side.lower() not in SIDES or not label:

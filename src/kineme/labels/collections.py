@@ -25,7 +25,7 @@ from kineme._util.checks import format_count
 from kineme._util.files import translate_read_errors
 from kineme.errors import ReadError
 from kineme.labels import csv_table
-from kineme.labels.delimited import SAME_RATE, columns
+from kineme.labels.delimited import SAME_RATE, read_columns
 from kineme.labels.registry import format_to_read, holds_labels, read_content, read_segments
 from kineme.labels.spans import (
     TOO_FAR,
@@ -33,7 +33,7 @@ from kineme.labels.spans import (
     Span,
     as_segmentation,
     convert_clock_times,
-    lost_labels,
+    note_lost_labels,
 )
 from kineme.recordings.clock import Clock
 from kineme.segments.segmentation import Segmentation
@@ -79,7 +79,7 @@ class LabelSource:
         return content
 
 
-def labels_of(
+def find_labels(
     recordings: Iterable[Path], labels: str | PathLike[str]
 ) -> Mapping[Path, LabelSource]:
     """Where the labels of each recording are; recordings that have none are left out.
@@ -87,13 +87,13 @@ def labels_of(
     They are in a table with a column ``recording``, or in a folder with a file for each. ReadError
     where nothing there is of any of the recordings.
     """
-    return labels_and_strays(recordings, labels)[0]
+    return find_labels_and_strays(recordings, labels)[0]
 
 
-def labels_and_strays(
+def find_labels_and_strays(
     recordings: Iterable[Path], labels: str | PathLike[str]
 ) -> tuple[Mapping[Path, LabelSource], list[str]]:
-    """What `labels_of` gives, and the recordings that a table names and that are not there."""
+    """What `find_labels` gives, and the recordings that a table names and that are not there."""
     files, home = list(recordings), Path(labels)
     named = _find_in_folder(home) if home.is_dir() else _find_in_table(home)
     # Tables may name a recording with or without its suffix.
@@ -118,10 +118,10 @@ def labels_for(
     clock: Clock | None = None,
 ) -> Segmentation:
     """What a label file says of a recording: its own rows, where others are in the table, too."""
-    table = format_to_read(labels) is csv_table.FORMAT and "recording" in columns(Path(labels))
+    table = format_to_read(labels) is csv_table.FORMAT and "recording" in read_columns(Path(labels))
     if not table:
         return read_segments(labels, fps=fps, n_frames=n_frames, clock=clock)
-    (source,) = labels_of([recording], labels).values()
+    (source,) = find_labels([recording], labels).values()
     return source.of(n_frames=n_frames, fps=fps, clock=clock)
 
 
@@ -140,8 +140,8 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     backward = sum(span.stop < span.start for span in labels.spans)
     rounded = [
         span._replace(
-            start=max(0, _first_frame(span.start * rate, n_frames)),
-            stop=_first_frame(span.stop * rate, n_frames),
+            start=max(0, _find_first_frame(span.start * rate, n_frames)),
+            stop=_find_first_frame(span.stop * rate, n_frames),
         )
         for span in labels.spans
     ]
@@ -175,11 +175,11 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
         "reaching beyond the end, cut off there": beyond,
     }
     notes = [f"{what}: {format_count(count, 'label')}" for what, count in counts.items() if count]
-    notes += lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
+    notes += note_lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
     return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
 
 
-def _first_frame(time: float, n_frames: int) -> int:
+def _find_first_frame(time: float, n_frames: int) -> int:
     """Return the first frame at or after a time in frames; the end for times beyond it."""
     # A frame has a label from the frame on whose time it begins: rounded up, with slack for digits.
     return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
@@ -207,7 +207,7 @@ class _Covered:
 
 def _find_in_table(path: Path) -> dict[str, LabelSource]:
     with translate_read_errors(path):
-        tables = csv_table.intervals(path)
+        tables = csv_table.read_intervals(path)
     if "" in tables:
         raise ReadError(path, "names no recording in the column 'recording', which is needed")
     return {name: LabelSource(path, labels) for name, labels in tables.items()}

@@ -33,21 +33,21 @@ from kineme.labels.delimited import (
     CUTS_KEY,
     digest_cuts,
     find_differences,
-    level_of,
-    new_text,
+    find_separator,
     number,
+    open_new_text,
+    parse_level,
     read_rows,
-    separator,
     write_rows,
 )
-from kineme.labels.delimited import columns as columns_of
-from kineme.labels.json_table import SCHEMA, head_of, join_head, parse
+from kineme.labels.delimited import read_columns as columns_of
+from kineme.labels.json_table import SCHEMA, join_head, make_head, parse
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span
-from kineme.recordings.times import date_seconds, is_date
+from kineme.recordings.times import is_date, parse_date
 from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, COMMENT, Segment, lacking
+from kineme.segments.table import COLUMNS, COMMENT, Segment, find_lacking
 
 Unit = Literal["seconds", "frames"]
 SPANS: dict[Unit, tuple[str, str]] = {
@@ -58,13 +58,13 @@ SPANS: dict[Unit, tuple[str, str]] = {
 
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave the table at ``path`` and the rest beside it."""
-    beside = provenance_path(path)
-    head = head_of(segmentation) | {CUTS_KEY: _digest(segmentation.table.columns())}
+    beside = name_provenance(path)
+    head = make_head(segmentation) | {CUTS_KEY: _digest(segmentation.table.columns())}
     more: dict[str, Sequence[Any]] = {**segmentation.more_columns()}
     if any(comments := assign_comments(segmentation)):
         more[COMMENT] = comments
-    rows = zip(map(_cells, segmentation), *more.values(), strict=True)
-    with atomic_write(beside) as head_draft, new_text(path) as file:
+    rows = zip(map(_format_cells, segmentation), *more.values(), strict=True)
+    with atomic_write(beside) as head_draft, open_new_text(path) as file:
         head_draft.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8")
         write_rows(file, [*COLUMNS, *more], ([*cells, *others] for cells, *others in rows))
 
@@ -73,12 +73,12 @@ def read(path: Path) -> Segmentation | Labels:
     """Return what is at ``path``, with what lies beside it if it is there."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         first = file.readline()
-        comma = separator(first)
+        comma = find_separator(first)
         if not {"level", "start_frame"} <= set(next(csv.reader([first], delimiter=comma), [])):
-            return _intervals(path)
+            return _read_intervals(path)
         file.seek(0)
         rows = csv.DictReader(file, strict=True, delimiter=comma)
-        columns = _columns(rows, path, commas=comma != ",")
+        columns = _list_columns(rows, path, commas=comma != ",")
     comments = columns.pop(COMMENT, None)
     found = _attach_provenance(columns, path)
     return found if comments is None else from_rows(found, comments)
@@ -86,7 +86,7 @@ def read(path: Path) -> Segmentation | Labels:
 
 def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:
     """Return the table, with what lies beside it."""
-    beside = provenance_path(path)
+    beside = name_provenance(path)
     if beside.is_file():
         # A table that was cut or extended no longer fits what lies beside it.
         head = parse(beside.read_text(encoding="utf-8-sig"), beside)
@@ -99,7 +99,7 @@ def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentatio
         rest = {name: value for name, value in head.items() if name != "hierarchy"}
         table = join_head(columns, rest, path)
         changes = find_differences(
-            path, beside, head, _digest(columns), head_rate=table.fps, row_rate=_rate(columns)
+            path, beside, head, _digest(columns), head_rate=table.fps, row_rate=_read_rate(columns)
         )
         if not changes:
             return join_head(columns, head, path)
@@ -108,24 +108,24 @@ def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentatio
     return join_head(columns, _guess_head(columns, path), path)
 
 
-def provenance_path(path: Path) -> Path:
+def name_provenance(path: Path) -> Path:
     """Where the rest of a CSV table is kept: ``cuts.csv`` and ``cuts.provenance.json``."""
     return path.with_suffix(".provenance.json")
 
 
-def roundest_rate(n_frames: int, seconds: float) -> float:
+def choose_roundest_rate(n_frames: int, seconds: float) -> float:
     """Of the frame rates at which so many frames last so long, the one with fewest digits."""
     # From 0 digits on: the first rate that gives the very seconds of the table.
     rounded = (round(n_frames / seconds, digits) for digits in range(16))
     return next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
 
 
-def intervals(path: Path) -> dict[str, Labels]:
+def read_intervals(path: Path) -> dict[str, Labels]:
     """Return the labels of a table of intervals, by recording; by "" without such a column."""
     unit: Unit = "seconds"
     spans: dict[str, list[Span]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
-        comma = separator(file.readline())
+        comma = find_separator(file.readline())
         file.seek(0)
         headers = [(*names, "label") for names in SPANS.values()]
         for line, row in read_rows(file, path, headers, delimiter=comma):
@@ -136,22 +136,22 @@ def intervals(path: Path) -> dict[str, Labels]:
             }
             # Seconds may be a date or time of day: those since 1970, or since midnight.
             start, stop = (
-                date_seconds(cell.strip())
+                parse_date(cell.strip())
                 if unit == "seconds" and is_date(cell.strip())
                 else number(cell, name, path, line)
                 for name, cell in cells.items()
             )
             count = _count(row, path, line)
             text = "transition" if row.get("kind") == "transition" else row["label"]
-            level = level_of(row.get("level"))
+            level = parse_level(row.get("level"))
             span = Span(start, stop, text, level, _cluster(row), repetitions=count)
             spans.setdefault(row.get("recording", ""), []).append(span)
     return {recording: Labels(some, unit) for recording, some in spans.items()}
 
 
-def _intervals(path: Path) -> Labels:
+def _read_intervals(path: Path) -> Labels:
     """Return the labels of a table of intervals of one recording."""
-    found = intervals(path)
+    found = read_intervals(path)
     if len(found) > 1:
         names = ", ".join(found)
         raise ReadError(
@@ -175,18 +175,18 @@ def _count(row: dict[str, str], path: Path, line: int) -> int | None:
     return int(text) if text else None
 
 
-def _columns(
+def _list_columns(
     rows: csv.DictReader[str], path: Path, *, commas: bool = False
 ) -> dict[str, list[Any]]:
     names = rows.fieldnames or ()
     columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in names}
     try:
-        missing = lacking(columns)
+        missing = find_lacking(columns)
         if missing:
             raise ReadError(path, f"is not a segment table: it has no column {missing[0]!r}")
         for row in rows:
             for name, column in columns.items():
-                column.append(_cell(row[name], name, path, rows.line_num, commas=commas))
+                column.append(_read_cell(row[name], name, path, rows.line_num, commas=commas))
     except csv.Error as error:
         raise ReadError(path, f"is not valid CSV: {error}", line=rows.line_num) from error
     if not columns["level"]:
@@ -194,7 +194,7 @@ def _columns(
     return columns
 
 
-def _cell(text: str | None, name: str, path: Path, line: int, *, commas: bool) -> str | float:
+def _read_cell(text: str | None, name: str, path: Path, line: int, *, commas: bool) -> str | float:
     if text is None:
         raise ReadError(path, f"the line ends before column {name!r}", line=line)
     kind = COLUMNS[name].type if name in COLUMNS else str
@@ -215,27 +215,27 @@ def _digest(columns: Mapping[str, Any]) -> str:
     )
 
 
-def _rate(columns: dict[str, list[Any]]) -> float | None:
+def _read_rate(columns: dict[str, list[Any]]) -> float | None:
     """Return the frame rate that the last row tells, if it tells one."""
     # The row that ends last tells frames and seconds most exactly.
     n_frames, seconds = max(zip(columns["stop_frame"], columns["stop_s"], strict=True))
     valid = 0 < n_frames < 2**53 and 0 < seconds < math.inf
-    return roundest_rate(n_frames, seconds) if valid else None
+    return choose_roundest_rate(n_frames, seconds) if valid else None
 
 
 def _guess_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
     """Return what lies beside a table, with length and frame rate from its last row."""
-    n_frames, fps = max(columns["stop_frame"]), _rate(columns)
+    n_frames, fps = max(columns["stop_frame"]), _read_rate(columns)
     if fps is None:
         seconds = max(columns["stop_s"])
         raise ReadError(path, f"ends at frame {n_frames}, {seconds} s: no frame rate follows")
     note = (
-        f"frame rate {fps:g} Hz computed from frames and seconds: no {provenance_path(path).name}"
+        f"frame rate {fps:g} Hz computed from frames and seconds: no {name_provenance(path).name}"
     )
     return {"schema": SCHEMA, "n_frames": n_frames, "fps": fps, "provenance": {"notes": [note]}}
 
 
-def _cells(row: Segment) -> list[Any]:
+def _format_cells(row: Segment) -> list[Any]:
     return ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in astuple(row)]
 
 

@@ -62,19 +62,19 @@ def write_rows(
 
 
 @contextmanager
-def new_text(path: Path, *, newline: str = "") -> Iterator[TextIO]:
+def open_new_text(path: Path, *, newline: str = "") -> Iterator[TextIO]:
     """Open a text file that takes the place of ``path`` once all is written."""
     with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline=newline) as file:
         yield file
 
 
-def source_path(segmentation: Segmentation) -> str:
+def format_source(segmentation: Segmentation) -> str:
     """Return the file that was segmented, in characters that UTF-8 can hold."""
     path = (segmentation.provenance.get("input") or {}).get("path") or ""
     return str(path).encode(errors="backslashreplace").decode()
 
 
-def level_of(text: str | None) -> Level:
+def parse_level(text: str | None) -> Level:
     """Return the level that a cell names; activity where it names none."""
     return "primitive" if text == "primitive" else "activity"
 
@@ -90,7 +90,7 @@ def number(text: str, name: str, path: Path, line: int) -> float:
     return value
 
 
-def integer(text: str, name: str, path: Path, line: int) -> int:
+def parse_integer(text: str, name: str, path: Path, line: int) -> int:
     """``text`` as a whole number."""
     value = number(text, name, path, line)
     if value != int(value):
@@ -98,7 +98,7 @@ def integer(text: str, name: str, path: Path, line: int) -> int:
     return int(value)
 
 
-def head(path: Path) -> bytes:
+def read_first_bytes(path: Path) -> bytes:
     """Return the first bytes of a file; none if it cannot be read."""
     try:
         return read_head(path).removeprefix(BOM_UTF8)
@@ -106,7 +106,7 @@ def head(path: Path) -> bytes:
         return b""
 
 
-def tail(path: Path) -> bytes:
+def read_last_bytes(path: Path) -> bytes:
     """Return the last bytes of a file, where Parquet keeps what it knows of itself."""
     try:
         return read_tail(path)
@@ -114,17 +114,17 @@ def tail(path: Path) -> bytes:
         return b""
 
 
-def columns(path: Path) -> set[str]:
+def read_columns(path: Path) -> set[str]:
     """Return the cells of a file's first line, commas or tabs between them."""
-    first = head(path).decode(errors="replace").partition("\n")[0].strip("\r")
+    first = read_first_bytes(path).decode(errors="replace").partition("\n")[0].strip("\r")
     try:
-        cells = next(csv.reader([first], delimiter=separator(first)), [])
+        cells = next(csv.reader([first], delimiter=find_separator(first)), [])
     except csv.Error:
         return set()
     return {cell.strip() for cell in cells}
 
 
-def separator(first_line: str) -> str:
+def find_separator(first_line: str) -> str:
     """What stands between the cells: tabs if there are any, semicolons if there are no commas."""
     if "\t" in first_line:
         return "\t"

@@ -37,16 +37,16 @@ from kineme.errors import ReadError, WriteError
 from kineme.formats.label_tables import is_boris_table
 from kineme.labels.delimited import (
     CUTS_KEY,
-    columns,
     digest_cuts,
     find_differences,
-    head,
-    integer,
-    level_of,
-    new_text,
+    format_source,
     number,
+    open_new_text,
+    parse_integer,
+    parse_level,
+    read_columns,
+    read_first_bytes,
     read_rows,
-    source_path,
     write_rows,
 )
 from kineme.labels.registry import LabelFormat
@@ -76,17 +76,17 @@ MISSING = "n/a"
 
 def write_bids(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave the events at ``path`` and the sidecar beside them."""
-    beside = sidecar_path(path)
+    beside = name_sidecar(path)
     facts = {
         "SamplingFrequency": segmentation.fps,
         "RecordingDuration": segmentation.n_frames / segmentation.fps,
     }
     cuts = ((row.level, row.start_frame, row.stop_frame) for row in rows)
     digest = {CUTS_KEY: digest_cuts(cuts)}
-    sidecar = {**COLUMNS, **_sidecar_to_keep(beside), **facts, **digest}
-    with atomic_write(beside) as side_draft, new_text(path) as file:
+    sidecar = {**COLUMNS, **_read_sidecar_to_keep(beside), **facts, **digest}
+    with atomic_write(beside) as side_draft, open_new_text(path) as file:
         side_draft.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
-        write_rows(file, ["onset", "duration", *COLUMNS], map(_cells, rows), delimiter="\t")
+        write_rows(file, ["onset", "duration", *COLUMNS], map(_format_cells, rows), delimiter="\t")
 
 
 def read_bids(path: Path) -> Labels:
@@ -95,13 +95,13 @@ def read_bids(path: Path) -> Labels:
         rows = read_rows(file, path, [NEEDED], delimiter="\t")
         spans, cuts, rates = [], [], []
         for line, cells in rows:
-            span = _span(cells, path, line)
+            span = _parse_span(cells, path, line)
             spans.append(span)
-            rates.append((span.stop, _rate(cells, span.stop)))
+            rates.append((span.stop, _parse_rate(cells, span.stop)))
             cuts.append((span.level, cells.get("start_frame"), cells.get("stop_frame")))
-    beside = sidecar_path(path)
+    beside = name_sidecar(path)
     sidecar = _parse(beside)
-    facts = _facts(sidecar, beside)
+    facts = _make_facts(sidecar, beside)
     rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
     row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
     notes = find_differences(
@@ -110,12 +110,12 @@ def read_bids(path: Path) -> Labels:
     return Labels(spans, "seconds", rate, length, notes)
 
 
-def sidecar_path(path: Path) -> Path:
+def name_sidecar(path: Path) -> Path:
     """Where the description is kept: ``walk_events.tsv`` and ``walk_events.json``."""
     return path.with_suffix(".json")
 
 
-def _cells(row: Segment) -> list[Any]:
+def _format_cells(row: Segment) -> list[Any]:
     cluster, action = (MISSING if each < 0 else each for each in (row.cluster, row.action))
     confidence, border = (
         MISSING if math.isnan(each) else each for each in (row.confidence, row.border_confidence)
@@ -125,7 +125,7 @@ def _cells(row: Segment) -> list[Any]:
     return [*time, text_of(row), row.level, cluster, confidence, *frames, action, border]
 
 
-def _span(cells: dict[str, str], path: Path, line: int) -> Span:
+def _parse_span(cells: dict[str, str], path: Path, line: int) -> Span:
     onset = number(cells["onset"], "onset", path, line)
     duration = cells["duration"]
     length = 0.0 if duration == MISSING else number(duration, "duration", path, line)
@@ -136,20 +136,20 @@ def _span(cells: dict[str, str], path: Path, line: int) -> Span:
         onset,
         onset + length,
         text,
-        level_of(cells.get("level")),
-        -1 if cluster in (MISSING, "") else integer(cluster, "cluster", path, line),
+        parse_level(cells.get("level")),
+        -1 if cluster in (MISSING, "") else parse_integer(cluster, "cluster", path, line),
         math.nan if confidence in (MISSING, "") else number(confidence, "confidence", path, line),
     )
 
 
-def _rate(cells: dict[str, str], stop_s: float) -> float | None:
+def _parse_rate(cells: dict[str, str], stop_s: float) -> float | None:
     """Return the frame rate that a row tells by its last frame and second, if it has both."""
     text = cells.get("stop_frame", MISSING)
     valid = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
     return int(text) / stop_s if valid else None
 
 
-def _facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
+def _make_facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
     facts: dict[str, float | None] = {}
     for name in ("SamplingFrequency", "RecordingDuration"):
         value = sidecar.get(name)
@@ -159,7 +159,7 @@ def _facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
     return facts
 
 
-def _sidecar_to_keep(beside: Path) -> dict[str, Any]:
+def _read_sidecar_to_keep(beside: Path) -> dict[str, Any]:
     try:
         found = _parse(beside)
     except ReadError as error:
@@ -185,7 +185,7 @@ BIDS = LabelFormat(
     holds="levels",
     read=read_bids,
     write=write_bids,
-    recognises=lambda path: set(NEEDED) <= columns(path),
+    recognises=lambda path: set(NEEDED) <= read_columns(path),
     several=True,
 )
 
@@ -216,7 +216,7 @@ Cells = dict[str, str]
 
 def write_boris(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave two rows per segment at ``path``, in time order."""
-    media = source_path(segmentation)
+    media = format_source(segmentation)
     facts = {
         "Observation id": Path(media).stem,
         "Observation type": "Media file(s)",
@@ -243,7 +243,7 @@ def write_boris(rows: Sequence[Segment], segmentation: Segmentation, path: Path)
     ]
     # What stops at a frame comes before what starts there.
     events.sort(key=lambda event: (event["Image index"], event["Behavior type"] == "START"))
-    with new_text(path) as file:
+    with open_new_text(path) as file:
         lines = ({**facts, **event} for event in events)
         write_rows(
             file, BORIS_COLUMNS, ([line.get(name, "") for name in BORIS_COLUMNS] for line in lines)
@@ -258,17 +258,17 @@ def read_boris(path: Path) -> Labels:
     spans = list(
         _pair_states(rows, path) if rows and "Time" in rows[0][1] else _read_aggregated(rows, path)
     )
-    points = Counter(cells["Behavior"] for _, cells in rows if _kind(cells) == "POINT")
+    points = Counter(cells["Behavior"] for _, cells in rows if _parse_kind(cells) == "POINT")
     listed = ", ".join(f"{name} ({count})" for name, count in points.items())
     notes = (f"point events last no time and are left out: {listed:.200}",) if points else ()
-    return Labels(spans, "seconds", _fact(rows, RATES), _fact(rows, LENGTHS), notes)
+    return Labels(spans, "seconds", _parse_fact(rows, RATES), _parse_fact(rows, LENGTHS), notes)
 
 
 def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
     """Yield each STOP with the START of the same behavior before it."""
     starts: dict[tuple[str, ...], float] = {}
     for line, cells in rows:
-        kind = _kind(cells)
+        kind = _parse_kind(cells)
         if kind == "POINT":
             continue
         same = ("Observation id", "Subject", "Behavior", "Behavioral category")
@@ -279,7 +279,10 @@ def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
             starts[key] = time
         elif kind == "STOP" and key in starts:
             yield Span(
-                starts.pop(key), time, cells["Behavior"], level_of(cells.get("Behavioral category"))
+                starts.pop(key),
+                time,
+                cells["Behavior"],
+                parse_level(cells.get("Behavioral category")),
             )
         else:
             reason = f"{cells['Behavior']!r:.60} has a {kind!r:.20} where START and STOP alternate"
@@ -290,19 +293,19 @@ def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
 
 def _read_aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
     for line, cells in rows:
-        if _kind(cells) == "POINT":
+        if _parse_kind(cells) == "POINT":
             continue
         start = number(cells["Start (s)"], "Start (s)", path, line)
         stop = number(cells["Stop (s)"], "Stop (s)", path, line)
-        level = level_of(cells.get("Behavioral category"))
+        level = parse_level(cells.get("Behavioral category"))
         yield Span(start, stop, cells["Behavior"], level)
 
 
-def _kind(cells: Cells) -> str:
+def _parse_kind(cells: Cells) -> str:
     return (cells.get("Behavior type") or cells.get("Status") or "").strip().upper()
 
 
-def _fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | None:
+def _parse_fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | None:
     """Return what the first row says about the recording, if that is a positive number."""
     for name in names:
         try:
@@ -321,5 +324,5 @@ BORIS = LabelFormat(
     holds="levels",
     read=read_boris,
     write=write_boris,
-    recognises=lambda path: is_boris_table(head(path).decode(errors="replace")),
+    recognises=lambda path: is_boris_table(read_first_bytes(path).decode(errors="replace")),
 )

@@ -52,13 +52,13 @@ from kineme._util.json import decode_json
 from kineme.errors import ReadError
 from kineme.formats.channels.parquet import parquet_columns, parquet_file
 from kineme.formats.files import load
-from kineme.labels.delimited import head, tail
+from kineme.labels.delimited import read_first_bytes, read_last_bytes
 from kineme.labels.registry import LabelFormat
 from kineme.segments.annotation import Annotation
 from kineme.segments.editing.annotating import assign_comments, from_rows
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, COMMENT, Segment, SegmentTable, lacking
+from kineme.segments.table import COLUMNS, COMMENT, Segment, SegmentTable, find_lacking
 
 SCHEMA = "kineme.segments/2"
 INDEPENDENT = tuple(name for name, column in COLUMNS.items() if not column.derived)
@@ -73,19 +73,19 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
 
 def dumps(segmentation: Segmentation) -> str:
     """Return the JSON text: small parts indented, one line per segment."""
-    content = head_of(segmentation)
+    content = make_head(segmentation)
     levels = content.get("hierarchy", {}).pop("levels", [])
     head = _indent(content).removesuffix("\n}")
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
         head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
-    rows = ",\n".join(_lines(segmentation.table))
+    rows = ",\n".join(_format_lines(segmentation.table))
     return f'{head},\n  "segments": [\n{rows}\n  ]\n}}\n'
 
 
 def as_object(segmentation: Segmentation) -> dict[str, Any]:
     """Return what the JSON text holds, as Python has it."""
-    return head_of(segmentation) | {"segments": [*_rows(segmentation.table)]}
+    return make_head(segmentation) | {"segments": [*_make_rows(segmentation.table)]}
 
 
 def read(path: Path) -> Segmentation:
@@ -100,7 +100,7 @@ def loads(content: bytes, path: Path) -> Segmentation:
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise ReadError(path, '"segments" must be a list of objects')
     for number, row in enumerate(rows):
-        missing = lacking(row)
+        missing = find_lacking(row)
         if missing:
             raise ReadError(path, f"segment {number} has no {missing[0]!r}")
     # Cells that a row lacks are what holds where nothing is known.
@@ -111,7 +111,7 @@ def loads(content: bytes, path: Path) -> Segmentation:
     return join_head(columns, data, path)
 
 
-def head_of(segmentation: Segmentation) -> dict[str, Any]:
+def make_head(segmentation: Segmentation) -> dict[str, Any]:
     """Everything but the table, as JSON holds it."""
     head = {
         "schema": SCHEMA,
@@ -123,7 +123,7 @@ def head_of(segmentation: Segmentation) -> dict[str, Any]:
     if annotation := segmentation.annotation.to_json():
         head["annotation"] = annotation
     if segmentation.hierarchy is not None:
-        head["hierarchy"] = _levels(segmentation.hierarchy)
+        head["hierarchy"] = _make_levels(segmentation.hierarchy)
     return head
 
 
@@ -142,7 +142,7 @@ def parse(text: str, path: Path) -> dict[str, Any]:
 
 
 def join_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segmentation:
-    """Return the segmentation of a table and what `head_of` gave."""
+    """Return the segmentation of a table and what `make_head` gave."""
     n_frames, fps = head.get("n_frames"), head.get("fps")
     if type(n_frames) is not int:
         raise ReadError(path, f'"n_frames" must be a whole number, not {n_frames!r:.40}')
@@ -163,24 +163,24 @@ def join_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     if "hierarchy" not in head:
         return found
     try:
-        return replace(found, hierarchy=_hierarchy(head["hierarchy"], found))
+        return replace(found, hierarchy=_parse_hierarchy(head["hierarchy"], found))
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise ReadError(path, f'"hierarchy" is none: {error}') from error
 
 
-def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
+def _make_levels(hierarchy: Hierarchy) -> dict[str, Any]:
     """Return a hierarchy as JSON holds it."""
     levels: list[dict[str, Any]] = []
     for detail, table in zip(hierarchy.details, hierarchy.tables, strict=True):
         levels.append({"detail": detail})
         if detail != hierarchy.detail:
             columns = table.columns()
-            levels[-1]["columns"] = {name: _values(columns[name]) for name in INDEPENDENT}
+            levels[-1]["columns"] = {name: _list_values(columns[name]) for name in INDEPENDENT}
     return {"detail": hierarchy.detail, "levels": levels}
 
 
-def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
-    """Return what `_levels` gave, around a table."""
+def _parse_hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
+    """Return what `_make_levels` gave, around a table."""
     tables = {}
     for level in data["levels"]:
         columns = level.get("columns")
@@ -201,9 +201,9 @@ def _replace_null(values: list[Any], name: str) -> list[Any]:
     return [math.nan if value is None else value for value in values]
 
 
-def _rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
+def _make_rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
     """One object per row."""
-    columns = [_values(column) for column in table.columns().values()]
+    columns = [_list_values(column) for column in table.columns().values()]
     return (dict(zip(COLUMNS, cells, strict=True)) for cells in zip(*columns, strict=True))
 
 
@@ -215,8 +215,8 @@ def _indent(content: dict[str, Any]) -> str:
         return json.dumps(content, indent=2)
 
 
-def _lines(table: SegmentTable) -> Iterator[str]:
-    """What `json.dumps` writes for each of `_rows`, column by column: tables have many rows."""
+def _format_lines(table: SegmentTable) -> Iterator[str]:
+    """What `json.dumps` writes for each of `_make_rows`, column by column: tables have many rows."""
     columns = map(_as_text, table.columns().values())
     line = "    {" + ", ".join(f'"{name}": %s' for name in COLUMNS) + "}"
     return map(line.__mod__, zip(*columns, strict=True))
@@ -236,7 +236,7 @@ def _as_text(column: NDArray[Any]) -> list[str]:
     return texts
 
 
-def _values(column: NDArray[Any]) -> list[Any]:
+def _list_values(column: NDArray[Any]) -> list[Any]:
     """Return the cells of a column; a number that nobody knows is None."""
     values: list[Any] = column.tolist()
     if column.dtype.kind != "f":
@@ -251,7 +251,7 @@ FORMAT = LabelFormat(
     holds="all",
     read=read,
     write=write,
-    recognises=lambda path: b'"kineme.segments/' in head(path),
+    recognises=lambda path: b'"kineme.segments/' in read_first_bytes(path),
 )
 
 
@@ -268,7 +268,7 @@ def write_parquet(_: Sequence[Segment], segmentation: Segmentation, path: Path) 
     if any(comments := assign_comments(segmentation)):
         columns[COMMENT] = comments
     table = pa.table(columns)
-    table = table.replace_schema_metadata({KEY: json.dumps(head_of(segmentation)).encode()})
+    table = table.replace_schema_metadata({KEY: json.dumps(make_head(segmentation)).encode()})
     with atomic_write(path) as draft:
         parquet.write_table(table, draft)
 
@@ -279,7 +279,7 @@ def read_parquet(path: Path) -> Segmentation:
     file = parquet_file(content)
     metadata = file.schema_arrow.metadata or {}
     names = file.schema_arrow.names
-    if KEY not in metadata or lacking(names):
+    if KEY not in metadata or find_lacking(names):
         raise ReadError(path, "is a Parquet file, but not a segment table written by kineme")
     head = parse(metadata[KEY].decode(errors="replace"), path)
     present = [name for name in COLUMNS if name in names]
@@ -299,5 +299,5 @@ PARQUET = LabelFormat(
     holds="all",
     read=read_parquet,
     write=write_parquet,
-    recognises=lambda path: KEY in tail(path),
+    recognises=lambda path: KEY in read_last_bytes(path),
 )

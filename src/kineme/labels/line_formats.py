@@ -31,15 +31,15 @@ from pathlib import Path
 
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
-from kineme.labels.csv_table import roundest_rate
+from kineme.labels.csv_table import choose_roundest_rate
 from kineme.labels.delimited import (
-    columns,
-    head,
-    integer,
-    new_text,
+    format_source,
     number,
+    open_new_text,
+    parse_integer,
+    read_columns,
+    read_first_bytes,
     read_rows,
-    source_path,
     write_rows,
 )
 from kineme.labels.registry import LabelFormat
@@ -53,7 +53,7 @@ NEEDED = ("file", "start", "stop")
 
 
 def _write_audacity(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
-    with new_text(path, newline="\n") as file:
+    with open_new_text(path, newline="\n") as file:
         file.writelines(f"{row.start_s!r}\t{row.stop_s!r}\t{text_of(row)}\n" for row in rows)
 
 
@@ -74,7 +74,7 @@ def _read_audacity(path: Path) -> Labels:
 
 def _is_audacity(path: Path) -> bool:
     """Return whether the first label has two times with a tab between."""
-    lines = head(path).decode(errors="replace").splitlines()
+    lines = read_first_bytes(path).decode(errors="replace").splitlines()
     return "\t" in next((line for line in lines if line and not line.startswith("\\")), "")
 
 
@@ -96,11 +96,11 @@ def _write_ms_tcn(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
         path.parent.mkdir(exist_ok=True)
     texts = ["".join("_" if letter.isspace() else letter for letter in text_of(r)) for r in rows]
     mapping = path.parent.parent / "mapping.txt"
-    classes = _classes(mapping)
+    classes = _list_classes(mapping)
     for text in texts:
         # New classes go on after the largest number.
         classes.setdefault(text, 1 + max(classes.values(), default=-1))
-    with atomic_write(mapping) as class_draft, new_text(path, newline="\n") as file:
+    with atomic_write(mapping) as class_draft, open_new_text(path, newline="\n") as file:
         lines = (f"{number} {text}\n" for text, number in classes.items())
         class_draft.write_text("".join(lines), encoding="utf-8", newline="\n")
         for row, text in zip(rows, texts, strict=True):
@@ -123,7 +123,7 @@ def _read_ms_tcn(path: Path) -> Labels:
     return Labels(spans, "frames", None, at)
 
 
-def _classes(mapping: Path) -> dict[str, int]:
+def _list_classes(mapping: Path) -> dict[str, int]:
     """Return the classes that are there, by name."""
     if not mapping.is_file():
         return {}
@@ -141,7 +141,7 @@ def _classes(mapping: Path) -> dict[str, int]:
 
 def _is_ms_tcn(path: Path) -> bool:
     """Return whether the first line is one word or more, and no row of a table."""
-    first = head(path).decode(errors="replace").partition("\n")[0].strip()
+    first = read_first_bytes(path).decode(errors="replace").partition("\n")[0].strip()
     return bool(first) and "\t" not in first and not first[0].isdigit() and first[0] not in "-+."
 
 
@@ -159,10 +159,10 @@ MS_TCN = LabelFormat(
 
 
 def _write_clips(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
-    source = source_path(segmentation)
+    source = format_source(segmentation)
     lines = ((source, row.start_frame, row.stop_frame, 0, row.start_s, row.stop_s, text_of(row))
              for row in rows)  # fmt: skip
-    with new_text(path) as file:
+    with open_new_text(path) as file:
         write_rows(file, (*NEEDED, "mirror", "start_s", "stop_s", "label"), lines)
 
 
@@ -172,7 +172,7 @@ def _read_clips(path: Path) -> Labels:
     last = 0, 0.0
     with path.open(encoding="utf-8-sig", newline="") as file:
         for line, cells in read_rows(file, path, [NEEDED]):
-            start, stop = (integer(cells[name], name, path, line) for name in NEEDED[1:])
+            start, stop = (parse_integer(cells[name], name, path, line) for name in NEEDED[1:])
             spans[Span(start, stop, cells.get("label", ""))] = None
             sources[cells["file"]] = None
             if cells.get("stop_s"):
@@ -180,7 +180,7 @@ def _read_clips(path: Path) -> Labels:
     if len(sources) > 1:
         names = ", ".join(sources)
         raise ReadError(path, f"lists clips of {len(sources)} files ({names:.100}): keep one")
-    return Labels(list(spans), "frames", roundest_rate(*last) if min(last) > 0 else None)
+    return Labels(list(spans), "frames", choose_roundest_rate(*last) if min(last) > 0 else None)
 
 
 CLIPS = LabelFormat(
@@ -190,5 +190,5 @@ CLIPS = LabelFormat(
     holds="level",
     read=_read_clips,
     write=_write_clips,
-    recognises=lambda path: set(NEEDED) <= columns(path),
+    recognises=lambda path: set(NEEDED) <= read_columns(path),
 )

@@ -162,7 +162,7 @@ def register(new: LabelFormat, *, replace: bool = False) -> None:
     FORMATS.register(new, replace=replace)
 
 
-def written_suffixes() -> tuple[str, ...]:
+def list_written_suffixes() -> tuple[str, ...]:
     """Return the suffixes by which `write_segments` knows a format.
 
     Returns
@@ -325,28 +325,28 @@ def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelF
     """Return the format in which a file is read: the one named, else by its content and suffix."""
     if name is not None:
         return _find_named(name)
-    fitting, suffix = _with_suffix(path), Path(path).suffix.lower()
+    fitting, suffix = _find_by_suffix(path), Path(path).suffix.lower()
     if not fitting and not Path(path).exists():
         raise ReadError(path, "there is no such file")
     if not fitting:
         every = (known for candidate in FORMATS.values() for known in candidate.suffixes)
         stored = ", ".join(dict.fromkeys(every))
-        raise ReadError(path, f"segments are stored as {stored}, not {_other(suffix)}")
+        raise ReadError(path, f"segments are stored as {stored}, not {_suggest_other(suffix)}")
     fitting.sort(key=lambda candidate: candidate.written_suffix.lower() != suffix)
     return next((each for each in fitting if _speaks(each, Path(path))), fitting[0])
 
 
 def format_to_write(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
     """Return format in which a file is written: the one named, else the first with its suffix."""
-    fitting = _with_suffix(path) if name is None else [_find_named(name)]
+    fitting = _find_by_suffix(path) if name is None else [_find_named(name)]
     writers = [candidate for candidate in fitting if candidate.write]
-    suffix, stored = Path(path).suffix.lower(), ", ".join(written_suffixes())
+    suffix, stored = Path(path).suffix.lower(), ", ".join(list_written_suffixes())
     if writers:
         # One that writes this suffix comes before one that only reads it.
         return min(writers, key=lambda candidate: candidate.written_suffix.lower() != suffix)
     if fitting:
         raise WriteError(path, f"{fitting[0].name} is only read: segments go into {stored}")
-    raise WriteError(path, f"segments are stored as {stored}, not {_other(suffix)}")
+    raise WriteError(path, f"segments are stored as {stored}, not {_suggest_other(suffix)}")
 
 
 def holds_labels(path: str | PathLike[str]) -> bool:
@@ -371,10 +371,10 @@ def holds_labels(path: str | PathLike[str]) -> bool:
     target = Path(path)
     if target.name.endswith(".provenance.json"):  # of the table beside it
         return False
-    return any(_speaks(candidate, target) for candidate in _with_suffix(path))
+    return any(_speaks(candidate, target) for candidate in _find_by_suffix(path))
 
 
-def _with_suffix(path: str | PathLike[str]) -> list[LabelFormat]:
+def _find_by_suffix(path: str | PathLike[str]) -> list[LabelFormat]:
     suffix = Path(path).suffix.lower()
     return [candidate for candidate in FORMATS.values() if suffix in candidate.suffixes]
 
@@ -389,5 +389,5 @@ def _find_named(name: str) -> LabelFormat:
     return FORMATS[name]
 
 
-def _other(suffix: str) -> str:
+def _suggest_other(suffix: str) -> str:
     return repr(suffix) if suffix else "without a suffix"

@@ -37,7 +37,7 @@ from kineme._util.checks import format_count
 from kineme.errors import ParameterError, ReadError
 from kineme.recordings.clock import Clock
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Kind, Level, Segment, kind_of
+from kineme.segments.table import Kind, Level, Segment, choose_kind
 
 TOO_FAR = 2**53
 """Frames from which a float cannot tell neighbours apart."""
@@ -105,7 +105,7 @@ def text_of(row: Segment) -> str:
     return f"cluster {row.cluster}" if row.cluster >= 0 else "activity"
 
 
-def meaning(text: str) -> tuple[Kind, int, str]:
+def parse_text(text: str) -> tuple[Kind, int, str]:
     """Kind, on the activity level, cluster and label of a text: the inverse of `text_of`."""
     if text == "transition":
         return "transition", -1, ""
@@ -159,7 +159,7 @@ def as_segmentation(
     if len(full) < len(rows):
         short = format_count(len(rows) - len(full), "label")
         unusual.append(f"shorter than a frame, left out: {short}")
-    tiled = _both_levels(full, n_frames, path)
+    tiled = _fill_levels(full, n_frames, path)
     source: dict[str, Any] = {"path": str(path), "format": name}
     level = "activity" if any(row[0] == "activity" for row in full) else "primitive"
     if level == "primitive":
@@ -184,7 +184,7 @@ def as_segmentation(
     return segmentation, tuple(unusual)
 
 
-def one_line(text: str) -> str:
+def join_lines(text: str) -> str:
     """Return the text with a blank for all that a label may not hold: tabs, line ends, controls."""
     if text.isprintable():
         return text
@@ -197,8 +197,8 @@ def _row(span: Span, per_unit: float, path: Path) -> Row:
     start, stop = _frame(span.start, per_unit, path), _frame(span.stop, per_unit, path)
     if stop < start:
         raise ReadError(path, f"{span.text!r:.60} stops at {span.stop}, before {span.start}")
-    kind, cluster, label = meaning(one_line(span.text))
-    kind = kind_of(span.level, transition=kind == "transition")
+    kind, cluster, label = parse_text(join_lines(span.text))
+    kind = choose_kind(span.level, transition=kind == "transition")
     return span.level, kind, start, stop, max(cluster, span.cluster), label, span.confidence
 
 
@@ -210,12 +210,12 @@ def _frame(value: float, per_unit: float, path: Path) -> int:
     return math.floor(frame + 0.5)
 
 
-def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
+def _fill_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
     """Return the rows of each level, gaps between them filled but not across an activity's end."""
     if all(row[0] == "primitive" for row in full):
         activity: Level = "activity"
         full = [
-            (activity, kind_of(activity, transition=row[1] == "transition"), *row[2:])
+            (activity, choose_kind(activity, transition=row[1] == "transition"), *row[2:])
             for row in full
         ]
     inner = [row for row in full if row[0] == "primitive"]
@@ -236,13 +236,13 @@ def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path
                 f"{row[5]!r:.60} starts at frame {row[2]}, before the label ahead of it stops "
                 f"({at}): labels of one level may touch but not overlap",
             )
-        yield from _gap(level, at, row[2], borders)
+        yield from _make_gap(level, at, row[2], borders)
         yield row
         at = row[3]
-    yield from _gap(level, at, n_frames, borders)
+    yield from _make_gap(level, at, n_frames, borders)
 
 
-def _gap(level: Level, start: int, stop: int, borders: list[int]) -> Iterator[Row]:
+def _make_gap(level: Level, start: int, stop: int, borders: list[int]) -> Iterator[Row]:
     # Borders strictly inside of the gap: a transition must not cross an activity's end.
     inside = borders[bisect_right(borders, start) : bisect_left(borders, stop)]
     for left, right in pairwise([start, *inside, stop]):
@@ -269,7 +269,7 @@ def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float)
     if clock is None or labels.unit != "seconds" or not labels.spans:
         return labels
     times = np.array([span[:2] for span in labels.spans], np.float64)
-    seconds, remarks = _seconds(times, clock, length_s)
+    seconds, remarks = _convert_seconds(times, clock, length_s)
     # A label may begin before the recording.
     begin, end = np.maximum(seconds[:, 0], 0.0), seconds[:, 1]
     # Labels that run backwards are kept, so that they are refused by name later.
@@ -280,14 +280,14 @@ def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float)
         for span, a, b in zip(labels.spans, begin, end, strict=True)
     ]
     lost = [span for span, kept in zip(labels.spans, meets, strict=True) if not kept]
-    notes = (*labels.notes, *lost_labels(lost, "s"))
+    notes = (*labels.notes, *note_lost_labels(lost, "s"))
     spans = [span for span, kept in zip(placed, meets, strict=True) if kept]
     return replace(
         labels, spans=spans, length=None, notes=notes, remarks=(*labels.remarks, *remarks)
     )
 
 
-def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
+def note_lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
     """Return a note that names the labels which no frame has; none where there are none."""
     if not spans:
         return ()
@@ -296,7 +296,9 @@ def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
     return (f"meeting no frame, left out: {', '.join(named[:NAMED])}{more}",)
 
 
-def _seconds(times: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
+def _convert_seconds(
+    times: Floats, clock: Clock, length_s: float
+) -> tuple[Floats, tuple[str, ...]]:
     """Return the seconds of starts and stops, and a note unless they are the clock's own."""
     first = f"times counted from the first frame, at which the clock shows {clock.shown(0.0)}"
     answers: list[tuple[Floats, tuple[str, ...]]] = [

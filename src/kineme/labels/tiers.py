@@ -44,7 +44,7 @@ from xml.etree import ElementTree as ET
 from kineme._util.files import NoEntities, atomic_write, find_video
 from kineme.errors import ReadError, WriteError
 from kineme.formats.label_tables import is_elan_table
-from kineme.labels.delimited import head, new_text, number
+from kineme.labels.delimited import number, open_new_text, read_first_bytes
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
@@ -80,7 +80,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
     for name, value in (("fps", repr(segmentation.fps)), ("n_frames", segmentation.n_frames)):
         ET.SubElement(header, "PROPERTY", NAME=f"kineme.{name}").text = str(value)
     # Each time once: segments that touch share a time slot.
-    times = sorted({time for row in rows for time in _milliseconds(row)})
+    times = sorted({time for row in rows for time in _round_to_milliseconds(row)})
     slots = {time: f"ts{number}" for number, time in enumerate(times, 1)}
     order = ET.SubElement(root, "TIME_ORDER")
     for time, slot in slots.items():
@@ -91,7 +91,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
             tiers[row.level] = ET.SubElement(
                 root, "TIER", TIER_ID=row.level, LINGUISTIC_TYPE_REF="default-lt"
             )
-        start, stop = (slots[time] for time in _milliseconds(row))
+        start, stop = (slots[time] for time in _round_to_milliseconds(row))
         holder = ET.SubElement(tiers[row.level], "ANNOTATION")
         span = ET.SubElement(holder, "ALIGNABLE_ANNOTATION", ANNOTATION_ID=f"a{position}")
         span.attrib |= {"TIME_SLOT_REF1": start, "TIME_SLOT_REF2": stop}
@@ -122,12 +122,12 @@ def read(path: Path) -> Labels:
         if (found := list(tier.iter("ALIGNABLE_ANNOTATION")))
     }
     spans = [
-        _span(annotation, slots, level, path)
-        for name, level in chosen_tiers(list(tiers), path).items()
+        _parse_span(annotation, slots, level, path)
+        for name, level in choose_tiers(list(tiers), path).items()
         for annotation in tiers[name]
     ]
-    fps = _property(root, "kineme.fps", path)
-    n_frames = _property(root, "kineme.n_frames", path)
+    fps = _read_property(root, "kineme.fps", path)
+    n_frames = _read_property(root, "kineme.n_frames", path)
     return Labels(spans, "seconds", fps, n_frames / fps if n_frames and fps else None)
 
 
@@ -146,7 +146,7 @@ def _name_medium(header: ET.Element, segmentation: Segmentation) -> None:
         medium.set("TIME_ORIGIN", str(origin))
 
 
-def chosen_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
+def choose_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
     """Return level of each tier that is read: those named after one, or the only one there is."""
     found: dict[str, Level] = {level: level for level in get_args(Level) if level in names}
     if found or not names:
@@ -172,24 +172,24 @@ def _parse(path: Path) -> ET.Element:
         raise ReadError(path, f"is not an ELAN document: {error}") from error
 
 
-def _span(
+def _parse_span(
     annotation: ET.Element, slots: dict[str | None, str | None], level: Level, path: Path
 ) -> Span:
     start, stop = (
-        _seconds(slots.get(annotation.get(f"TIME_SLOT_REF{end}")), annotation, path)
+        _parse_seconds(slots.get(annotation.get(f"TIME_SLOT_REF{end}")), annotation, path)
         for end in (1, 2)
     )
     return Span(start, stop, annotation.findtext("ANNOTATION_VALUE") or "", level)
 
 
-def _seconds(text: str | None, annotation: ET.Element, path: Path) -> float:
+def _parse_seconds(text: str | None, annotation: ET.Element, path: Path) -> float:
     if text is None or not text.isascii() or not text.isdigit() or len(text) > 15:
         name = annotation.get("ANNOTATION_ID")
         raise ReadError(path, f"annotation {name!r:.60} has no time in milliseconds")
     return int(text) / PER_SECOND
 
 
-def _property(root: ET.Element, name: str, path: Path) -> float | None:
+def _read_property(root: ET.Element, name: str, path: Path) -> float | None:
     for holder in root.iter("PROPERTY"):
         if holder.get("NAME") == name:
             try:
@@ -202,7 +202,7 @@ def _property(root: ET.Element, name: str, path: Path) -> float | None:
     return None
 
 
-def _milliseconds(row: Segment) -> tuple[int, int]:
+def _round_to_milliseconds(row: Segment) -> tuple[int, int]:
     return round(row.start_s * PER_SECOND), round(row.stop_s * PER_SECOND)
 
 
@@ -236,7 +236,7 @@ def read_table(path: Path) -> Labels:
         return Labels([])
     is_named = any(map(_TIMES.fullmatch, full[0][1]))
     found = list(_read_named_columns(full, path) if is_named else _read_unnamed_columns(full, path))
-    levels = chosen_tiers(list(dict.fromkeys(tier for tier, *_ in found)), path)
+    levels = choose_tiers(list(dict.fromkeys(tier for tier, *_ in found)), path)
     return Labels(
         [Span(start, stop, text, levels[t]) for t, start, stop, text in found if t in levels]
     )
@@ -298,7 +298,7 @@ ELAN_TABLE = LabelFormat(
     suffixes=(".txt", ".tsv", ".csv"),
     holds="levels",
     read=read_table,
-    recognises=lambda path: is_elan_table(head(path).decode(errors="replace")),
+    recognises=lambda path: is_elan_table(read_first_bytes(path).decode(errors="replace")),
 )
 
 
@@ -311,36 +311,36 @@ def write_textgrid(rows: Sequence[Segment], segmentation: Segmentation, path: Pa
     tiers: dict[str, list[Segment]] = {}
     for row in rows:
         tiers.setdefault(row.level, []).append(row)
-    with new_text(path, newline="\n") as file:
+    with open_new_text(path, newline="\n") as file:
         file.write('File type = "ooTextFile"\nObject class = "TextGrid"\n\n')
         file.write(f"xmin = 0\nxmax = {length!r}\ntiers? <exists>\nsize = {len(tiers)}\nitem []:\n")
         for place, (name, inside) in enumerate(tiers.items(), 1):
             file.write(f'    item [{place}]:\n        class = "IntervalTier"\n')
             file.write(f'        name = "{name}"\n        xmin = 0\n        xmax = {length!r}\n')
             file.write(f"        intervals: size = {len(inside)}\n")
-            file.writelines(_lines(inside))
+            file.writelines(_format_lines(inside))
 
 
 def read_textgrid(path: Path) -> Labels:
     """Return the intervals at ``path``."""
-    tokens = _tokens(path)
-    if _text(tokens, path) != "ooTextFile" or _text(tokens, path) != "TextGrid":
+    tokens = _split_tokens(path)
+    if _parse_text(tokens, path) != "ooTextFile" or _parse_text(tokens, path) != "TextGrid":
         raise ReadError(path, "is not a TextGrid in text form")
     _number(tokens, path)
     length = _number(tokens, path)
     tiers: dict[str, list[Span]] = {}
     for _ in range(_count(tokens, path)):
-        kind, name = _text(tokens, path), _text(tokens, path)
+        kind, name = _parse_text(tokens, path), _parse_text(tokens, path)
         _number(tokens, path), _number(tokens, path)
-        found = [_interval(tokens, kind, path) for _ in range(_count(tokens, path))]
+        found = [_parse_interval(tokens, kind, path) for _ in range(_count(tokens, path))]
         if kind == "IntervalTier" and any(span.text for span in found):
             tiers[name] = [span for span in found if span.text]
-    levels = chosen_tiers(list(tiers), path)
+    levels = choose_tiers(list(tiers), path)
     spans = [span._replace(level=level) for name, level in levels.items() for span in tiers[name]]
     return Labels(spans, "seconds", None, length)
 
 
-def _lines(rows: Sequence[Segment]) -> Iterator[str]:
+def _format_lines(rows: Sequence[Segment]) -> Iterator[str]:
     for place, row in enumerate(rows, 1):
         text = text_of(row).replace('"', '""')
         yield f"        intervals [{place}]:\n"
@@ -348,7 +348,7 @@ def _lines(rows: Sequence[Segment]) -> Iterator[str]:
         yield f'            text = "{text}"\n'
 
 
-def _tokens(path: Path) -> Iterator[str | float]:
+def _split_tokens(path: Path) -> Iterator[str | float]:
     """Texts and numbers in order."""
     data = path.read_bytes()
     wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
@@ -362,13 +362,13 @@ def _tokens(path: Path) -> Iterator[str | float]:
             raise ReadError(path, f"has {match[2]!r:.60} where a number should be") from error
 
 
-def _interval(tokens: Iterator[str | float], kind: str, path: Path) -> Span:
+def _parse_interval(tokens: Iterator[str | float], kind: str, path: Path) -> Span:
     start = _number(tokens, path)
     stop = _number(tokens, path) if kind == "IntervalTier" else start
-    return Span(start, stop, _text(tokens, path))
+    return Span(start, stop, _parse_text(tokens, path))
 
 
-def _text(tokens: Iterator[str | float], path: Path) -> str:
+def _parse_text(tokens: Iterator[str | float], path: Path) -> str:
     token = next(tokens, None)
     if not isinstance(token, str):
         raise ReadError(path, f"has {_format_number(token)} where a text in quotes should be")
@@ -383,7 +383,7 @@ def _number(tokens: Iterator[str | float], path: Path) -> float:
 
 
 def _count(tokens: Iterator[str | float], path: Path) -> int:
-    """How many follow; a claim beyond what is there ends in an error of `_text` or `_number`."""
+    """How many follow; a claim beyond what is there ends in an error of `_parse_text` or `_number`."""
     count = _number(tokens, path)
     if not 0 <= count < 1e9 or count != int(count):
         raise ReadError(path, f"has {count} where a count should be")

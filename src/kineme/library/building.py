@@ -17,15 +17,15 @@ from kineme._version import __version__
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions
 from kineme.library.edits import read_edits
-from kineme.library.executors import Executor, Progress, connect, processes
+from kineme.library.executors import Executor, Progress, connect, start_processes
 from kineme.library.gathering import gather
 from kineme.library.planning import (
     Entry,
     Plan,
-    absolute,
     as_paths,
     list_recordings,
-    names_of,
+    make_absolute,
+    name_recordings,
     open_folder,
     plan_of,
 )
@@ -38,12 +38,12 @@ from kineme.library.storage.layout import (
     MOST_CLUSTERS,
     SCHEMA,
     TABLES,
-    arrow,
+    import_arrow,
+    lock_for_writing,
     read_json,
     write_json,
-    writer_lock,
 )
-from kineme.library.storage.places import lies_in, place, reaching
+from kineme.library.storage.places import lies_in, place, reach
 from kineme.library.storage.tables import is_table, is_tables, read_table, write_tables
 from kineme.methods.segmenter import SegmentOptions
 from kineme.transfer.clusters import CONSTANTS, Spans
@@ -156,27 +156,29 @@ def build(
     ...     len(built.paths), built.new
     (1, 1)
     """
-    arrow()
+    import_arrow()
     if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
     check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
     made = ((read_options, ReadOptions), (segment_options, SegmentOptions))
     for options, kind in made:
         check_type(options, (kind, type(None)), "build", f"{kind.__name__}() makes one")
-    with processes(int(jobs)) if client is None else connect(client) as executor:
+    with start_processes(int(jobs)) if client is None else connect(client) as executor:
         added, removed = as_paths(sources), as_paths(remove)
         folder = open_folder(into, [*added, *removed])
-        with writer_lock(folder, "build"), reaching(folder):
+        with lock_for_writing(folder, "build"), reach(folder):
             head = read_json(folder / HEAD)
             plan = plan_of(folder, head, added, removed, recursive, read_options, segment_options)
-            return _built(plan, head, executor, progress or (lambda _: None))
+            return _update(plan, head, executor, progress or (lambda _: None))
 
 
-def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Built:
+def _update(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Built:
     """Return the library brought up to date, for one that holds it."""
     progress("looking for recordings")
-    before = _former_recordings(plan.folder, head)
-    found = list_recordings(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
+    before = _read_former_recordings(plan.folder, head)
+    found = list_recordings(
+        plan.sources, recursive=plan.recursive, without=make_absolute(plan.folder)
+    )
     missing_sources = [source for source in plan.sources if not source.exists()]
     not_found = {path: entry for path, entry in before.items() if path not in found}
     absent = _group_missing(plan, not_found, missing_sources)
@@ -184,13 +186,13 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     failed = dict.fromkeys(missing_sources, NOT_FOUND) | gathered.failed
     keys = {path: plan.key(digest) for path, digest in gathered.digests.items()}
     keys |= {path: before[path][1] for path in absent}
-    names = names_of(
+    names = name_recordings(
         {path: source for path, source in {**found, **absent}.items() if path in keys},
         {path: name for path, (name, _) in before.items()},
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
-    with writer_lock(plan.folder, "build", LOCK_EDITS):
-        tables = _written(plan, head, before, entries, failed, progress)
+    with lock_for_writing(plan.folder, "build", LOCK_EDITS):
+        tables = _name_tables(plan, head, before, entries, failed, progress)
     _clean(plan.folder, {key for _, _, key in entries}, tables)
     return Built(
         plan.folder,
@@ -202,7 +204,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     )
 
 
-def _former_recordings(folder: Path, head: Head) -> Former:
+def _read_former_recordings(folder: Path, head: Head) -> Former:
     """Return the recordings that the library has."""
     if not head:
         return {}
@@ -223,7 +225,7 @@ def _group_missing(
     }
 
 
-def _written(
+def _name_tables(
     plan: Plan,
     head: Head,
     before: Former,
@@ -246,11 +248,11 @@ def _written(
     if same and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         following, tables = head["following"], head["tables"]
     else:
-        from kineme.library.compiling import activities_in, compile_tables
+        from kineme.library.compiling import compile_tables, list_activities
 
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)
-        former = activities_in(plan.folder, head.get("tables"))
+        former = list_activities(plan.folder, head.get("tables"))
         removed = _read_removed(plan.folder)
         returned = {
             name: removed[key] for name, _, key in entries if key in removed and name not in former

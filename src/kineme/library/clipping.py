@@ -76,7 +76,7 @@ def coverage_of(tables: OpenTables) -> list[Coverage]:
     """Return what a library has of each cluster in each direction; recordings are read for it."""
     found: defaultdict[tuple[int, str], list[tuple[float, float, float, bool, bool]]]
     found, labels = defaultdict(list), dict[int, str]()
-    for motion, rows in _bodies(tables):
+    for motion, rows in _read_bodies(tables):
         travel = travel_of(motion)
         for row in rows if travel is not None else ():
             if travel is None or row.level != "activity" or row.kind == "transition":
@@ -122,8 +122,8 @@ def write_best_loops(
     if not is_one_of(per, get_args(Per)):
         raise ParameterError(f"per is {per!r:.60}: choose from {', '.join(get_args(Per))}")
     groups: defaultdict[tuple[int, str], list[_Candidate]] = defaultdict(list)
-    repeated = _repeated(tables)
-    for motion, rows in _bodies(tables):
+    repeated = _list_repeated(tables)
+    for motion, rows in _read_bodies(tables):
         wanted = [
             index
             for index, row in enumerate(rows)
@@ -133,18 +133,18 @@ def write_best_loops(
             and (row.level == "primitive") == (row.cluster in repeated)
         ]
         name = motion.provenance.path or ""
-        for each in _candidates(motion, rows, wanted, name):
+        for each in _list_candidates(motion, rows, wanted, name):
             part = {"cluster": "", "recording": name, "direction": each.direction}[per]
             groups[each.cluster, part].append(each)
     chosen: defaultdict[str, list[RankedLoop]] = defaultdict(list)
     for candidates in groups.values():
-        for rank, each in enumerate(_best(candidates, best), 1):
+        for rank, each in enumerate(_choose_best(candidates, best), 1):
             chosen[each.recording].append(RankedLoop(each.index, rank, each.quality))
     if not chosen:
         raise ParameterError("no recording of this library has a loop")
 
     def sources() -> Iterator[Source]:
-        for motion, rows in _bodies(tables):
+        for motion, rows in _read_bodies(tables):
             if loops := chosen.get(motion.provenance.path or ""):
                 yield motion, rows, loops
 
@@ -176,7 +176,7 @@ class _Candidate:
         return bool(min(apart) < NEAR_M)
 
 
-def _candidates(
+def _list_candidates(
     motion: Motion, rows: Sequence[Segment], wanted: Sequence[int], recording: str
 ) -> Iterator[_Candidate]:
     """Yield the rows of a recording that can become loops."""
@@ -198,7 +198,7 @@ def _candidates(
         )
 
 
-def _best(candidates: Sequence[_Candidate], most: int | None) -> list[_Candidate]:
+def _choose_best(candidates: Sequence[_Candidate], most: int | None) -> list[_Candidate]:
     """Return the best candidates, none of them nearly a duplicate of a better one."""
     kept: list[_Candidate] = []
     for each in sorted(candidates, key=lambda each: each.quality.cost):
@@ -209,14 +209,14 @@ def _best(candidates: Sequence[_Candidate], most: int | None) -> list[_Candidate
     return kept
 
 
-def _repeated(tables: OpenTables) -> set[int]:
+def _list_repeated(tables: OpenTables) -> set[int]:
     """Return the clusters that have primitives."""
     segments = tables.columns("segments")
     primitives = (segments["level"] == "primitive") & (segments["kind"] != "transition")
     return set(segments["cluster"][primitives].tolist())
 
 
-def _bodies(tables: OpenTables) -> Iterator[tuple[Motion, list[Segment]]]:
+def _read_bodies(tables: OpenTables) -> Iterator[tuple[Motion, list[Segment]]]:
     """Yield the recordings of bodies and their segments, edits applied; warn of those gone."""
     recordings, segments = tables.recordings, tables.columns("segments")
     for name, kind in zip(recordings["recording"], recordings["vocabulary"], strict=True):

@@ -20,7 +20,14 @@ from kineme.library.storage.analyses import (
     read_channel_samples,
     read_spans,
 )
-from kineme.library.storage.layout import ANALYSES, BODIES, EMBEDDED, arrow, as_array, as_column
+from kineme.library.storage.layout import (
+    ANALYSES,
+    BODIES,
+    EMBEDDED,
+    as_array,
+    as_column,
+    import_arrow,
+)
 from kineme.library.storage.tables import read_table, table_of
 from kineme.recordings.arrays import to_samples
 from kineme.segments.table import COLUMNS
@@ -35,7 +42,7 @@ from kineme.transfer.clusters import (
     find_local_clusters,
     keep_numbers,
     link_clusters,
-    spans_with_clusters,
+    list_spans,
 )
 
 Columns = dict[str, Any]
@@ -54,30 +61,30 @@ def compile_tables(
     """Return the tables of a library by name, and the first number that no cluster was given.
 
     ``entries`` are in the order of their names, ``before`` are the activities that recordings had,
-    see `activities_in`: clusters that are found again keep their numbers.
+    see `list_activities`: clusters that are found again keep their numbers.
     """
     analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
     keys = [key for _, _, key in entries]
     local, found = _join_clusters(analyses, keys, folder / ANALYSES, progress)
     shared = _cluster_of_segments(analyses, local, found.cluster)
     new = {
-        name: spans_with_clusters(analysis.table.columns(), clusters)
+        name: list_spans(analysis.table.columns(), clusters)
         for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
     }
     numbers = keep_numbers(before, new, following=following)
     renumbered = np.array([*numbers.values(), -1], np.int64)  # labels are 0, 1, …
     tables = {
-        "recordings": _recordings(entries, analyses),
-        "segments": _segments(entries, analyses, [renumbered[each] for each in shared]),
-        "local_clusters": _local_clusters(entries, local, found, renumbered),
-        "embeddings": _embeddings(entries, analyses),
+        "recordings": _tabulate_recordings(entries, analyses),
+        "segments": _tabulate_segments(entries, analyses, [renumbered[each] for each in shared]),
+        "local_clusters": _tabulate_local_clusters(entries, local, found, renumbered),
+        "embeddings": _tabulate_embeddings(entries, analyses),
     }
     return {name: table_of(name, columns) for name, columns in tables.items()}, max(
         [following, *(number + 1 for number in numbers.values())]
     )
 
 
-def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
+def list_activities(folder: Path, tables: str | None) -> dict[str, Spans]:
     """Return the activities of each recording with their clusters, in tables of a library."""
     if tables is None:
         return {}
@@ -89,7 +96,7 @@ def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
     found = {}
     for start, stop in pairwise(edges):
         rows = {name: column[start:stop] for name, column in columns.items()}
-        found[str(rows["recording"][0])] = spans_with_clusters(rows, rows["cluster"])
+        found[str(rows["recording"][0])] = list_spans(rows, rows["cluster"])
     return found
 
 
@@ -158,7 +165,7 @@ def _cluster_of_segments(
     ]
 
 
-def _recordings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
+def _tabulate_recordings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
     facts = [analysis.facts for analysis in analyses]
     names = ("vocabulary", "format", "n_frames", "fps", "features_fps", "samples")
     return {
@@ -171,25 +178,27 @@ def _recordings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Colum
     }
 
 
-def _segments(
+def _tabulate_segments(
     entries: Sequence[Entry], analyses: Sequence[Analysis], clusters: Sequence[Ints]
 ) -> Columns:
     tables = [analysis.table for analysis in analyses]
-    columns: Columns = {name: _all(getattr(table, name) for table in tables) for name in COLUMNS}
+    columns: Columns = {
+        name: _concatenate(getattr(table, name) for table in tables) for name in COLUMNS
+    }
     actions = [
         numbers[np.flatnonzero(table.level == "activity")][table.activity]
         for numbers, table in zip(clusters, tables, strict=True)
     ]
     return {
-        **_rows(entries, analyses),
+        **_count_rows(entries, analyses),
         **columns,
-        "cluster": _all(clusters),
-        "action": _all(actions),
+        "cluster": _concatenate(clusters),
+        "action": _concatenate(actions),
         "own_cluster": columns["cluster"],
     }
 
 
-def _local_clusters(
+def _tabulate_local_clusters(
     entries: Sequence[Entry], local: Sequence[LocalCluster], found: Assignment, numbers: Ints
 ) -> Columns:
     names = ("start_s", "stop_s", "seconds")
@@ -204,27 +213,27 @@ def _local_clusters(
     }
 
 
-def _embeddings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
-    pa, _ = arrow()
-    values = _all(analysis.embeddings for analysis in analyses).reshape(-1, EMBEDDED)
+def _tabulate_embeddings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
+    pa, _ = import_arrow()
+    values = _concatenate(analysis.embeddings for analysis in analyses).reshape(-1, EMBEDDED)
     embedded = np.flatnonzero(values.any(axis=1))
     rows = {
         name: np.asarray(column)[embedded] if len(column) else column
-        for name, column in _rows(entries, analyses).items()
+        for name, column in _count_rows(entries, analyses).items()
     }
     flat = as_column(values[embedded].ravel(), np.float32)
     return {**rows, "embedding": pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)}
 
 
-def _rows(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
+def _count_rows(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
     counts = [len(analysis.table) for analysis in analyses]
     return {
         "recording": [n for (n, _, _), k in zip(entries, counts, strict=True) for _ in range(k)],
-        "segment": _all(np.arange(count) for count in counts),
+        "segment": _concatenate(np.arange(count) for count in counts),
     }
 
 
-def _all(parts: Iterable[NDArray[Any]]) -> NDArray[Any]:
+def _concatenate(parts: Iterable[NDArray[Any]]) -> NDArray[Any]:
     """Return the parts one after the other, of which there may be none."""
     given = list(parts)
     return np.concatenate(given) if given else np.empty(0)

@@ -20,8 +20,12 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Float32s, Floats
 from kineme._util.checks import format_count
 from kineme.errors import MotionError
-from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
-from kineme.features.channels import channel_statistics, resample_channels, standardize_channels
+from kineme.features.canonical.matching import MATCHING_FPS, compute_features_and_poses
+from kineme.features.channels import (
+    compute_channel_statistics,
+    resample_channels,
+    standardize_channels,
+)
 from kineme.features.emg import emg_envelope
 from kineme.library.storage.analyses import LARGEST_SAMPLE, Analysis
 from kineme.library.storage.layout import BODIES, EMBEDDED
@@ -29,7 +33,7 @@ from kineme.methods.kineme.preset import SENSORS
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
-from kineme.transfer.embeddings import course, embedding
+from kineme.transfer.embeddings import describe_course, embedding
 
 UNIT = 0.5
 """Of the root mean square over channels; a distance of 0.85 then is where right matches end."""
@@ -62,7 +66,7 @@ class Description:
             return embedding(self.poses[samples])
         found = np.zeros(EMBEDDED, np.float32)
         if len(self.features):
-            numbers = course(self.features[samples].astype(np.float64))
+            numbers = describe_course(self.features[samples].astype(np.float64))
             found[: min(EMBEDDED, len(numbers))] = numbers[:EMBEDDED]
         return found
 
@@ -74,17 +78,17 @@ def describe(recording: Motion | Signals, options: SegmentOptions) -> Descriptio
     """Return the features of a recording; none, with the reason, where it has no body."""
     if isinstance(recording, Signals):
         vocabulary = sha256("\0".join(recording.names).encode()).hexdigest()[:8]
-        features = signal_features(recording, emg=options.emg)
+        features = compute_signal_features(recording, emg=options.emg)
         named = f"{format_count(recording.n_channels, 'channel')}, {vocabulary}"
         return Description(named, features, SENSORS.rate)
     try:
-        features, poses = features_and_poses(recording, effectors=options.effectors)
+        features, poses = compute_features_and_poses(recording, effectors=options.effectors)
     except MotionError as error:
         return Description("", np.empty((0, 0), np.float32), MATCHING_FPS, str(error))
     return Description(BODIES, features, MATCHING_FPS, poses=poses)
 
 
-def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
+def compute_signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
     """Features (samples, dims) of channels, `SENSORS.rate` a second."""
     preset = SENSORS.at_most(signals.fps)
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
@@ -94,7 +98,7 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
         for a, b in spans
     ]
     scaled = standardize_channels(np.concatenate(rows))
-    statistics = channel_statistics(
+    statistics = compute_channel_statistics(
         scaled, preset.working_fps, rate=preset.rate, window=preset.averaging, bands=preset.bands
     )
     unit = UNIT * np.sqrt(scaled.shape[1])
@@ -113,14 +117,14 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
     return features
 
 
-def analysis_of(
+def make_analysis(
     recording: Motion | Signals, options: SegmentOptions
 ) -> tuple[Analysis, NDArray[np.float32], NDArray[np.float32] | None]:
     """What is kept of a recording, its features (samples, dims), and samples of its channels.
 
     These are of signals only: a row each of second, means and deviations.
     """
-    from kineme.transfer.channel_samples import channel_samples
+    from kineme.transfer.channel_samples import compute_channel_samples
 
     found, _ = segment_with_options(recording, options)
     described = describe(recording, options)
@@ -130,7 +134,7 @@ def analysis_of(
             embeddings[row] = described.embedding(each.start_s, each.stop_s)
     samples = None
     if isinstance(recording, Signals):
-        rows = np.clip(channel_samples(recording).rows, -LARGEST_SAMPLE, LARGEST_SAMPLE)
+        rows = np.clip(compute_channel_samples(recording).rows, -LARGEST_SAMPLE, LARGEST_SAMPLE)
         samples = rows.astype(np.float32)
     reason = f"not searched: {described.reason}" if described.reason else ""
     facts = {

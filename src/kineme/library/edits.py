@@ -163,7 +163,7 @@ def apply_edits(table: Any, edits: Edits) -> Any:
         clusters = edits.applied(as_array(table.column(name)), recordings)
         table = table.set_column(table.column_names.index(name), name, as_column(clusters, int))
         if label is not None:
-            column = _names(clusters, edits)
+            column = _list_names(clusters, edits)
             at = table.column_names.index(name)
             table = (
                 table.set_column(table.column_names.index(label), label, column)
@@ -175,7 +175,7 @@ def apply_edits(table: Any, edits: Edits) -> Any:
     return table
 
 
-def _names(clusters: Ints, edits: Edits) -> Any:
+def _list_names(clusters: Ints, edits: Edits) -> Any:
     """Return the name of each cluster, as pyarrow has texts."""
     unique, inverse = np.unique(clusters, return_inverse=True)
     names = as_column([edits.name(number) for number in unique.tolist()], str)

@@ -135,7 +135,7 @@ class Processes:
 
 
 @contextmanager
-def processes(jobs: int) -> Iterator[Executor]:
+def start_processes(jobs: int) -> Iterator[Executor]:
     """So many processes of this machine at most; 1 is this one."""
     if jobs == 1:
         yield InProcess()
@@ -169,7 +169,7 @@ class Cluster:
             taken = "a dask.distributed.Client or the address of a scheduler"
             raise ParameterError(f"client takes {taken}, not {client!r:.60}")
         self._client = client
-        for address, version in client.run(_version, on_error="return").items():
+        for address, version in client.run(_get_version, on_error="return").items():
             if version != __version__:
                 other = "no kineme" if isinstance(version, Exception) else f"kineme {version}"
                 raise ParameterError(
@@ -186,14 +186,14 @@ class Cluster:
 
         def submit(n: int) -> None:
             for task in islice(waiting, n):
-                future = self._client.submit(_alone, work, task, pure=False)
+                future = self._client.submit(_work_alone, work, task, pure=False)
                 running[future] = task
                 done.add(future)
 
         try:
             submit(AHEAD)
             for future in done:
-                yield running.pop(future), _outcome(future)
+                yield running.pop(future), _get_outcome(future)
                 submit(1)
         finally:
             self._client.cancel(list(running))
@@ -222,7 +222,7 @@ def _import_distributed() -> Any:
     return distributed
 
 
-def _outcome(future: Any) -> Any:
+def _get_outcome(future: Any) -> Any:
     """Return what came of a task; None where its workers died."""
     if future.status == "finished":
         return future.result()
@@ -237,12 +237,12 @@ def _outcome(future: Any) -> Any:
     )
 
 
-def _version() -> str:
+def _get_version() -> str:
     """Return the version of kineme on a worker."""
     return __version__
 
 
-def _alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
+def _work_alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
     """Work on a task, the only one in its process: settings of BLAS hold for a whole process."""
     from distributed import get_worker
 

@@ -12,9 +12,9 @@ from kineme._util.checks import format_count, require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import KinemeError, ParameterError, WriteError
 from kineme.labels.delimited import write_rows
-from kineme.library.open_library import Cluster, OpenTables, cluster_table, clusters_of
+from kineme.library.open_library import Cluster, OpenTables, cluster_table, list_clusters
 from kineme.library.searching import Hit
-from kineme.library.storage.layout import EXTRA, arrow
+from kineme.library.storage.layout import EXTRA, import_arrow
 from kineme.library.storage.tables import DESCRIBED
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
@@ -33,7 +33,7 @@ ALL = "clusters.png"
 def table_called(tables: OpenTables, name: str) -> Any:
     """One of `DESCRIBED`, or ``clusters``, edits applied, a pyarrow.Table."""
     if name == CLUSTERS:
-        return cluster_table(clusters_of(tables))
+        return cluster_table(list_clusters(tables))
     if name not in DESCRIBED:
         raise ParameterError(
             f"no table {name!r:.40}; there are {', '.join((*DESCRIBED, CLUSTERS))}"
@@ -64,12 +64,14 @@ def write_table(table: Any, path: str | PathLike[str]) -> None:
     """Write a pyarrow.Table as Parquet, CSV or TSV, by the suffix; texts without embeddings."""
     suffix = Path(path).suffix.lower()
     if suffix == ".parquet":
-        _, parquet = arrow()
+        _, parquet = import_arrow()
         with atomic_write(path) as draft:
             parquet.write_table(table, draft)
     elif suffix in (".csv", ".tsv"):
         names = [name for name in table.column_names if name != "embedding"]
-        rows = zip(*(map(_cell, table.column(name).to_pylist()) for name in names), strict=True)
+        rows = zip(
+            *(map(_format_cell, table.column(name).to_pylist()) for name in names), strict=True
+        )
         with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
             write_rows(file, names, rows, delimiter="," if suffix == ".csv" else "\t")
     else:
@@ -93,7 +95,7 @@ def write_hits(tables: OpenTables, hits: Sequence[Hit], folder: str | PathLike[s
     )
 
 
-def _cell(value: object) -> object:
+def _format_cell(value: object) -> object:
     """Return what stands in a table of text: nothing where nothing is known."""
     return "" if value is None or value != value else value  # noqa: PLR0124 (nan)
 
@@ -129,14 +131,14 @@ def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
         raise WriteError(folder, f"cannot be made: {error.strerror or error}") from error
     drawn: list[tuple[Cluster, Motion | Signals]] = []
     written = []
-    for cluster in clusters_of(tables):
+    for cluster in list_clusters(tables):
         try:
             recording = tables.read(cluster.example)
         except KinemeError:  # its file is gone; the library still knows the rest
             continue
         recording = recording.seconds(cluster.start_s, cluster.stop_s)
         drawn.append((cluster, recording))
-        path = folder / f"{_file_name(cluster)}.png"
+        path = folder / f"{_make_file_name(cluster)}.png"
         write_sheet([_strip(cluster, recording)], path)
         written.append(path)
     if drawn:
@@ -159,7 +161,7 @@ def _strip(cluster: Cluster, recording: Motion | Signals) -> Strip:
     return Strip(title, recording, cluster.cluster)
 
 
-def _file_name(cluster: Cluster) -> str:
+def _make_file_name(cluster: Cluster) -> str:
     """Return a name for the file of a cluster, of letters that every system takes."""
     label = re.sub(r"[^\w-]+", "-", cluster.label).strip("-")[:40]
     return "-".join(filter(None, [f"cluster-{cluster.cluster}", label]))

@@ -12,10 +12,10 @@ from kineme._util.checks import is_number, is_one_of, warn
 from kineme._util.files import AnyPath
 from kineme.clips.tags import TAGS, Tag, Travel, travel_of
 from kineme.errors import ParameterError, ReadError
-from kineme.features.canonical import mirrored_features
+from kineme.features.canonical import mirror_features
 from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
-from kineme.library.open_library import OpenTables, numbers_of
+from kineme.library.open_library import OpenTables, find_numbers
 from kineme.library.planning import read_at
 from kineme.library.searching import (
     Example,
@@ -23,16 +23,16 @@ from kineme.library.searching import (
     Named,
     Parts,
     Sought,
-    best,
+    choose_best,
+    find_parts,
     matches_in,
     merge_overlapping,
-    parts_like,
 )
 from kineme.library.storage.analyses import read_features
 from kineme.library.storage.index import open_index
 from kineme.library.storage.layout import ANALYSES, BODIES
 from kineme.library.storage.places import place
-from kineme.library.windows import length_for
+from kineme.library.windows import choose_length
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
 
@@ -44,7 +44,7 @@ BEYOND = 0.1
 LARGEST, MOST_HITS = 1e6, 1 << 31
 
 
-def hits_like(
+def find_hits(
     tables: OpenTables,
     examples: Sequence[Example],
     counterexamples: Sequence[Example],
@@ -65,25 +65,27 @@ def hits_like(
     top = None if top is None else int(min(top, MOST_HITS))
     if max_per_recording is not None:
         max_per_recording = int(min(max_per_recording, MOST_HITS))
-    described = features_of(tables, examples)
-    if mirror and one_vocabulary(described) == BODIES:
-        described += [(BODIES, mirrored_features(part)) for _, part in described]
-    vocabulary = one_vocabulary(described)
-    refused = [part for kind, part in features_of(tables, counterexamples) if kind == vocabulary]
+    described = describe_examples(tables, examples)
+    if mirror and check_one_vocabulary(described) == BODIES:
+        described += [(BODIES, mirror_features(part)) for _, part in described]
+    vocabulary = check_one_vocabulary(described)
+    refused = [
+        part for kind, part in describe_examples(tables, counterexamples) if kind == vocabulary
+    ]
     features = [part for _, part in described]
     sought = Sought(features, refused, threshold, None if max_per_recording else top)
-    parts = _all_parts(tables, vocabulary)
+    parts = _list_parts(tables, vocabulary)
     if top is not None and vocabulary == BODIES:
-        parts = _likely_parts(tables, features, top) or parts
+        parts = _find_likely_parts(tables, features, top) or parts
     found = matches_in(
         tables.folder / ANALYSES, tables.recordings["piece"], parts, sought, executor
     )
     rows = list(found)
-    chosen = best(list(found.values()), top=top, most=max_per_recording)
-    return [_hit(tables, rows[i], *span) for i, span in chosen]
+    chosen = choose_best(list(found.values()), top=top, most=max_per_recording)
+    return [_make_hit(tables, rows[i], *span) for i, span in chosen]
 
 
-def hits_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | None) -> list[Hit]:
+def select_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | None) -> list[Hit]:
     """Return the hits whose clips have a tag, the nearest ``top``; ParameterError for no tag."""
     if not is_one_of(tag, TAGS):
         raise ParameterError(f"tag is {tag!r:.60}: choose from {', '.join(TAGS)}")
@@ -102,38 +104,38 @@ def hits_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | No
     return found
 
 
-def _all_parts(tables: OpenTables, vocabulary: str) -> Parts:
+def _list_parts(tables: OpenTables, vocabulary: str) -> Parts:
     """Return all recordings of a vocabulary."""
-    rows = np.array(_rows_of(tables, vocabulary), np.int64)
+    rows = np.array(_find_rows(tables, vocabulary), np.int64)
     samples = np.array(tables.recordings["samples"], np.int64)[rows]
     return Parts(rows, np.zeros_like(rows), samples)
 
 
-def _likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
+def _find_likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
     """Return what is most like any of the examples, where there is an index that tells."""
     found = []
     for example in examples:
         windows = open_index(
-            tables.folder, tables.head["tables"], tables.recordings, length_for(example)
+            tables.folder, tables.head["tables"], tables.recordings, choose_length(example)
         )
         if windows is None:
             return None
-        found.append(parts_like(windows, example, top))
+        found.append(find_parts(windows, example, top))
     return merge_overlapping(
         Parts(*(np.concatenate(column) for column in zip(*found, strict=True)))
     )
 
 
-def typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
+def choose_typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
     """Return the most typical segments of a cluster, by number or name, as examples."""
     local = tables.columns("local_clusters")
-    rows = np.flatnonzero(np.isin(local["cluster"], numbers_of(tables, cluster)))
+    rows = np.flatnonzero(np.isin(local["cluster"], find_numbers(tables, cluster)))
     rows = rows[np.argsort(local["spread"][rows], kind="stable")][:TYPICAL]
     columns = (local[name][rows].tolist() for name in ("recording", "start_s", "stop_s"))
     return [Example(Named(name), *span) for name, *span in zip(*columns, strict=True)]
 
 
-def _rows_of(tables: OpenTables, vocabulary: str) -> list[int]:
+def _find_rows(tables: OpenTables, vocabulary: str) -> list[int]:
     """Return the recordings of a vocabulary, by row; ParameterError where there are none."""
     kinds = tables.recordings["vocabulary"]
     rows = [row for row, kind in enumerate(kinds) if kind == vocabulary]
@@ -145,7 +147,7 @@ def _rows_of(tables: OpenTables, vocabulary: str) -> list[int]:
     return rows
 
 
-def _hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -> Hit:
+def _make_hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -> Hit:
     """A span of a recording, samples, with the cluster of the segment that covers most of it.
 
     Of segments that cover as much, that of the finer level counts.
@@ -190,11 +192,13 @@ def as_examples(
     return examples
 
 
-def features_of(tables: OpenTables, examples: Sequence[Example]) -> list[tuple[str, Float32s]]:
+def describe_examples(
+    tables: OpenTables, examples: Sequence[Example]
+) -> list[tuple[str, Float32s]]:
     """Vocabulary and features of each example."""
     found = []
     for example in examples:
-        described = _description(tables, example.recording)
+        described = _describe(tables, example.recording)
         lasts = len(described.features) / described.fps
         stop_s = lasts if example.stop_s is None else min(example.stop_s, lasts)
         if example.stop_s is not None and example.stop_s > lasts + BEYOND:
@@ -210,7 +214,7 @@ def features_of(tables: OpenTables, examples: Sequence[Example]) -> list[tuple[s
     return found
 
 
-def one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
+def check_one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
     """Return what all examples are of; ParameterError where they do not compare."""
     kinds = sorted({kind for kind, _ in described})
     if len(kinds) > 1:
@@ -218,7 +222,7 @@ def one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
     return kinds[0]
 
 
-def _description(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Description:
+def _describe(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Description:
     """Return the features of a recording, from the library where it is one of it."""
     recordings, (read_options, segment_options) = tables.recordings, tables.options
     if isinstance(recording, str) and (
@@ -231,15 +235,15 @@ def _description(tables: OpenTables, recording: AnyPath | Motion | Signals) -> D
         described = Description(
             recordings["vocabulary"][row], features, recordings["features_fps"][row]
         )
-        return _comparable(described, recording)
+        return _check_comparable(described, recording)
     example = recording
     if not isinstance(example, Motion | Signals):
         example = read_at(place(example), read_options)
     described = describe(example, segment_options)
-    return _comparable(described, example.provenance.path or "the example")
+    return _check_comparable(described, example.provenance.path or "the example")
 
 
-def _comparable(described: Description, name: str) -> Description:
+def _check_comparable(described: Description, name: str) -> Description:
     """Return the description, where there are features."""
     if not described.vocabulary:
         reason = described.reason or "it has no body that could be told"

@@ -27,7 +27,14 @@ from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.formats import ReadOptions, read_quietly
 from kineme.library.executors import Executor, InProcess, Progress, watch
-from kineme.library.planning import Plan, analysis_key, content_digest, fetch, size_of, states_of
+from kineme.library.planning import (
+    Plan,
+    compute_digest,
+    fetch,
+    make_analysis_key,
+    measure_size,
+    read_states,
+)
 from kineme.library.storage.analyses import has_analysis, write_analysis
 from kineme.library.storage.layout import STATES, read_json, write_json
 from kineme.library.storage.places import is_remote
@@ -61,9 +68,9 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
 
     Files that look as they did when they were last read are not read again.
     """
-    former = _former_states(plan.folder / STATES, progress)
+    former = _read_former_states(plan.folder / STATES, progress)
     readable = [path for path in found if is_text(str(path))]
-    states = states_of(readable, plan.read_options.skeleton)
+    states = read_states(readable, plan.read_options.skeleton)
     unreadable = [path for path in found if path not in states]
     gathered = Gathered(
         _find_unchanged(plan, states, former), failed=dict.fromkeys(unreadable, UNNAMED)
@@ -77,7 +84,7 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     return gathered
 
 
-def _former_states(path: Path, progress: Progress) -> States:
+def _read_former_states(path: Path, progress: Progress) -> States:
     """State and digest of each recording when it was last read; none where the file is damaged."""
     try:
         return read_json(path, tuple[str, str])
@@ -101,14 +108,14 @@ def _make(
     plan: Plan, waiting: Sequence[Path], executor: Executor, progress: Progress, into: Gathered
 ) -> None:
     """Make the analyses of recordings; what came of each is noted."""
-    tasks = tasks_for(waiting, plan)
+    tasks = make_tasks(waiting, plan)
     skeleton = plan.read_options.skeleton
     groups = {group.tasks[0]: group for group in group_by_content(tasks, skeleton)}
     if not isinstance(executor, InProcess):  # what comes next is imported while others work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
     done = watch(progress, len(tasks), sum(task.size for task in tasks))
     alone: list[Task] = []
-    for task, outcome in outcomes_of(list(groups), executor):
+    for task, outcome in work_off(list(groups), executor):
         _note(plan, task, outcome, into)
         (_, *others), digest = groups[task]
         if outcome.digest == digest:
@@ -117,7 +124,7 @@ def _make(
             alone += others
             others = []
         done(1 + len(others), task.size * (1 + len(others)))
-    for task, outcome in outcomes_of(alone, executor):
+    for task, outcome in work_off(alone, executor):
         _note(plan, task, outcome, into)
         done(1, task.size)
 
@@ -178,7 +185,7 @@ def _sample(task: Task) -> str:
 
 def _digest(task: Task, skeleton: AnyPath | None) -> str:
     try:
-        return content_digest(task.path, skeleton)
+        return compute_digest(task.path, skeleton)
     except ReadError:  # whoever works on it will say so
         return ""
 
@@ -210,46 +217,48 @@ class Outcome:
     """Whether all others will fail, too, as on a full disk."""
 
 
-def tasks_for(paths: Iterable[Path], plan: Plan) -> list[Task]:
+def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
     """Return the tasks of recordings, the largest first: the last ones to be done are short."""
     common = plan.analyses, plan.read_options, plan.segment_options, plan.options_digest
-    tasks = [Task(path, *common, size_of(path)) for path in paths]
+    tasks = [Task(path, *common, measure_size(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 
-def outcomes_of(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
+def work_off(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
     """Yield each task and what came of it, as they come."""
-    for task, outcome in executor.completed(work_on, tasks, workers=workers_for(tasks)):
+    for task, outcome in executor.completed(
+        analyze_recording, tasks, workers=choose_workers(tasks)
+    ):
         yield task, outcome or Outcome(error=DIED)
 
 
-def workers_for(tasks: Iterable[Task]) -> int:
+def choose_workers(tasks: Iterable[Task]) -> int:
     """Return how many processes are worth to be started for so many and so large recordings."""
     return 1 + sum(task.size for task in tasks) // PER_WORKER
 
 
-def work_on(task: Task) -> Outcome:
+def analyze_recording(task: Task) -> Outcome:
     """Read, segment and describe a recording, unless its analysis is there."""
     try:
-        from kineme.library.descriptions import analysis_of
+        from kineme.library.descriptions import make_analysis
 
         with warnings.catch_warnings(), threadpool_limits(1):  # sums do not depend on threads
             warnings.simplefilter("ignore", KinemeWarning)
             options = task.read_options
             with fetch(task.path, options.skeleton) as path:
-                digest = content_digest(path, options.skeleton)
-                key = analysis_key(task.options_digest, digest)
+                digest = compute_digest(path, options.skeleton)
+                key = make_analysis_key(task.options_digest, digest)
                 if has_analysis(task.analyses, key):
                     return Outcome(digest)
                 recording = read_quietly(path, options)
-            write_analysis(task.analyses, key, *analysis_of(recording, task.segment_options))
+            write_analysis(task.analyses, key, *make_analysis(recording, task.segment_options))
     except (WriteError, MissingDependencyError) as error:
-        return Outcome(error=_reason(error), fatal=isinstance(error, WriteError))
+        return Outcome(error=_shorten_reason(error), fatal=isinstance(error, WriteError))
     except Exception as error:  # noqa: BLE001 (one recording never ends a build)
-        return Outcome(error=_reason(error))
+        return Outcome(error=_shorten_reason(error))
     return Outcome(digest, new=True)
 
 
-def _reason(error: BaseException) -> str:
+def _shorten_reason(error: BaseException) -> str:
     text = " ".join(str(error).split())
     return text if isinstance(error, KinemeError) else f"{type(error).__name__}: {text}"

@@ -15,11 +15,11 @@ from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.library.executors import connect
 from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
-from kineme.library.finding import as_examples, hits_like, hits_tagged, typical_examples
-from kineme.library.open_library import Cluster, OpenTables, clusters_of, numbers_of
+from kineme.library.finding import as_examples, choose_typical_examples, find_hits, select_tagged
+from kineme.library.open_library import Cluster, OpenTables, find_numbers, list_clusters
 from kineme.library.searching import Example, Hit
-from kineme.library.storage.layout import arrow, as_column
-from kineme.library.storage.places import place, reaching
+from kineme.library.storage.layout import as_column, import_arrow
+from kineme.library.storage.places import place, reach
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import THRESHOLD
@@ -57,9 +57,9 @@ class Library:
     """
 
     def __init__(self, folder: AnyPath):
-        arrow()
+        import_arrow()
         self.folder = place(folder, "Library")
-        with reaching(self.folder):
+        with reach(self.folder):
             self._tables = OpenTables(self.folder)
 
     @property
@@ -110,7 +110,7 @@ class Library:
 
     def clusters(self) -> list[Cluster]:
         """Return the clusters of the library, those of most seconds first."""
-        return clusters_of(self._tables)
+        return list_clusters(self._tables)
 
     def unsure(self) -> list[dict[str, Any]]:
         """Return rows of ``local_clusters`` that may belong to another cluster, likeliest first."""
@@ -125,7 +125,7 @@ class Library:
 
     def numbers(self, cluster: int | str) -> list[int]:
         """Return the clusters of that number or name; ParameterError where there is none."""
-        return numbers_of(self._tables, cluster)
+        return find_numbers(self._tables, cluster)
 
     def search(
         self,
@@ -165,7 +165,7 @@ class Library:
             Of one recording at most.
         mirror : bool
             Search for the mirror images of the examples as well; of bodies only. Their distances
-            are estimates (see `kineme.features.canonical.mirrored_features`).
+            are estimates (see `kineme.features.canonical.mirror_features`).
         tag : str, optional
             Only hits with this tag, such as "backwards" (see `kineme.clips.tags`); the recordings
             of hits are read for it.
@@ -182,16 +182,16 @@ class Library:
         check_flag(mirror, "mirror")
         examples = as_examples(like, start_s, stop_s)
         if cluster is not None:
-            examples += typical_examples(self._tables, cluster)
+            examples += choose_typical_examples(self._tables, cluster)
         if not examples:
             raise ParameterError("nothing to search for: give an example or a cluster")
         with nullcontext() if client is None else connect(client) as executor:
-            hits = hits_like(
+            hits = find_hits(
                 self._tables, examples, as_examples(unlike, 0.0, None), threshold=threshold,
                 top=top if tag is None else None, mirror=mirror,
                 max_per_recording=max_per_recording, executor=executor,
             )  # fmt: skip
-        return hits if tag is None else hits_tagged(self._tables, hits, tag, top)
+        return hits if tag is None else select_tagged(self._tables, hits, tag, top)
 
     def pictures(self, folder: AnyPath) -> list[Path]:
         """A PNG of each cluster in a folder, its most typical segment as a strip; of all first."""

@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions
 from kineme.library.edits import Edits, apply_edits, read_edits
-from kineme.library.planning import options_in, read_at
+from kineme.library.planning import read_at, read_kept_options
 from kineme.library.storage.layout import (
     LOCK_EDITS,
-    arrow,
     as_array,
     as_column,
+    import_arrow,
+    lock_for_writing,
     read_head,
-    writer_lock,
 )
 from kineme.library.storage.places import place
 from kineme.library.storage.tables import DESCRIBED, read_table
@@ -51,7 +51,7 @@ class OpenTables:
     @property
     def options(self) -> tuple[ReadOptions, SegmentOptions]:
         """Return how its recordings are read and segmented."""
-        return options_in(self.folder, self.head)
+        return read_kept_options(self.folder, self.head)
 
     @cached_property
     def recordings(self) -> dict[str, list[Any]]:
@@ -100,7 +100,7 @@ class OpenTables:
     @contextmanager
     def editing(self) -> Iterator[None]:
         """A block in which `edits` are all that were made, and nobody else makes any."""
-        with writer_lock(self.folder, "try again", LOCK_EDITS):
+        with lock_for_writing(self.folder, "try again", LOCK_EDITS):
             self._take(read_edits(self.folder))
             yield
 
@@ -162,7 +162,7 @@ class Cluster(NamedTuple):
     stop_s: float
 
 
-def clusters_of(tables: OpenTables) -> list[Cluster]:
+def list_clusters(tables: OpenTables) -> list[Cluster]:
     """Return the clusters of a library, those of most seconds first."""
     local, segments = tables.columns("local_clusters"), tables.columns("segments")
     recordings = tables.recordings
@@ -198,7 +198,7 @@ def clusters_of(tables: OpenTables) -> list[Cluster]:
 
 def cluster_table(clusters: Sequence[Cluster]) -> Any:
     """Return the clusters as a pyarrow.Table."""
-    pa, _ = arrow()
+    pa, _ = import_arrow()
     hints = get_type_hints(Cluster)
     return pa.table(
         {
@@ -208,7 +208,7 @@ def cluster_table(clusters: Sequence[Cluster]) -> Any:
     )
 
 
-def numbers_of(tables: OpenTables, cluster: int | str) -> list[int]:
+def find_numbers(tables: OpenTables, cluster: int | str) -> list[int]:
     """Return the numbers of the clusters of that number or name, one at least."""
     numbers = sorted(set(tables.columns("local_clusters")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)

@@ -23,7 +23,7 @@ from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.listing import holds_recording, recordings_in
 from kineme.formats.skeletons.amc import find_skeleton
 from kineme.library.storage.layout import ANALYSES, HEAD, TABLES, read_head, read_json
-from kineme.library.storage.places import is_remote, lies_in, place, reaching
+from kineme.library.storage.places import is_remote, lies_in, place, reach
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 
@@ -61,7 +61,7 @@ class Plan:
 
     def key(self, digest: str) -> str:
         """Return the name of the analysis of a recording whose files have this digest."""
-        return analysis_key(self.options_digest, digest)
+        return make_analysis_key(self.options_digest, digest)
 
 
 def plan_of(
@@ -74,12 +74,12 @@ def plan_of(
     segment_options: SegmentOptions | None,
 ) -> Plan:
     """Return the plan of a build; what was not said is as it was the last time."""
-    every = sources_after(folder, sources, remove)
+    every = change_sources(folder, sources, remove)
     if not every and not head:
         raise ParameterError(NOTHING.format(folder))
     before = head.get("sources", ())
     missing = [each for each in every if not each.exists() and str(each) not in before]
-    former = options_in(folder, head) if head else (ReadOptions(), SegmentOptions())
+    former = read_kept_options(folder, head) if head else (ReadOptions(), SegmentOptions())
     return Plan(
         folder,
         tuple(each for each in every if each not in missing),
@@ -90,7 +90,7 @@ def plan_of(
     )
 
 
-def options_in(folder: Path, head: Mapping[str, Any]) -> tuple[ReadOptions, SegmentOptions]:
+def read_kept_options(folder: Path, head: Mapping[str, Any]) -> tuple[ReadOptions, SegmentOptions]:
     """Return the options in the head of a library; ReadError where they are none."""
     try:
         read_options = options_from_json(ReadOptions, head["read_options"])
@@ -118,18 +118,18 @@ def digest_options(read_options: ReadOptions, segment_options: SegmentOptions) -
     return sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
-def analysis_key(options_digest: str, digest: str) -> str:
+def make_analysis_key(options_digest: str, digest: str) -> str:
     """Return the name of the analysis of a recording whose files have this digest."""
     return sha256(f"{options_digest} {digest}".encode()).hexdigest()[:32]
 
 
-def sources_after(
+def change_sources(
     into: AnyPath, sources: Iterable[Path] = (), remove: Iterable[Path] = ()
 ) -> list[Path]:
     """The sources of a library after these were added and removed, as absolute paths."""
     head = read_json(place(into) / HEAD)
-    sources = [place(each) for each in head.get("sources", ())] + [*map(absolute, sources)]
-    removed = {*map(absolute, remove)}
+    sources = [place(each) for each in head.get("sources", ())] + [*map(make_absolute, sources)]
+    removed = {*map(make_absolute, remove)}
     unknown = removed - set(sources)
     if unknown:
         raise ParameterError(
@@ -169,7 +169,7 @@ def as_paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
     return [place(path, "build") for path in given]
 
 
-def absolute(path: Path) -> Path:
+def make_absolute(path: Path) -> Path:
     """Return the path from the root; links are not followed."""
     return path if is_remote(path) else Path(os.path.abspath(path))  # noqa: PTH100
 
@@ -179,7 +179,7 @@ CHUNK = 1 << 20
 _AMC = ".amc"
 
 
-def files_of(path: Path, skeleton: AnyPath | None) -> list[Path]:
+def list_files(path: Path, skeleton: AnyPath | None) -> list[Path]:
     """Return the files that a recording is read from, its own first."""
     if path.is_dir():
         return [file for _, file in frame_files(path)]
@@ -193,7 +193,7 @@ def files_of(path: Path, skeleton: AnyPath | None) -> list[Path]:
         return [path]
 
 
-def size_of(path: Path) -> int:
+def measure_size(path: Path) -> int:
     """Return the bytes of a recording; 0 where they cannot be told."""
     try:
         files = path.iterdir() if path.is_dir() else [path]
@@ -202,11 +202,11 @@ def size_of(path: Path) -> int:
         return 0
 
 
-def content_digest(path: Path, skeleton: AnyPath | None) -> str:
+def compute_digest(path: Path, skeleton: AnyPath | None) -> str:
     """SHA-256 of what a recording is read from, and of its suffix, which tells the format."""
     digest = sha256(path.suffix.lower().encode())
     try:
-        for file in files_of(path, skeleton):
+        for file in list_files(path, skeleton):
             refuse_pipe(file)
             of_file = sha256()
             with file.open("rb") as content:
@@ -218,23 +218,23 @@ def content_digest(path: Path, skeleton: AnyPath | None) -> str:
     return digest.hexdigest()
 
 
-def states_of(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, str]:
+def read_states(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, str]:
     """Sizes and times of the files of recordings: whether they changed, without reading them.
 
     Empty where that cannot be told. With an AMC go the skeletons near it.
     """
-    skeletons_in = cache(_skeletons_in)
+    skeletons_in = cache(_list_skeletons)
 
     def state(path: Path) -> str:
         if path.is_dir():
-            return _state(sorted(path.iterdir()))
+            return _read_state(sorted(path.iterdir()))
         if skeleton is not None:
-            return _state([path, Path(skeleton)])
+            return _read_state([path, Path(skeleton)])
         if path.suffix.lower() != _AMC:
-            return _state([path])
+            return _read_state([path])
         home = path.parent
         near = [skeletons_in(each) for each in (home, home / "asf", home.parent / "asf")]
-        return " ".join([_state([path]), *near]).strip()
+        return " ".join([_read_state([path]), *near]).strip()
 
     states = dict.fromkeys(paths, "")
     for path in states:
@@ -252,14 +252,14 @@ def list_recordings(sources: Iterable[Path], *, recursive: bool, without: Path) 
     for source in sources:
         inside = [source]
         if source.is_dir():
-            inside = recordings_under(source, recursive=recursive)
+            inside = find_recordings(source, recursive=recursive)
         for path in inside:
             if path.exists() and not lies_in(path, without):
                 found.setdefault(path, source)
     return found
 
 
-def names_of(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Path, str]:
+def name_recordings(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Path, str]:
     """A name for each recording: its path in its source, with more folders where two are equal.
 
     Names that are given already stay.
@@ -277,20 +277,20 @@ def names_of(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Pat
     return {path: names[path] for path in found}
 
 
-def _state(files: Iterable[Path]) -> str:
+def _read_state(files: Iterable[Path]) -> str:
     stats = ((file.name, file.stat()) for file in files)
     return " ".join(f"{name}:{found.st_size}:{found.st_mtime_ns}" for name, found in stats)
 
 
-def _skeletons_in(folder: Path) -> str:
+def _list_skeletons(folder: Path) -> str:
     try:
         files = sorted(file for file in folder.iterdir() if file.suffix.lower() == ".asf")
     except OSError:
         return ""
-    return sha256(_state(files).encode()).hexdigest()[:16] if files else ""
+    return sha256(_read_state(files).encode()).hexdigest()[:16] if files else ""
 
 
-def recordings_under(folder: Path, *, recursive: bool) -> list[Path]:
+def find_recordings(folder: Path, *, recursive: bool) -> list[Path]:
     """Return the recordings in a folder; elsewhere, only such as are one file."""
     if not is_remote(folder):
         return recordings_in(folder, recursive=recursive).recordings
@@ -312,7 +312,7 @@ def fetch(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
         return
     files = [path]
     with TemporaryDirectory(prefix="kineme-") as home:
-        with reaching(path):
+        with reach(path):
             if path.suffix.lower() == ".amc" and skeleton is None:
                 files.append(find_skeleton(path))
             for file in files:

@@ -22,11 +22,11 @@ from kineme._util.arrays import Float32s, Ints
 from kineme._util.checks import is_number
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, ParameterError
-from kineme.library._kernels import least_squares
+from kineme.library._kernels import find_least_squares
 from kineme.library.executors import Executor
 from kineme.library.storage.analyses import read_parts
 from kineme.library.storage.index import Windows
-from kineme.library.windows import FINER, parts_at_speeds, step
+from kineme.library.windows import FINER, describe_at_speeds, step
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import Matches, search
 
@@ -104,7 +104,7 @@ class Hit(NamedTuple):
     label: str
 
 
-def spans_like(
+def find_spans(
     features: Float32s,
     examples: Sequence[Float32s],
     counterexamples: Sequence[Float32s],
@@ -116,9 +116,9 @@ def spans_like(
 
     A span goes that is more like a counter-example.
     """
-    found = _union(features, examples, threshold, None if counterexamples else top)
+    found = _join_spans(features, examples, threshold, None if counterexamples else top)
     if counterexamples and len(found.starts):
-        others = _union(features, counterexamples, threshold, None)
+        others = _join_spans(features, counterexamples, threshold, None)
         first = np.maximum(found.starts[:, None], others.starts[None])
         shared = np.minimum(found.stops[:, None], others.stops[None]) - first
         covers = shared >= REFUSED * (found.stops - found.starts)[:, None]
@@ -128,7 +128,7 @@ def spans_like(
     return _select_rows(found, slice(top))
 
 
-def best(
+def choose_best(
     found: Sequence[Matches], *, top: int | None, most: int | None
 ) -> list[tuple[int, tuple[int, int, float]]]:
     """Which recording, and start, stop and distance, of the nearest spans; ``most`` of each."""
@@ -140,7 +140,7 @@ def best(
     return [(i, (start, stop, distance)) for distance, i, start, stop in sorted(spans)[:top]]
 
 
-def _union(
+def _join_spans(
     features: Float32s, examples: Sequence[Float32s], threshold: float, top: int | None
 ) -> Matches:
     """Return the spans that are like any of the examples, apart from each other, the best first."""
@@ -203,9 +203,9 @@ class Task:
     sought: Sought
 
 
-def parts_like(windows: Windows, example: Float32s, top: int) -> Parts:
+def find_parts(windows: Windows, example: Float32s, top: int) -> Parts:
     """Return the parts of recordings around the windows that are nearest to an example."""
-    near = _nearest(windows, parts_at_speeds(example), top)
+    near = _find_nearest(windows, describe_at_speeds(example), top)
     rows = np.searchsorted(windows.firsts, near, side="right") - 1
     middles = (near - windows.firsts[rows]) * step(windows.length) + windows.length // 2
     reach = step(windows.length) + len(example)  # a match may last twice as long
@@ -238,7 +238,7 @@ def matches_in(
     """Return the matches in parts of recordings by row, the best of each first."""
     tasks = [
         Task(folder, {row: analyses[row] for row in set(batch.rows.tolist())}, batch, sought)
-        for batch in _batches(parts)
+        for batch in _make_batches(parts)
     ]
     if executor is None:
         with threadpool_limits(1):  # tasks are searched side by side
@@ -262,7 +262,7 @@ def search_parts(task: Task) -> dict[int, Matches]:
         at = np.flatnonzero(parts.rows == row)
         spans = zip(firsts[at].tolist(), (firsts[at] + lasts[at]).tolist(), strict=True)
         read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
-    matches = spans_like(
+    matches = find_spans(
         features,
         sought.examples,
         sought.counterexamples,
@@ -276,14 +276,16 @@ def search_parts(task: Task) -> dict[int, Matches]:
     return {row: Matches(*(column[rows == row] for column in moved)) for row in set(rows.tolist())}
 
 
-def _nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
+def _find_nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
     """Return the windows that are nearest to any part of an example, in their order."""
     n = len(windows.embedded)
     least = np.empty(n, np.int32)
 
     def compare(first: int) -> None:
         block = slice(first, first + BLOCK)
-        least_squares(np.asarray(windows.embedded[block]), parts, np.int32(FINER), least[block])
+        find_least_squares(
+            np.asarray(windows.embedded[block]), parts, np.int32(FINER), least[block]
+        )
 
     map_threads(compare, range(0, n, BLOCK))
     most = min(max(round(SHARE * n), MORE * top), n)
@@ -291,7 +293,7 @@ def _nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
     return chosen
 
 
-def _batches(parts: Parts) -> Iterator[Parts]:
+def _make_batches(parts: Parts) -> Iterator[Parts]:
     """Parts of about `AT_ONCE` samples together; one that is longer is alone."""
     reached = np.cumsum(parts.stops - parts.starts)
     batches = (reached - (parts.stops - parts.starts)) // AT_ONCE

@@ -43,23 +43,23 @@ def count(samples: Ints, length: int) -> Ints:
     return np.where(samples > 0, windows, 0)
 
 
-def windows_of(features: Float32s, length: int) -> Bytes:
+def describe_windows(features: Float32s, length: int) -> Bytes:
     """The windows of a recording in 32 numbers each: means, and what tells of the two halves."""
     if len(features) == 0:
         return np.empty((0, NUMBERS), np.int8)
     if len(features) < length:
         features = _resample_to(features, length)
     windows = np.lib.stride_tricks.sliding_window_view(features, length, axis=0)[:: step(length)]
-    return np.clip(np.rint(LARGEST * _numbers(windows)), -LARGEST, LARGEST).astype(np.int8)
+    return np.clip(np.rint(LARGEST * _compute_numbers(windows)), -LARGEST, LARGEST).astype(np.int8)
 
 
-def all_windows(features: Float32s) -> Bytes:
+def describe_all_windows(features: Float32s) -> Bytes:
     """Return the windows of all `LENGTHS`, one length after the other."""
-    return np.concatenate([windows_of(features, length) for length in LENGTHS])
+    return np.concatenate([describe_windows(features, length) for length in LENGTHS])
 
 
 def group_by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]:
-    """Yield each of `LENGTHS` and its part of `all_windows`."""
+    """Yield each of `LENGTHS` and its part of `describe_all_windows`."""
     first = 0
     for length in LENGTHS:
         n = int(count(np.array(samples), length))
@@ -67,24 +67,24 @@ def group_by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]
         first += n
 
 
-def length_for(example: Float32s) -> int:
+def choose_length(example: Float32s) -> int:
     """Return the length of windows that is nearest to that of an example."""
     return min(LENGTHS, key=lambda length: abs(np.log(length / max(len(example), 1))))
 
 
-def parts_at_speeds(example: Float32s) -> NDArray[np.int32]:
+def describe_at_speeds(example: Float32s) -> NDArray[np.int32]:
     """The middle of an example at each of `SPEEDS`, (speeds, 32), to compare windows with."""
-    length = length_for(example)
+    length = choose_length(example)
     parts = []
     for speed in SPEEDS:
         n = min(round(length * speed), len(example))
         first = (len(example) - n) // 2
         parts.append(_resample_to(example[first : first + n], length).T)
     most = FINER * LARGEST
-    return np.clip(np.rint(most * _numbers(np.array(parts))), -most, most).astype(np.int32)
+    return np.clip(np.rint(most * _compute_numbers(np.array(parts))), -most, most).astype(np.int32)
 
 
-def _numbers(windows: Float32s) -> Float32s:
+def _compute_numbers(windows: Float32s) -> Float32s:
     """Means and slopes (windows, 32) of windows (windows, dims, length)."""
     length = windows.shape[2]
     slope = np.cos(np.pi / length * (np.arange(length) + 0.5)).astype(np.float32)

@@ -19,10 +19,10 @@ from kineme.live.finals import Finals, Look, Row
 from kineme.methods.kineme.constants import KinemeConstants
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals, Skeleton
-from kineme.recordings.arrays import spans_of
+from kineme.recordings.arrays import find_spans
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.clusters import keep_numbers, spans_with_clusters
+from kineme.transfer.clusters import keep_numbers, list_spans
 
 EXAMPLE_S = 8.0
 """Seconds of an activity that stand for its cluster."""
@@ -47,7 +47,7 @@ class Layout:
 
     def make_recording(self, values: Floats, missing: Masks) -> Motion | Signals:
         """Return frames as a recording with gaps."""
-        gaps = tuple((start, stop) for start, stop in spans_of(missing).tolist())
+        gaps = tuple((start, stop) for start, stop in find_spans(missing).tolist())
         if self.skeleton is None:
             return Signals(values, self.fps, self.channels, gaps)
         positions = values.reshape(len(values), -1, 3)
@@ -125,7 +125,7 @@ class RecentPast:
         columns = table.columns()
         old = self._known_spans(finals)
         following = max(finals.highest, *old[:, 2].tolist(), -1) + 1
-        starts, stops, clusters = spans_with_clusters(columns, table.cluster)
+        starts, stops, clusters = list_spans(columns, table.cluster)
         new = starts * fps + self.start, stops * fps + self.start, clusters
         given = keep_numbers(
             {0: (old[:, 0].astype(float), old[:, 1].astype(float), old[:, 2])},

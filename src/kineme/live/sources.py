@@ -22,7 +22,7 @@ from kineme._util.checks import join_names, require_extra, unique
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.regular import place_rows
-from kineme.recordings.times import UNITS_OF_TIME, as_seconds, date_seconds, is_time, time_unit
+from kineme.recordings.times import UNITS_OF_TIME, as_seconds, find_time_unit, is_time, parse_date
 
 T = TypeVar("T")
 WAIT_S = 0.2
@@ -160,7 +160,7 @@ class _Parser:
         if not self.at:
             raise ParameterError(f"none of the columns is a channel ({join_names(self.names)})")
         self.channels = tuple(self.names[i] for i in self.at)
-        self.unit = None if self.time is None else time_unit(self.names[self.time])
+        self.unit = None if self.time is None else find_time_unit(self.names[self.time])
 
     def parse(self, lines: Sequence[str]) -> Rows:
         """Return the rows in lines."""
@@ -193,7 +193,7 @@ class _Parser:
         try:
             return _number(cell) / UNITS_OF_TIME[self.unit or "s"]
         except ValueError:
-            return date_seconds(cell.strip())
+            return parse_date(cell.strip())
 
 
 def _number(cell: Any) -> float:

@@ -25,10 +25,10 @@ from kineme.methods.constants import (
     Constant,
     Limits,
     check,
+    collect_values,
     constant,
-    constants_of,
-    unknown,
-    values_of,
+    list_constants,
+    suggest_names,
 )
 
 if TYPE_CHECKING:
@@ -185,11 +185,11 @@ class Preset(ABC):
 
     def constants(self) -> tuple[Constant, ...]:
         """Return each constant with its meaning, unit, value and limits."""
-        return constants_of(self)
+        return list_constants(self)
 
     def parameters(self) -> Mapping[str, Any]:
         """Return the value of each constant by name, for the provenance."""
-        return values_of(self)
+        return collect_values(self)
 
     def replace(self, **overrides: Any) -> Self:
         """Return the same preset with some constants changed.
@@ -209,6 +209,6 @@ class Preset(ABC):
         for name in overrides:
             if name not in names:
                 raise ParameterError(
-                    f"{self.name} has no parameter {name!r:.60}; {unknown(name, names)}"
+                    f"{self.name} has no parameter {name!r:.60}; {suggest_names(name, names)}"
                 )
         return replace(self, **overrides) if overrides else self

@@ -2,7 +2,7 @@
 
 A field made by `constant` carries all that command line, studio and docs show of
 it, so that a constant added to a preset appears in each of them. `check`
-compares a preset with its own fields: types, limits, choices. `unknown` names
+compares a preset with its own fields: types, limits, choices. `suggest_names` names
 the constant nearest to a wrong name.
 """
 
@@ -174,7 +174,7 @@ def constant(
     return field(default=default, metadata={"constant": details})
 
 
-def constants_of(preset: Any) -> tuple[Constant, ...]:
+def list_constants(preset: Any) -> tuple[Constant, ...]:
     """Return the constants of a preset, in the order of its fields."""
     hints = _hints(preset.__class__)
     defaults = {each.name: each.default for each in fields(preset)}
@@ -186,20 +186,20 @@ def constants_of(preset: Any) -> tuple[Constant, ...]:
     )
 
 
-def values_of(preset: Any) -> dict[str, Any]:
+def collect_values(preset: Any) -> dict[str, Any]:
     """Return the value of each constant of a preset by name."""
     return {name: getattr(preset, name) for name in _details(preset.__class__)}
 
 
 def check(preset: Any) -> None:
     """ParameterError for the first constant whose value it cannot take; a count of 3.0 is 3."""
-    for each in constants_of(preset):
+    for each in list_constants(preset):
         _check(each.name, each.value, each.hint, each.limits, each.unit)
         if each.hint is int and type(each.value) is not int:
             object.__setattr__(preset, each.name, int(each.value))
 
 
-def unknown(name: str, names: Collection[str]) -> str:
+def suggest_names(name: str, names: Collection[str]) -> str:
     """Return the hint for a name that is none of these: the nearest, or all there are.
 
     Examples

@@ -17,7 +17,7 @@ UNSURE = 0.5
 """Confidence below which there is a sentence."""
 
 
-def doubts(columns: Columns, fps: float) -> list[str]:
+def list_doubts(columns: Columns, fps: float) -> list[str]:
     """Return a sentence for each cluster, count or border of low confidence, at most five.
 
     Parameters

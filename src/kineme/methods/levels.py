@@ -54,7 +54,7 @@ class FineSegments:
     differences: Floats
 
 
-def clusters_at(
+def assign_clusters(
     fine: FineSegments, details: tuple[float, ...], *, border_price: float, cluster_price: float
 ) -> dict[float, Ints]:
     """Return the cluster of each fine segment at each detail, -1 for transitions.
@@ -66,7 +66,7 @@ def clusters_at(
     border_price, cluster_price : float
         What a border and a cluster cost at detail 1.
     """
-    finer, coarser = _joins(fine, border_price, cluster_price)
+    finer, coarser = _list_joins(fine, border_price, cluster_price)
     found = {}
     # At first each cluster is its own; a join gives all of its clusters the kept number.
     of, done = np.arange(len(fine.parents)), 0
@@ -86,7 +86,7 @@ def clusters_at(
     return {detail: found[detail] for detail in details}
 
 
-def tables_at(
+def make_tables(
     columns: Columns, borders: Ints, clusters: Mapping[float, Ints], longest: float
 ) -> dict[float, Columns]:
     """Return the table at each detail; of neighbours that are one and the same, the coarsest.
@@ -98,7 +98,7 @@ def tables_at(
     columns : dict of str to array
         Of detail 1.
     borders, clusters
-        As in `FineSegments`, and of `clusters_at`.
+        As in `FineSegments`, and of `assign_clusters`.
     longest : float
         Samples: below 1, neighbours of one cluster are one activity even with a transition
         between them that is no longer than this over the detail.
@@ -152,8 +152,8 @@ def change_detail(
     # Borders of activities cut repetitions, too.
     cuts = np.unique(np.concatenate([starts, inner["start_frame"]]))
     kinds = np.where(clusters < 0, "transition", "activity")
-    activities = _rows(before, starts, end) | {"kind": kinds, "cluster": clusters}
-    primitives = _rows(inner, cuts, end)
+    activities = _make_rows(before, starts, end) | {"kind": kinds, "cluster": clusters}
+    primitives = _make_rows(inner, cuts, end)
     # The activity of each primitive: the last that begins at or before it.
     parents = np.searchsorted(starts, cuts, side="right") - 1
     in_cluster = primitives["kind"] == "activity"
@@ -161,7 +161,7 @@ def change_detail(
         primitives["cluster"] = np.where(in_cluster, clusters[parents], -1)
     else:
         # Repetitions that were cut are not like the whole ones: they get new clusters.
-        parts = in_cluster & ~_same_spans(primitives, inner)
+        parts = in_cluster & ~_find_same_spans(primitives, inner)
         pairs = np.column_stack([primitives["cluster"], clusters[parents]])[parts]
         # One new number for each pair of old cluster and activity's cluster.
         numbers = np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
@@ -173,7 +173,7 @@ Join = tuple[int, int, float]
 """A cluster that stays, one that becomes part of it, and the detail below which it does."""
 
 
-def _joins(
+def _list_joins(
     fine: FineSegments, border_price: float, cluster_price: float
 ) -> tuple[list[Join], list[Join]]:
     """Joins within the clusters of detail 1, and of these, each in order."""
@@ -191,16 +191,16 @@ def _joins(
     state = (fine.differences.copy(), prices, sizes)
     finer: list[Join] = []
     for parent in np.unique(fine.parents):
-        finer += _weakest(*state, np.flatnonzero(fine.parents == parent), cluster_price)
+        finer += _order_joins(*state, np.flatnonzero(fine.parents == parent), cluster_price)
     # Joins within a cluster of detail 1 must be done at detail 1, whatever they cost.
     finer = [(kept, joined, max(detail, np.nextafter(1, 2))) for kept, joined, detail in finer]
     # Clusters that are left when each cluster of detail 1 is one.
     roots = np.setdiff1d(np.arange(k), [joined for _, joined, _ in finer])
     # Sorted by detail; stable, so joins of one cluster stay in order.
-    return sorted(finer, key=lambda join: -join[2]), _weakest(*state, roots, cluster_price)
+    return sorted(finer, key=lambda join: -join[2]), _order_joins(*state, roots, cluster_price)
 
 
-def _weakest(
+def _order_joins(
     differences: Floats, prices: Floats, sizes: Floats, among: Ints, cluster_price: float
 ) -> list[Join]:
     """Return the joins of some clusters into one, those that cost least first; details never rise.
@@ -253,7 +253,7 @@ def _bridge_transitions(borders: Ints, labels: Ints, longest: float) -> Ints:
     return joined
 
 
-def _rows(source: Columns, starts: Ints, end: int) -> Columns:
+def _make_rows(source: Columns, starts: Ints, end: int) -> Columns:
     """Rows that begin there, like those of the source they lie in; confidence of others is nan."""
     order = np.argsort(source["start_frame"], kind="stable")
     # The source row in which each start lies.
@@ -271,7 +271,7 @@ def _rows(source: Columns, starts: Ints, end: int) -> Columns:
     return rows
 
 
-def _same_spans(rows: Columns, source: Columns) -> NDArray[np.bool_]:
+def _find_same_spans(rows: Columns, source: Columns) -> NDArray[np.bool_]:
     """Return which rows have the span of one of the source."""
     spans = {*zip(source["start_frame"].tolist(), source["stop_frame"].tolist(), strict=True)}
     found = zip(rows["start_frame"].tolist(), rows["stop_frame"].tolist(), strict=True)

@@ -25,21 +25,21 @@ from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import (
     EndEffectors,
     body_size,
-    distance_features,
+    compute_distance_features,
     end_effectors,
     mirror_features,
-    offsets_in_frames,
     pose_features,
+    round_offsets,
     stack,
 )
 from kineme.features.channels import resample_channels, standardize_channels
 from kineme.features.distances import SIZE, have_bones
-from kineme.features.effectors import Names, remedy
+from kineme.features.effectors import Names, suggest_remedy
 from kineme.features.emg import emg_envelope
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.base import Mirror, Preset
 from kineme.recordings import Motion, Signals
-from kineme.recordings.coordinates import axes_by_point, is_body
+from kineme.recordings.coordinates import group_axes, is_body
 from kineme.recordings.operations import resample, split_at_gaps
 
 
@@ -165,11 +165,13 @@ def _measure_distances(
             f"or leave out mirroring"
         ) from error
     # All spans together, so that they have the same axes.
-    features, points = distance_features(np.concatenate([span.positions for span in motions]))
+    features, points = compute_distance_features(
+        np.concatenate([span.positions for span in motions])
+    )
     names = motions[0].skeleton.names
     note = (
         f"{reason}: segmented by the distances between {len(points)} of its {len(names)} points; "
-        + remedy(motions[0].skeleton)
+        + suggest_remedy(motions[0].skeleton)
     )
     notes = [note, f"points: {', '.join(names[point] for point in points)}"]
     # Ends of the spans but the last, as `np.split` takes them.
@@ -178,7 +180,7 @@ def _measure_distances(
 
 
 def _stack_poses(pose: Floats, preset: Preset, size: float) -> Floats:
-    stacked = stack(pose, offsets_in_frames(preset.offsets, preset.working_fps))
+    stacked = stack(pose, round_offsets(preset.offsets, preset.working_fps))
     if preset.unit == "body sizes":
         # Root of the offsets: stacking several poses does not make distances larger.
         stacked /= size * np.sqrt(len(preset.offsets))
@@ -246,7 +248,7 @@ def _stack_channels(rows: list[Floats], preset: Preset, *, standardize: bool) ->
     ends = np.cumsum([len(row) for row in rows])[:-1]
     joined = np.concatenate(rows)
     scaled = standardize_channels(joined) if standardize else joined
-    offsets = offsets_in_frames(preset.offsets, preset.working_fps)
+    offsets = round_offsets(preset.offsets, preset.working_fps)
     # Stacked within each span: frames of two spans are no neighbours.
     stacked = np.concatenate([stack(row, offsets) for row in np.split(scaled, ends)])
     # Root mean square over window and channels.
@@ -290,7 +292,7 @@ def find_joints(signals: Signals) -> Indices | None:
     """
     points = [
         [signals.names.index(axes[axis]) for axis in AXES]
-        for name, axes in axes_by_point(signals.names).items()
+        for name, axes in group_axes(signals.names).items()
         if is_body(name) and len(axes) == len(AXES)
     ]
     if not points:
@@ -319,7 +321,7 @@ def replace_by_distances(rows: Sequence[Floats], points: Indices, fps: float) ->
         gaussian_filter1d(row[:, points.ravel()], STEADY * fps, axis=0, mode="nearest")
         for row in rows
     ]
-    posture, _ = distance_features(np.concatenate(places).reshape(-1, *points.shape))
+    posture, _ = compute_distance_features(np.concatenate(places).reshape(-1, *points.shape))
     # Channels that are no coordinates stay as they are.
     others = np.delete(np.concatenate(rows), points.ravel(), axis=1)
     ends = np.cumsum([len(row) for row in rows])[:-1]

@@ -14,7 +14,7 @@ from typing import Any
 from kineme._util.checks import Registry
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
-from kineme.methods.constants import unknown
+from kineme.methods.constants import suggest_names
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 
@@ -89,7 +89,7 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
     """
     if isinstance(preset, str):
         if preset not in PRESETS:
-            raise ParameterError(f"no preset {preset!r:.60}; {unknown(preset, PRESETS)}")
+            raise ParameterError(f"no preset {preset!r:.60}; {suggest_names(preset, PRESETS)}")
         chosen = PRESETS[preset]
         if signals and preset in FOR_SIGNALS:
             chosen = PRESETS[FOR_SIGNALS[preset]]

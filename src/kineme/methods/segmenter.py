@@ -23,7 +23,7 @@ from kineme.features.effectors import Names
 from kineme.methods.base import Columns, Found, Leveled, Mirror, Preset
 from kineme.methods.prepare import Prepared, RecordedSpan, prepare_motion, prepare_signals
 from kineme.methods.presets import DEFAULT, resolve_preset
-from kineme.methods.stages import Progress, stopwatch
+from kineme.methods.stages import Progress, time_stages
 from kineme.recordings import Motion, Signals
 from kineme.recordings.samples import as_signals
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
@@ -315,7 +315,7 @@ def _make_segmentation(
         provenance["clock"] = source.clock.to_json()
     table, hierarchy = segment_table(columns, fps), None
     if isinstance(found, Leveled):
-        with stopwatch(seconds, None)("levels"):
+        with time_stages(seconds, None)("levels"):
             tables = {DEFAULT_DETAIL: table}
             for detail, level in found.levels(samples, details).items():
                 tables[detail] = segment_table(placed(level), fps)

@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, contextmanager
 Progress = Callable[[str], None]
 
 
-def stopwatch(
+def time_stages(
     timings: dict[str, float], progress: Progress | None
 ) -> Callable[[str], AbstractContextManager[None]]:
     """``with stage("name"):`` tells ``progress`` and adds the seconds to ``timings``."""

@@ -14,7 +14,7 @@ SLOWEST, FASTEST = 1e-9, 1e9
 Error = type[ParameterError | MotionError]
 
 
-def frozen(
+def freeze(
     values: ArrayLike, what: str, *, row: str = "frame", error: Error = ParameterError
 ) -> NDArray[np.float64]:
     """Return the values as a read-only view: float64, C-contiguous, finite.
@@ -56,7 +56,7 @@ def assign(instance: object, **values: object) -> None:
         object.__setattr__(instance, name, value)
 
 
-def spans_of(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
+def find_spans(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
     """(spans, 2): where the mask is true, half-open.
 
     Examples

@@ -22,7 +22,7 @@ _WORD = re.compile(r"[A-Z]?[a-z]+\d*|[A-Z]+\d*(?![a-z])|\d+")
 _MOST_WORDS = 8
 
 
-def axes_by_point(columns: Iterable[str]) -> dict[str, dict[str, str]]:
+def group_axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
     """Return for each point, of a joint or a sensor, the columns of its axes: x and y at least.
 
     Examples
@@ -55,7 +55,7 @@ def is_body(name: str) -> bool:
     return not any(SENSOR.fullmatch(word) for word in _WORD.findall(joint))
 
 
-def beginnings(name: str) -> Iterator[str]:
+def list_beginnings(name: str) -> Iterator[str]:
     """Yield what a name begins with, word by word; of long ones the first few.
 
     Examples

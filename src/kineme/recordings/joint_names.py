@@ -281,7 +281,7 @@ def _choose(
 ) -> dict[str, tuple[int, ...]]:
     """Return the points of the first line that both sides have, else of the first of each."""
     made = {
-        joint: [_points(line.replace("*", letter), at) for line in lines]
+        joint: [_find_points(line.replace("*", letter), at) for line in lines]
         for joint, letter in letters.items()
     }
     # What is measured of left and right is compared, so both are made of the same markers.
@@ -293,7 +293,7 @@ def _choose(
     return {joint: points for joint, points in chosen.items() if points}
 
 
-def _points(line: str, at: Mapping[str, int]) -> tuple[int, ...]:
+def _find_points(line: str, at: Mapping[str, int]) -> tuple[int, ...]:
     """Return the points that a line names, or none unless all are there."""
     points = line.split()
     return tuple(at[name] for name in points) if all(name in at for name in points) else ()

@@ -80,7 +80,7 @@ def place_at_rest(skeleton: Skeleton) -> Floats:
     return np.asarray(places)
 
 
-def world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> Floats:
+def compute_world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> Floats:
     """How each joint is turned in the world (frames, joints, 4); end sites take their parent's.
 
     ``rotations`` are local to the parent; MotionError where a motion has none.
@@ -94,7 +94,7 @@ def world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> Floats:
     return world
 
 
-def local_translations(
+def compute_local_translations(
     skeleton: Skeleton, positions: Floats, rotations: ArrayLike | None
 ) -> Floats:
     """From parent to joint in the parent's frame (frames, joints, 3); a root's position.
@@ -102,7 +102,7 @@ def local_translations(
     Equal to the skeleton's offsets wherever bones are rigid. ``rotations`` are local to the parent;
     MotionError where a motion has none.
     """
-    world = world_rotations(skeleton, rotations)
+    world = compute_world_rotations(skeleton, rotations)
     local = np.array(positions)
     for j, parent in enumerate(skeleton.parents):
         if parent >= 0:

@@ -16,9 +16,9 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Floats
 from kineme._util.checks import check_type, format_count
 from kineme.errors import MotionError
-from kineme.recordings.arrays import as_rate, assign, frozen
+from kineme.recordings.arrays import as_rate, assign, freeze
 from kineme.recordings.kinematics import forward_kinematics
-from kineme.recordings.notebook import poses_svg
+from kineme.recordings.notebook import draw_poses
 from kineme.recordings.provenance import Provenance
 from kineme.recordings.recording import Recording, Spans, as_gaps
 from kineme.recordings.skeleton import Skeleton
@@ -72,7 +72,7 @@ class Motion(Recording):
     def __post_init__(self) -> None:
         check_type(self.skeleton, Skeleton, "Motion", "then positions and fps", error=MotionError)
         assign(self, fps=as_rate(self.fps, error=MotionError))
-        assign(self, positions=frozen(self.positions, "positions", error=MotionError))
+        assign(self, positions=freeze(self.positions, "positions", error=MotionError))
         # The maximum and minimum need no copy, unlike absolute values.
         reach = max(float(self.positions.max(initial=0.0)), -float(self.positions.min(initial=0.0)))
         if reach > FARTHEST:
@@ -89,7 +89,7 @@ class Motion(Recording):
         assign(self, gaps=as_gaps(self.gaps, self.n_frames, error=MotionError))
         if self.rotations is None:
             return
-        assign(self, rotations=frozen(self.rotations, "rotations", error=MotionError))
+        assign(self, rotations=freeze(self.rotations, "rotations", error=MotionError))
         if self.rotations.shape != (self.n_frames, joints, 4):
             raise MotionError(
                 f"rotations have shape {self.rotations.shape}, not ({self.n_frames}, {joints}, 4)"
@@ -151,7 +151,7 @@ class Motion(Recording):
         return [("joints", f"{len(names)}: {shown}"), ("holds", turns)]
 
     def _picture(self) -> str:
-        return poses_svg(self.skeleton, self.positions)
+        return draw_poses(self.skeleton, self.positions)
 
 
 def check_motion(motion: object, caller: str) -> None:

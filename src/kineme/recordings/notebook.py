@@ -18,7 +18,7 @@ _SAMPLES = 240
 _STYLE = 'fill="none" stroke="currentColor" stroke-width="1" stroke-linejoin="round"'
 
 
-def page_of(
+def make_page(
     title: str, picture: str, facts: Sequence[tuple[str, str]], provenance: Provenance
 ) -> str:
     """Return the HTML that a notebook shows: a repr, an SVG, facts, the file and its warnings."""
@@ -32,7 +32,7 @@ def page_of(
     return f"<div><p>{escape(title)}</p>{picture}<table>{cells}</table></div>"
 
 
-def poses_svg(skeleton: Skeleton, positions: Floats) -> str:
+def draw_poses(skeleton: Skeleton, positions: Floats) -> str:
     """Poses of a body, evenly spaced in time, side by side, seen from its broader side: an SVG."""
     at = np.linspace(0, len(positions) - 1, min(_POSES, len(positions))).round().astype(int)
     poses = positions[at] - positions[at].mean(axis=1, keepdims=True)
@@ -52,10 +52,10 @@ def poses_svg(skeleton: Skeleton, positions: Floats) -> str:
         for pose in drawn
         for a, b in (*bones, *dots)
     )
-    return _svg(f'<path d="{path}" stroke-linecap="round" {_STYLE}/>')
+    return _wrap_svg(f'<path d="{path}" stroke-linecap="round" {_STYLE}/>')
 
 
-def channels_svg(values: Floats) -> str:
+def draw_channels(values: Floats) -> str:
     """Return the first channels over time, one below the other, each in its own range: an SVG."""
     at = np.linspace(0, len(values) - 1, min(_SAMPLES, len(values))).round().astype(int)
     shown = values[at, :_CHANNELS]
@@ -68,10 +68,10 @@ def channels_svg(values: Floats) -> str:
         y = band * (channel + 0.9 - 0.8 * level[:, channel])
         points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x.tolist(), y.tolist(), strict=True))
         lines.append(f'<polyline points="{points}" {_STYLE}/>')
-    return _svg("".join(lines))
+    return _wrap_svg("".join(lines))
 
 
-def _svg(inside: str) -> str:
+def _wrap_svg(inside: str) -> str:
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDTH}" height="{_HEIGHT}" '
         f'viewBox="0 0 {_WIDTH} {_HEIGHT}">{inside}</svg>'

@@ -17,7 +17,7 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats, interpolate_frames
 from kineme._util.checks import check_rates, is_number
 from kineme.errors import MotionError, ParameterError
-from kineme.recordings.kinematics import forward_kinematics, local_translations
+from kineme.recordings.kinematics import compute_local_translations, forward_kinematics
 from kineme.recordings.motion import Motion, check_motion
 from kineme.recordings.signals import Signals
 
@@ -74,19 +74,19 @@ def resample(motion: Motion, fps: float) -> Motion:
     note = f"resampled from {motion.fps:g} to {fps:g} Hz"
     # A whole ratio, up to rounding: frames are taken and not interpolated.
     if abs(ratio - round(ratio)) < 1e-9 * ratio:
-        return _frames(motion, slice(0, motion.n_frames, round(ratio)), fps, note)
+        return _choose_frames(motion, slice(0, motion.n_frames, round(ratio)), fps, note)
     # Rounding must not lead beyond the last frame.
     at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
     provenance = motion.provenance.noted(note)
-    gaps = _gaps(motion, 0, ratio, n)
+    gaps = _move_gaps(motion, 0, ratio, n)
     if motion.rotations is None:
         return Motion(
             motion.skeleton, interpolate_frames(motion.positions, at), fps, None, provenance, gaps
         )
-    rotations = _slerp(motion.rotations, at)
+    rotations = _interpolate_rotations(motion.rotations, at)
     # Translations are interpolated in the parents' frames, so bones keep their length.
     translations = interpolate_frames(
-        local_translations(motion.skeleton, motion.positions, motion.rotations), at
+        compute_local_translations(motion.skeleton, motion.positions, motion.rotations), at
     )
     positions = forward_kinematics(motion.skeleton, rotations, translations=translations)
     return Motion(motion.skeleton, positions, fps, rotations, provenance, gaps)
@@ -265,14 +265,14 @@ def move(motion: Motion, offset: ArrayLike) -> Motion:
     )
 
 
-def _frames(motion: Motion, frames: slice, fps: float, note: str) -> Motion:
+def _choose_frames(motion: Motion, frames: slice, fps: float, note: str) -> Motion:
     rotations = None if motion.rotations is None else motion.rotations[frames]
     positions = motion.positions[frames]
-    gaps = _gaps(motion, frames.start, frames.step or 1, len(positions))
+    gaps = _move_gaps(motion, frames.start, frames.step or 1, len(positions))
     return Motion(motion.skeleton, positions, fps, rotations, motion.provenance.noted(note), gaps)
 
 
-def _gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
+def _move_gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
     """Return the gaps among n frames taken from ``first`` on, ``ratio`` frames apart.
 
     A frame between a recorded one and one in a gap counts as in the gap.
@@ -291,7 +291,7 @@ def _gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, 
     return tuple(spans)
 
 
-def _slerp(rotations: Floats, at: Floats) -> Floats:
+def _interpolate_rotations(rotations: Floats, at: Floats) -> Floats:
     """Rotations at fractional frames, each joint interpolated along the shorter arc."""
     from scipy.spatial.transform import Rotation, Slerp  # heavy, and seldom needed
 

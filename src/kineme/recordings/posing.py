@@ -8,13 +8,13 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.motion import Motion
 from kineme.recordings.rig import Rig, make_rig
 from kineme.recordings.skeleton import Skeleton
 
 
-def rig_of(skeleton: Skeleton) -> Rig:
+def get_rig(skeleton: Skeleton) -> Rig:
     """Return the rig of a skeleton; one of its joints, without rotations, where it has none."""
     return skeleton.rig or make_rig(skeleton.names, skeleton.parents, skeleton.offsets)
 
@@ -36,7 +36,7 @@ def pose_rig(motion: Motion, rig: Rig) -> tuple[Floats, Floats]:
         own (end sites) are turned as at rest.
     """
     skeleton, above, back = motion.skeleton, rig.above, rot.conjugate(rig.turn)
-    turns = rot.multiply(back, world_rotations(skeleton, motion.rotations))
+    turns = rot.multiply(back, compute_world_rotations(skeleton, motion.rotations))
     turns = rot.multiply(turns, rot.conjugate(rig.axes))
     places = rot.rotate(back, motion.positions) / rig.unit
     rest_places, rest_turns, sizes = rig.world
@@ -64,7 +64,7 @@ def align_to_rest(motion: Motion) -> Motion:
         return motion
     places, turns = skeleton.rig.rest()
     offsets, inverse = np.array(places), rot.conjugate(turns)
-    rotations = rot.multiply(world_rotations(skeleton, motion.rotations), inverse)
+    rotations = rot.multiply(compute_world_rotations(skeleton, motion.rotations), inverse)
     local = np.array(rotations)
     for joint, parent in enumerate(skeleton.parents):
         if parent >= 0:
@@ -82,7 +82,7 @@ def add_root(motion: Motion) -> Motion:
     name = "root"
     while name in skeleton.names:
         name += "_"
-    rig = rig_of(skeleton)
+    rig = get_rig(skeleton)
     at = rig.above
     # Joints that hung on what carries the body, or on nothing, hang on the new one.
     parents = [p + 1 if p >= at else at if node >= at else p for node, p in enumerate(rig.parents)]

@@ -157,7 +157,7 @@ class Recording(Protocol):
         )
 
     def _repr_html_(self) -> str:
-        from kineme.recordings.notebook import page_of
+        from kineme.recordings.notebook import make_page
 
         facts = [
             ("frames", f"{self.n_frames} ({self.duration:.2f} s at {self.fps:g} Hz)"),
@@ -166,7 +166,7 @@ class Recording(Protocol):
         if self.gaps:
             lost = sum(stop - start for start, stop in self.gaps)
             facts.append(("gaps", f"{len(self.gaps)} ({lost / self.fps:.2f} s)"))
-        return page_of(repr(self), self._picture(), facts, self.provenance)
+        return make_page(repr(self), self._picture(), facts, self.provenance)
 
 
 def as_gaps(

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats, Ints, Masks
 from kineme._util.checks import format_count, join_names
 from kineme.errors import ParameterError
-from kineme.recordings.arrays import spans_of
+from kineme.recordings.arrays import find_spans
 from kineme.recordings.clock import Clock, tells_dates
 from kineme.recordings.provenance import Note
 
@@ -119,7 +119,7 @@ class Timing:
         missing = np.zeros(found.shape, np.bool_)
         grid = np.arange(n_frames, dtype=np.float64)
         filled = 0
-        for channels, seen in _patterns(present):
+        for channels, seen in _group_patterns(present):
             known = at if seen.all() else at[seen]
             if not len(known):
                 found[:, channels], missing[:, channels] = np.nan, True
@@ -127,7 +127,7 @@ class Timing:
             for channel in channels:
                 found[:, channel] = np.interp(grid, known, frames[seen, channel])
             hole = np.zeros(n_frames, np.bool_)
-            for start, stop in _holes(known, n_frames, self.fps).tolist():
+            for start, stop in _find_holes(known, n_frames, self.fps).tolist():
                 hole[start:stop] = True
             missing[:, channels] = hole[:, None]
             filled += len(channels) * (n_frames - len(known) - int(hole.sum()))
@@ -209,7 +209,7 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
     at, note = _spread_packets(at, taken)
     notes += note
     moments, merged = (np.unique(at), None) if taken is None else _merge(at, taken)
-    rate = fps or _fastest(moments, merged)
+    rate = fps or _find_fastest_rate(moments, merged)
     frames = _snap((at - at[0]) * rate, rate)
     if not fps and (frames != np.rint(frames)).any():
         # any rate is true on a grid that rows are brought to, and a whole one is the sensor's
@@ -287,11 +287,11 @@ def fill_gaps_in_channels(
     if (long | jumps).all():
         raise ParameterError("in every frame some channel is missing for long: choose columns")
     # where the clock was set, the gap is said already
-    holes = spans_of(long & ~jumps)
+    holes = find_spans(long & ~jumps)
     if len(holes):
         frames = format_count(int((long & ~jumps).sum()), "frame")
         notes.append(f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, {frames}")
-    gaps = [(start, stop) for start, stop in spans_of(long | jumps).tolist()]
+    gaps = [(start, stop) for start, stop in find_spans(long | jumps).tolist()]
     return found.values, gaps, [*notes, *doubts]
 
 
@@ -315,7 +315,7 @@ def doubt_channels(found: Resampled, fps: float, names: Sequence[str]) -> list[N
         if len(track) < 2:
             continue
         same = np.diff(track) == 0
-        runs = spans_of(same)
+        runs = find_spans(same)
         lengths = runs[:, 1] - runs[:, 0]
         long = lengths >= least
         others = len(same) - int(lengths[long].sum())
@@ -356,7 +356,7 @@ def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
     return False
 
 
-def _patterns(present: Masks) -> Iterator[tuple[list[int], Masks]]:
+def _group_patterns(present: Masks) -> Iterator[tuple[list[int], Masks]]:
     """Yield channels that have values in the same rows, and which rows these are."""
     found: dict[bytes, list[int]] = {}
     for channel in range(present.shape[1]):
@@ -377,7 +377,7 @@ def _merge(at: Floats, values: Floats) -> tuple[Floats, Floats]:
         return at[starts], sums / counts
 
 
-def _holes(known: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
+def _find_holes(known: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
     """(holes, 2): frames [start, stop) between known ones that are too far apart to be bridged."""
     apart = np.diff(known)
     most = LONGEST_S * fps + 1e-9
@@ -491,17 +491,17 @@ def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Not
     return spread, [Note(note, "warning")]
 
 
-def _fastest(moments: Floats, values: Floats | None) -> float:
+def _find_fastest_rate(moments: Floats, values: Floats | None) -> float:
     """Return the rate of the rows, or of the fastest sensor that fills only some of them."""
     rates: list[float] = []
     if values is not None:
-        rows = [seen for _, seen in _patterns(np.isfinite(values)) if seen.any()]
+        rows = [seen for _, seen in _group_patterns(np.isfinite(values)) if seen.any()]
         if all(seen.mean() <= _MOST for seen in rows):
-            rates = [_rate(moments[seen]) for seen in rows if seen.sum() > 1]
-    return max(rates, default=_rate(moments))
+            rates = [_measure_rate(moments[seen]) for seen in rows if seen.sum() > 1]
+    return max(rates, default=_measure_rate(moments))
 
 
-def _rate(moments: Floats) -> float:
+def _measure_rate(moments: Floats) -> float:
     """Return rows per second.
 
     The mean of the steps that are nearly the median: clocks that count milliseconds

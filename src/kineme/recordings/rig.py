@@ -24,7 +24,7 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.errors import MotionError
-from kineme.recordings.arrays import assign, frozen
+from kineme.recordings.arrays import assign, freeze
 
 UNIFORM = 1e-4
 """Share by which a node's scales along its three axes may differ and count as one."""
@@ -69,7 +69,7 @@ class Rig:
 
     def __post_init__(self) -> None:
         for name in ("translations", "rotations", "scales", "axes", "turn"):
-            values = frozen(getattr(self, name), name, row="node", error=MotionError)
+            values = freeze(getattr(self, name), name, row="node", error=MotionError)
             assign(self, **{name: values})
         n = len(self.names)
         shapes = [(n, 3), (n, 4), (n, 3)]

@@ -13,13 +13,13 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Floats, interpolate_frames
 from kineme._util.checks import as_floats, check_type, is_number, join_names, unique, warn
 from kineme.errors import ParameterError
-from kineme.recordings.arrays import as_rate, spans_of
+from kineme.recordings.arrays import as_rate, find_spans
 from kineme.recordings.channel_names import is_channel_name
 from kineme.recordings.clock import Clock
 from kineme.recordings.provenance import Note, Provenance
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
 from kineme.recordings.signals import Signals
-from kineme.recordings.times import UNITS_NAMED, as_seconds, is_rate, is_time, time_unit
+from kineme.recordings.times import UNITS_NAMED, as_seconds, find_time_unit, is_rate, is_time
 
 ASSUMED_FPS = 30.0
 """Rows per second, where nobody says."""
@@ -71,10 +71,10 @@ def read_samples(
 
     See `as_signals`.
     """
-    samples = _samples_of(data)
+    samples = _convert_samples(data)
     if times is not None:
         samples = replace(samples, times=times, unit=None)
-    timing, notes = _time(samples, fps, times, assumed_fps)
+    timing, notes = _find_rate(samples, fps, times, assumed_fps)
     values, gaps, filled = fill_gaps_in_channels(timing, samples.values, samples.names)
     notes = [*samples.notes, *notes, *timing.notes, *filled]
     provenance = Provenance().noted(*notes).timed(timing.clock, timing.row_seconds)
@@ -96,7 +96,7 @@ class _Samples:
     notes: list[Note | str] = field(default_factory=list)
 
 
-def _time(
+def _find_rate(
     samples: _Samples, fps: float | None, times: ArrayLike | None, assumed_fps: float
 ) -> tuple[Timing, list[Note | str]]:
     """Return the rate and the frames of rows, and notes."""
@@ -122,16 +122,16 @@ def _time(
     return Timing(rate, samples.order, np.arange(n, dtype=np.float64), n), notes
 
 
-def _samples_of(data: Any) -> _Samples:
+def _convert_samples(data: Any) -> _Samples:
     """Return the rows in an array, a data frame or series, or an object of xarray."""
     if isinstance(data, Signals):
         raise ParameterError("these are signals already, whose fps is theirs")
     if hasattr(data, "dims") and hasattr(data, "coords"):
-        return _samples_of_xarray(data)
+        return _convert_xarray(data)
     if hasattr(data, "to_frame") and hasattr(data, "index"):
         data = data.to_frame()  # a series
     if hasattr(data, "columns") and hasattr(data, "__getitem__"):
-        return _samples_of_frame(data)
+        return _convert_frame(data)
     values = as_floats(data, "signals")
     if values.ndim == 1:
         values = values[:, None]
@@ -140,11 +140,13 @@ def _samples_of(data: Any) -> _Samples:
     return _Samples(values, tuple(map(str, range(1, values.shape[1] + 1))))
 
 
-def _samples_of_xarray(data: Any) -> _Samples:
+def _convert_xarray(data: Any) -> _Samples:
     """Return variables along ``time`` or their first dimension, a channel for each column."""
     arrays = list(data.data_vars.values()) if hasattr(data, "data_vars") else [data]
     along = "time" if "time" in data.dims else next(iter(data.dims), None)
-    columns = [pair for array in arrays if along in array.dims for pair in _columns(array, along)]
+    columns = [
+        pair for array in arrays if along in array.dims for pair in _list_columns(array, along)
+    ]
     if not columns:
         raise ParameterError("there is no variable of numbers along a dimension such as time")
     names, values = zip(*columns, strict=True)
@@ -154,7 +156,7 @@ def _samples_of_xarray(data: Any) -> _Samples:
     )
 
 
-def _columns(array: Any, along: Any) -> Iterator[tuple[str, Any]]:
+def _list_columns(array: Any, along: Any) -> Iterator[tuple[str, Any]]:
     """Yield the name and values of each column of a data array, none if it is not numeric.
 
     ``along`` is the time dimension. A name is that of the array and the labels of the column.
@@ -173,7 +175,7 @@ def _columns(array: Any, along: Any) -> Iterator[tuple[str, Any]]:
         yield "_".join([*prefix, *parts]) or "1", values[(slice(None), *index)]
 
 
-def _samples_of_frame(frame: Any) -> _Samples:
+def _convert_frame(frame: Any) -> _Samples:
     """Return the columns of numbers of a data frame, and its times."""
     names = list(frame.columns)
     by_place = getattr(frame, "iloc", None)
@@ -191,18 +193,18 @@ def _samples_of_frame(frame: Any) -> _Samples:
     notes: list[Note | str] = []
     if left:
         notes.append(f"columns that are no channels: {', '.join(left)}")
-    values = np.column_stack([_numbers(columns[i]) for i in chosen])
+    values = np.column_stack([_convert_numbers(columns[i]) for i in chosen])
     channels = tuple(unique((called[i] for i in chosen), allow_empty=True))
     found = _Samples(values, channels, notes=notes)
     index: Any = getattr(frame, "index", None)
     kind = getattr(getattr(index, "dtype", None), "kind", "O")
     named = isinstance(getattr(index, "name", None), str) and is_time(index.name)
     if kind in "mM" or (named and kind in "iufO"):
-        return replace(found, times=index, unit=time_unit(index.name) if named else None)
+        return replace(found, times=index, unit=find_time_unit(index.name) if named else None)
     if timing:
-        return replace(found, times=columns[timing[0]], unit=time_unit(called[timing[0]]))
+        return replace(found, times=columns[timing[0]], unit=find_time_unit(called[timing[0]]))
     if rates:
-        rate = _numbers(columns[rates[0]])
+        rate = _convert_numbers(columns[rates[0]])
         if rate[0] > 0 and np.ptp(rate) == 0:
             return replace(found, rate=float(rate[0]))
     if kind in "iu" and not index.is_monotonic_increasing and index.is_unique:
@@ -210,7 +212,7 @@ def _samples_of_frame(frame: Any) -> _Samples:
     return found
 
 
-def _numbers(column: Any) -> Floats:
+def _convert_numbers(column: Any) -> Floats:
     """Return a column as numbers, NaN for what pandas calls missing."""
     try:
         return np.asarray(column, np.float64)
@@ -252,7 +254,7 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
         check_type(each, Signals, "join_signals", "kineme.as_signals(array, fps=...) gives some")
     if not signals:
         raise ParameterError("join_signals takes one or more signals")
-    clocks, notes = _clocks_in_common(signals, offsets)
+    clocks, notes = _compare_clocks(signals, offsets)
     begins = [float(clock.time(0.0)) for clock in clocks]
     ends = [
         float(clock.time((each.n_frames - 1) / each.fps))
@@ -282,16 +284,16 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
             hidden[begin:stop] = True
         missing |= hidden[np.rint(at).astype(np.intp)]
         missing |= np.abs(clock.time(seconds) - times) > LONGEST_S  # in a pause
-    names = _names_in_common(signals)
+    names = _make_names_unique(signals)
     source = signals[0].provenance
     notes = [*(note for each in signals for note in each.provenance.notes), *notes]
     joined = Provenance(source.path, source.format, source.sha256).noted(*dict.fromkeys(notes))
     begun = Clock([0.0], [start]) if abs(start) > 0.5 / fps else None
-    gaps = [(begin, stop) for begin, stop in spans_of(missing).tolist()]
+    gaps = [(begin, stop) for begin, stop in find_spans(missing).tolist()]
     return Signals(np.concatenate(columns, axis=1), fps, names, gaps, joined.timed(begun))
 
 
-def _clocks_in_common(
+def _compare_clocks(
     signals: Sequence[Signals], offsets: Sequence[float] | None
 ) -> tuple[list[Clock], list[Note | str]]:
     """Return the clock of each as far as they can be compared, and notes."""
@@ -319,7 +321,7 @@ def _shift(clock: Clock, seconds: float) -> Clock:
     return Clock(clock.seconds, [time + seconds for time in clock.times])
 
 
-def _names_in_common(signals: Sequence[Signals]) -> tuple[str, ...]:
+def _make_names_unique(signals: Sequence[Signals]) -> tuple[str, ...]:
     """Return the names of all channels, those of several sensors behind the name of theirs."""
     every = [name for each in signals for name in each.names]
     stems = [Path(each.provenance.path or str(k)).stem for k, each in enumerate(signals, 1)]

@@ -10,8 +10,8 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats, as_texts, format_count
 from kineme.errors import ParameterError
-from kineme.recordings.arrays import as_rate, assign, frozen
-from kineme.recordings.notebook import channels_svg
+from kineme.recordings.arrays import as_rate, assign, freeze
+from kineme.recordings.notebook import draw_channels
 from kineme.recordings.provenance import Provenance
 from kineme.recordings.recording import Recording, Spans, as_gaps
 
@@ -65,7 +65,7 @@ class Signals(Recording):
             raise ParameterError(f"signals are frames x channels, not of shape {values.shape}")
         # The default names count from 1.
         columns = getattr(self.values, "columns", range(1, values.shape[1] + 1))
-        assign(self, values=frozen(values, "signals"), fps=as_rate(self.fps))
+        assign(self, values=freeze(values, "signals"), fps=as_rate(self.fps))
         if (largest := float(np.abs(values).max())) > LARGEST:
             raise ParameterError(f"signals reach {largest:.3g}, which no sensor tells")
         names = as_texts(self.names, "names of channels") or tuple(map(str, columns))
@@ -108,4 +108,4 @@ class Signals(Recording):
         return [("channels", f"{self.n_channels}: {shown}")]
 
     def _picture(self) -> str:
-        return channels_svg(self.values)
+        return draw_channels(self.values)

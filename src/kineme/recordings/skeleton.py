@@ -20,7 +20,7 @@ from operator import index
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_texts, format_count
 from kineme.errors import MotionError, ParameterError
-from kineme.recordings.arrays import assign, frozen
+from kineme.recordings.arrays import assign, freeze
 from kineme.recordings.rig import Rig
 
 LIMB = 2
@@ -72,7 +72,7 @@ class Skeleton:
             raise MotionError(
                 "parents and end sites of a skeleton are lists of joints, by whole numbers"
             ) from None
-        assign(self, offsets=frozen(self.offsets, "offsets", row="joint", error=MotionError))
+        assign(self, offsets=freeze(self.offsets, "offsets", row="joint", error=MotionError))
         n = len(self.names)
         if n == 0:
             raise MotionError("a skeleton needs at least one joint")

@@ -69,7 +69,7 @@ def is_rate(column: str) -> bool:
     return _RATE.fullmatch(column.strip()) is not None
 
 
-def date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
+def find_date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
     """Return which columns of a text table tell the time by dates, as their first cells do.
 
     Where none is called as times are, the first that holds a time of day, whatever its name.
@@ -96,7 +96,7 @@ def append_unit(name: str, unit: str) -> str:
     return f"{name} ({unit.lower()})"
 
 
-def clock_name(name: str) -> str | None:
+def name_clock(name: str) -> str | None:
     """Return what to call a column that rises as clocks do, if its name says that it is one.
 
     Examples
@@ -109,7 +109,7 @@ def clock_name(name: str) -> str | None:
     return match and (f"time ({match[1]})" if match[1] else "time")
 
 
-def time_unit(column: str) -> str | None:
+def find_time_unit(column: str) -> str | None:
     """Return the unit that the name of a column of times tells; None where it tells none."""
     match = _TIME.fullmatch(column.strip())
     return match[2].lower() if match and match[2] else None
@@ -156,47 +156,47 @@ def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str 
         return np.where(np.isnat(stamps), np.nan, stamps.astype(np.int64) / 1e9), None
     if times.dtype.kind in "OUS":
         if any(isinstance(value, str) for value in times.ravel()[:9]):
-            return np.array([_nan_or_date(value) for value in times.tolist()]), None
+            return np.array([_parse_date_or_nan(value) for value in times.tolist()]), None
         if any(isinstance(value, datetime) for value in times.ravel()[:9]):
-            return np.array([_seconds_of(value) for value in times.tolist()]), None
+            return np.array([_convert_date(value) for value in times.tolist()]), None
     numbers = np.asarray(times, np.float64)
-    if unit or (unit := _unit_since_1970(numbers)):
+    if unit or (unit := _find_unit_since_1970(numbers)):
         return numbers / UNITS_OF_TIME[unit], None
-    guessed = _unit_of_steps(numbers)
+    guessed = _find_unit_of_steps(numbers)
     return numbers / UNITS_OF_TIME[guessed or "s"], guessed
 
 
 def is_date(text: str) -> bool:
     """Return whether a cell holds a date or a time of day."""
     try:
-        date_seconds(text)
+        parse_date(text)
     except ValueError:
         return False
     return True
 
 
-def date_seconds(text: str, *, day_first: bool | None = None) -> float:
+def parse_date(text: str, *, day_first: bool | None = None) -> float:
     """Seconds since 1970, or since midnight for a time of day; ValueError if it is neither.
 
     A leap second, ``23:59:60``, is the first of the next minute, as clocks since 1970 count.
-    ``day_first`` is what `day_comes_first` found; None for what is usual.
+    ``day_first`` is what `is_day_first` found; None for what is usual.
     """
     if not any(mark in text for mark in "-:"):
         raise ValueError(f"{text[:40]!r} is no ISO date")
     if leap := _LEAP.search(text):
         before = f"{text[: leap.start()]}59{text[leap.end() :]}"
-        return date_seconds(before, day_first=day_first) + 1
+        return parse_date(before, day_first=day_first) + 1
     try:
         when = datetime.fromisoformat(text)
     except ValueError:
         if written := _WRITTEN.fullmatch(text):
-            when = datetime.fromisoformat(_iso(written, day_first))
+            when = datetime.fromisoformat(_format_iso(written, day_first))
         else:
-            when = datetime.combine(datetime(1970, 1, 1).date(), _time_of_day(text))  # noqa: DTZ001
+            when = datetime.combine(datetime(1970, 1, 1).date(), _parse_time_of_day(text))  # noqa: DTZ001
     return (when if when.tzinfo else when.replace(tzinfo=UTC)).timestamp()
 
 
-def day_comes_first(texts: Sequence[str]) -> bool | None:
+def is_day_first(texts: Sequence[str]) -> bool | None:
     """Return whether days stand before months in dates of numbers that end in the year.
 
     None where they are written otherwise, or each could be either.
@@ -222,12 +222,12 @@ def is_ambiguous(text: str) -> bool:
     return match["second"].isdigit()
 
 
-def _nan_or_date(value: Any) -> float:
-    """As `date_seconds`; NaN for None and empty text."""
-    return date_seconds(value.strip()) if value and value.strip() else np.nan
+def _parse_date_or_nan(value: Any) -> float:
+    """As `parse_date`; NaN for None and empty text."""
+    return parse_date(value.strip()) if value and value.strip() else np.nan
 
 
-def _iso(date: re.Match[str], day_first: bool | None) -> str:
+def _format_iso(date: re.Match[str], day_first: bool | None) -> str:
     """Return a date as ISO 8601 writes it."""
     first, second, third = date["first"], date["second"].lower(), date["third"]
     if len(first) == 4:
@@ -246,21 +246,21 @@ def _iso(date: re.Match[str], day_first: bool | None) -> str:
     return f"{year}-{int(month):02}-{int(day):02}T{hour:02}{date['rest']}{zone}"
 
 
-def _time_of_day(text: str) -> time:
+def _parse_time_of_day(text: str) -> time:
     try:
         return time.fromisoformat(text)
     except ValueError:
         raise ValueError(f"{text[:40]!r} is no ISO date such as 2026-01-31T09:30:00.25") from None
 
 
-def _seconds_of(value: Any) -> float:
+def _convert_date(value: Any) -> float:
     """Return a date of Python or pandas as seconds since 1970, UTC without a zone."""
     if not isinstance(value, datetime) or value != value:  # noqa: PLR0124 (what is no time)
         return np.nan
     return (value if value.tzinfo else value.replace(tzinfo=UTC)).timestamp()
 
 
-def _unit_since_1970(numbers: Floats) -> str | None:
+def _find_unit_since_1970(numbers: Floats) -> str | None:
     """Return the unit in which these numbers are dates of this century; None for others."""
     finite = numbers[np.isfinite(numbers)]
     middle = float(np.median(finite)) if len(finite) else 0.0
@@ -268,7 +268,7 @@ def _unit_since_1970(numbers: Floats) -> str | None:
     return next((u for u in units if _EPOCH[0] <= middle / UNITS_OF_TIME[u] < _EPOCH[1]), None)
 
 
-def _unit_of_steps(numbers: Floats) -> str | None:
+def _find_unit_of_steps(numbers: Floats) -> str | None:
     """Return the unit in which steps are of a sensor's rate; None where they may be seconds."""
     finite = np.sort(numbers[np.isfinite(numbers)])
     steps = np.diff(finite)

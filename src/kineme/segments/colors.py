@@ -59,12 +59,14 @@ def label_colors(rows: Iterable[Row]) -> dict[str, str]:
     colors: dict[str, str] = {}
     for label in sorted(most, key=lambda text: text.encode("utf-16-be", "surrogatepass")):
         clusters = most[label].most_common(1)
-        colors[label] = cluster_color(clusters[0][0]) if clusters else _free_color(label, used)
+        colors[label] = (
+            cluster_color(clusters[0][0]) if clusters else _choose_free_color(label, used)
+        )
         used.add(colors[label])
     return colors
 
 
-def _free_color(text: str, used: set[str]) -> str:
+def _choose_free_color(text: str, used: set[str]) -> str:
     """Return a colour for a text, the same on every day; another one where that is taken."""
     hashed = 2166136261  # FNV-1a, over what a page takes for letters
     units = text.encode("utf-16-le", "surrogatepass")

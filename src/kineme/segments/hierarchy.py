@@ -60,7 +60,7 @@ class Hierarchy:
         for (less, more), (coarse, fine) in steps:
             for level in ("activity", "primitive"):
                 # Borders of the coarser table that the finer one lacks.
-                lost = np.setdiff1d(_starts(coarse, level), _starts(fine, level))
+                lost = np.setdiff1d(_find_starts(coarse, level), _find_starts(fine, level))
                 if len(lost):
                     raise ParameterError(
                         f"the {level} border at frame {lost[0]} is there at detail {less:g}, but "
@@ -82,14 +82,14 @@ class Hierarchy:
         """
         kept = [DEFAULT_DETAIL]
         for detail in sorted(each for each in tables if each > DEFAULT_DETAIL):
-            if not _same_spans(tables[detail], tables[kept[-1]]):
+            if not _have_same_spans(tables[detail], tables[kept[-1]]):
                 kept.append(detail)
         for detail in sorted((each for each in tables if each < DEFAULT_DETAIL), reverse=True):
             # Equal to its finer neighbour, which is not detail 1: the coarser detail is kept for
             # both.
-            if _same_spans(tables[detail], tables[kept[0]]) and kept[0] < DEFAULT_DETAIL:
+            if _have_same_spans(tables[detail], tables[kept[0]]) and kept[0] < DEFAULT_DETAIL:
                 kept[0] = detail
-            elif not _same_spans(tables[detail], tables[kept[0]]):
+            elif not _have_same_spans(tables[detail], tables[kept[0]]):
                 kept.insert(0, detail)
         return cls(tuple(kept), tuple(tables[detail] for detail in kept))
 
@@ -132,11 +132,11 @@ class Hierarchy:
         frames : (borders,) array of int
         details : (borders,) array of float
         """
-        frames = _starts(self.tables[-1], level)
+        frames = _find_starts(self.tables[-1], level)
         details = np.full(len(frames), self.details[-1])
         # From fine to coarse, so that each border ends with the least detail.
         for detail, table in zip(self.details[::-1], self.tables[::-1], strict=True):
-            details[np.isin(frames, _starts(table, level))] = detail
+            details[np.isin(frames, _find_starts(table, level))] = detail
         return frames, details
 
     def __repr__(self) -> str:
@@ -165,13 +165,13 @@ def _check_details(details: tuple[float, ...], present: float) -> None:
         )
 
 
-def _starts(table: SegmentTable, level: Level) -> NDArray[np.int64]:
+def _find_starts(table: SegmentTable, level: Level) -> NDArray[np.int64]:
     """Where segments of a level begin, but the first."""
     # The first segment begins at 0, which is no border.
     return np.sort(table.start_frame[table.level == level])[1:]
 
 
-def _same_spans(a: SegmentTable, b: SegmentTable) -> bool:
+def _have_same_spans(a: SegmentTable, b: SegmentTable) -> bool:
     """Whether two tables have the same segments in the same clusters, however these are counted."""
     same = all(
         np.array_equal(getattr(a, name), getattr(b, name))

@@ -60,16 +60,16 @@ def segment_color(segment: Row, labels: Mapping[str, str] = NO_LABELS) -> str:
     return cluster_color(segment.cluster)
 
 
-def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
+def draw_timeline(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
     """Return rows of segments as an ``<svg>``: never more bars in a row than it has pixels."""
     height = HEIGHT * len(rows)
     labels = label_colors(segment for table in rows for segment in table)
     bars = [
         f'<rect x="{left}" y="{number * HEIGHT + 1}" width="{right - left}" '
         f'height="{HEIGHT - 2}" fill="{segment_color(segment, labels)}">'
-        f"<title>{_description(segment)}</title></rect>"
+        f"<title>{_describe(segment)}</title></rect>"
         for number, table in enumerate(rows)
-        for segment, left, right in _pixels(table, start_s, stop_s)
+        for segment, left, right in _find_pixels(table, start_s, stop_s)
     ]
     return (
         f'<svg viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
@@ -77,26 +77,28 @@ def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
     )
 
 
-def page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
+def make_page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
     """HTML of a title, timelines below each other, and the first rows of a table."""
     shown = [table for table in timelines if len(table)]
     picture = ""
     if shown:
         start = min(float(table.start_s.min()) for table in shown)
         stop = max(float(table.stop_s.max()) for table in shown)
-        picture = timeline_svg(shown, start, stop)
+        picture = draw_timeline(shown, start, stop)
     more = len(rows) - FIRST_ROWS
     below = f"<p>and {more} more</p>" if more > 0 else ""
-    return f"<div><p>{escape(title)}</p>{picture}{_rows(rows)}{below}</div>"
+    return f"<div><p>{escape(title)}</p>{picture}{_make_rows(rows)}{below}</div>"
 
 
-def _rows(table: Rows) -> str:
+def _make_rows(table: Rows) -> str:
     head = "".join(f"<th>{name}</th>" for name in HEADER)
-    body = "".join(f"<tr>{_cells(segment)}</tr>" for segment in table.select(slice(FIRST_ROWS)))
+    body = "".join(
+        f"<tr>{_make_cells(segment)}</tr>" for segment in table.select(slice(FIRST_ROWS))
+    )
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
-def _cells(segment: Row) -> str:
+def _make_cells(segment: Row) -> str:
     square = f'<span style="color:{segment_color(segment)}">■</span>'
     cells = (
         segment.kind,
@@ -110,7 +112,7 @@ def _cells(segment: Row) -> str:
     return "".join(f"<td>{cell}</td>" for cell in cells)
 
 
-def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float, float]]:
+def _find_pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float, float]]:
     """Return the segments that begin a pixel of their own, and the pixels of start and stop."""
     scale = WIDTH / max(stop_s - start_s, 1e-9)
     left = (table.start_s - start_s) * scale
@@ -125,7 +127,7 @@ def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float
     ]
 
 
-def _description(segment: Row) -> str:
+def _describe(segment: Row) -> str:
     """Return what a bar says when the pointer is on it."""
     name = segment.label or (f"cluster {segment.cluster}" if segment.cluster >= 0 else segment.kind)
     return escape(f"{name}: {segment.start_s:.2f} to {segment.stop_s:.2f} s")

@@ -115,7 +115,7 @@ def check_parents(activities: SegmentTable, primitives: SegmentTable) -> None:
         )
 
 
-def plain_json(value: Mapping[str, Any], name: str) -> dict[str, Any]:
+def copy_as_json(value: Mapping[str, Any], name: str) -> dict[str, Any]:
     """A copy made of what JSON has: dicts, lists, texts, finite numbers, booleans, None."""
     try:
         copy: dict[str, Any] = json.loads(json.dumps(dict(value), allow_nan=False))
@@ -131,7 +131,7 @@ def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
 
     ParameterError where something that the package writes there is of another shape.
     """
-    provenance = plain_json(value, "provenance")
+    provenance = copy_as_json(value, "provenance")
     if isinstance(provenance.get("input"), str):
         provenance["input"] = {"path": provenance["input"]}
     try:
@@ -204,7 +204,7 @@ class Segmentation:
         check_tiles(primitives, "primitive", self.n_frames)
         check_parents(activities, primitives)
         object.__setattr__(self, "provenance", as_provenance(self.provenance))
-        object.__setattr__(self, "timings", plain_json(self.timings, "timings"))
+        object.__setattr__(self, "timings", copy_as_json(self.timings, "timings"))
         if self.hierarchy is not None:
             looked_at = self.hierarchy.table
             if looked_at is not self.table and looked_at != self.table:
@@ -440,6 +440,8 @@ class Segmentation:
         return f"<Segmentation of {length}: {self.describe()}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.html import page
+        from kineme.segments.html import make_page
 
-        return page(repr(self).strip("<>"), [self.activities, self.primitives], self.activities)
+        return make_page(
+            repr(self).strip("<>"), [self.activities, self.primitives], self.activities
+        )

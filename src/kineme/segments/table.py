@@ -164,12 +164,12 @@ NEEDED = [name for name, column in COLUMNS.items() if not column.optional]
 """Columns that every segment table in a file has."""
 
 
-def lacking(names: Container[str]) -> list[str]:
+def find_lacking(names: Container[str]) -> list[str]:
     """Return the columns of `NEEDED` that are not among these names."""
     return [name for name in NEEDED if name not in names]
 
 
-def kind_of(level: Level, *, transition: bool) -> Kind:
+def choose_kind(level: Level, *, transition: bool) -> Kind:
     """Return the kind of a segment of a level that is a transition, or none."""
     return "transition" if transition else level
 
@@ -310,10 +310,10 @@ class SegmentTable:
         return f"<SegmentTable of {of}{span}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.html import page
+        from kineme.segments.html import make_page
 
         levels = [self[self.level == level] for level in get_args(Level)]
-        return page(repr(self).strip("<>"), levels, self)
+        return make_page(repr(self).strip("<>"), levels, self)
 
 
 def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
@@ -333,12 +333,12 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
         if array.shape != (n,):
             raise ParameterError(f"column {name!r} has shape {array.shape}, 'level' has ({n},)")
     arrays = _compute_derived(arrays, fps) | arrays
-    arrays["kind"] = kinds_of(arrays["level"], arrays["kind"])
+    arrays["kind"] = choose_kinds(arrays["level"], arrays["kind"])
     order = np.lexsort((arrays["stop_frame"], arrays["start_frame"], arrays["level"]))
     return SegmentTable(**{name: arrays[name][order] for name in COLUMNS})
 
 
-def kinds_of(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.str_]:
+def choose_kinds(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.str_]:
     """Return the kinds of segments by their levels: a transition stays one, the rest follow."""
     if ((levels == "activity") & (kinds == "primitive")).any():
         raise ParameterError(
@@ -373,15 +373,15 @@ def _check_column(values: ArrayLike, name: str) -> NDArray[Any]:
     except ValueError as error:
         raise ParameterError(f"column {name!r} must hold one value per row") from error
     if column.type is str:
-        return _texts(array, name, column.allowed)
+        return _convert_texts(array, name, column.allowed)
     if column.type is int:
-        return _integers(array, name)
+        return _convert_integers(array, name)
     if array.dtype.kind not in "iuf" or np.isinf(array).any():
         raise ParameterError(f"column {name!r} must be finite, or nan where nothing is known")
     return array.astype(np.float64)
 
 
-def _integers(array: NDArray[Any], name: str) -> NDArray[np.int64]:
+def _convert_integers(array: NDArray[Any], name: str) -> NDArray[np.int64]:
     if array.size and array.dtype.kind not in "iu":
         raise ParameterError(f"column {name!r} must hold whole numbers, not {array.dtype}")
     if array.size and int(array.max()) > np.iinfo(np.int64).max:
@@ -389,7 +389,7 @@ def _integers(array: NDArray[Any], name: str) -> NDArray[np.int64]:
     return array.astype(np.int64)
 
 
-def _texts(array: NDArray[Any], name: str, allowed: tuple[str, ...]) -> NDArray[np.str_]:
+def _convert_texts(array: NDArray[Any], name: str, allowed: tuple[str, ...]) -> NDArray[np.str_]:
     values = array.ravel().tolist()
     other = next((value for value in values if not isinstance(value, str)), "")
     if other != "":

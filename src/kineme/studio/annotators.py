@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kineme.errors import KinemeError, ParameterError
-from kineme.labels.collections import LabelSource, labels_of
+from kineme.labels.collections import LabelSource, find_labels
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.storage.listed import ListedRecording, file_id
 from kineme.studio.storage.tables import usual_table
@@ -48,7 +48,7 @@ def annotators_of(recordings: OpenRecordings) -> dict[str, Annotator]:
     found: dict[str, Annotator] = {}
     for place in (*recordings.folder.folders(), *files):
         try:
-            sources = labels_of(paths, place)
+            sources = find_labels(paths, place)
         except (KinemeError, OSError):
             continue  # of other recordings, or of one that it does not name
         name = place.stem if place.is_file() else place.name
@@ -76,12 +76,12 @@ def annotator_choices(recordings: OpenRecordings) -> list[AnnotatorChoice]:
 
 def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
     """Return how far some of them agree, over all recordings for which two of them have labels."""
-    from kineme.evaluation.annotators import annotator_agreement, labels_of_annotators
-    from kineme.evaluation.score import finite
+    from kineme.evaluation.annotators import annotator_agreement, find_labels
+    from kineme.evaluation.score import to_finite
 
     people = _chosen(recordings, chosen)
     listed = _index_by_file(recordings)
-    labelled, failures = labels_of_annotators(
+    labelled, failures = find_labels(
         {who.name: who.sources for who in people},
         lambda path: recordings.extent(listed[path]),
     )
@@ -93,12 +93,12 @@ def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement
     return Agreement(
         annotators=list(found.annotators),
         by_names=found.by == "names",
-        fleiss_kappa=finite(found.fleiss_kappa),
+        fleiss_kappa=to_finite(found.fleiss_kappa),
         pairs=[
             AgreementPair(
                 annotators=(pair.first, pair.second),
-                cohen_kappa=finite(pair.cohen_kappa),
-                border_f1=finite(pair.border_f1),
+                cohen_kappa=to_finite(pair.cohen_kappa),
+                border_f1=to_finite(pair.border_f1),
                 recordings=pair.recordings,
             )
             for pair in found.pairs
@@ -108,7 +108,7 @@ def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement
                 id=ids[one.recording],
                 name=one.recording,
                 annotators=list(one.annotators),
-                fleiss_kappa=finite(one.fleiss_kappa),
+                fleiss_kappa=to_finite(one.fleiss_kappa),
                 differences=[Difference(**each._asdict()) for each in one.differences],
             )
             for one in found.recordings

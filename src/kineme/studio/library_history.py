@@ -16,7 +16,7 @@ from msgspec import Struct
 
 from kineme.errors import ParameterError
 from kineme.library.edits import Edits
-from kineme.library.storage.layout import EDITS, LOCK_EDITS, read_json, write_json, writer_lock
+from kineme.library.storage.layout import EDITS, LOCK_EDITS, lock_for_writing, read_json, write_json
 from kineme.studio.storage.sidecars import FOLDER, read_sidecar, write_file
 
 MOST_STEPS = 200
@@ -55,7 +55,7 @@ class LibraryHistory:
 
     def undo(self) -> None:
         """Take the last edit back; ParameterError where there is none, or others came since."""
-        with writer_lock(self._folder, "try again", LOCK_EDITS):
+        with lock_for_writing(self._folder, "try again", LOCK_EDITS):
             if not self.last():
                 raise ParameterError("there is nothing to undo, or the library was changed since")
             *steps, last = self._steps()

@@ -22,7 +22,7 @@ from kineme.library.storage.layout import as_array
 from kineme.library.storage.places import is_remote
 from kineme.segments.annotation import Annotation
 from kineme.segments.editing import name_cluster
-from kineme.segments.editing.clusters import names_by_cluster, set_cluster_names
+from kineme.segments.editing.clusters import collect_names, set_cluster_names
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, SegmentTable
@@ -115,17 +115,17 @@ def as_in_library(
     two, since people may have parted them: the larger has its number, both its name. A cluster that
     has another name keeps it unless ``replace_names``, and so does each segment with its own.
     """
-    places, names = select_library_clusters(table, of_library), names_by_cluster(of_library)
+    places, names = select_library_clusters(table, of_library), collect_names(of_library)
     numbers = _numbers(table, places, edits, {*of_library.table.cluster.tolist()})
     after = renumber_clusters(table, numbers)
-    former = names_by_cluster(table)
+    former = collect_names(table)
     # Reversed: of clusters that get one number the first one's name wins.
     renamed = {numbers[cluster]: former[cluster] for cluster in reversed(former)}
     after = set_cluster_names(after, renamed)
     kept = 0
     for cluster, number in numbers.items():
         name = names.get(places.get(cluster, -1), "")
-        present = names_by_cluster(after).get(number, "")
+        present = collect_names(after).get(number, "")
         if not name or name == present:
             continue
         if present and not replace_names:

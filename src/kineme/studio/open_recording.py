@@ -23,7 +23,7 @@ from kineme._util.json import options_to_json
 from kineme.errors import KinemeError, ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments import editing
-from kineme.segments.editing.carrying import names_of
+from kineme.segments.editing.carrying import count_names
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, apply_edit
@@ -237,7 +237,7 @@ class OpenRecording:
                 edit=step.edit,
                 segments=len(tables[number]),
                 corrections=tables[number].annotation.corrections,
-                names=names_of(tables[number]),
+                names=count_names(tables[number]),
             )
             for number, step in steps.items()
         ]

@@ -1,6 +1,6 @@
 """New motion from primitives: a motion graph, routes through it, and their blending."""
 
-from kineme.synthesis.blending import Placement, foot_contacts, plant_feet, synthesize
+from kineme.synthesis.blending import Placement, find_foot_contacts, plant_feet, synthesize
 from kineme.synthesis.building import check_source, motion_graph
 from kineme.synthesis.graph import (
     Edge,
@@ -12,7 +12,7 @@ from kineme.synthesis.graph import (
     write_graph,
 )
 from kineme.synthesis.line_routes import line_route, parse_line
-from kineme.synthesis.routes import action_route, following, parse_actions, random_route
+from kineme.synthesis.routes import action_route, find_following, parse_actions, random_route
 
 __all__ = [
     "Edge",
@@ -22,8 +22,8 @@ __all__ = [
     "Source",
     "action_route",
     "check_source",
-    "following",
-    "foot_contacts",
+    "find_following",
+    "find_foot_contacts",
     "line_route",
     "load_sources",
     "motion_graph",

@@ -24,10 +24,14 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_indices, check_type, format_count
 from kineme.errors import EndEffectorError, ParameterError
 from kineme.features import end_effectors
-from kineme.features.feet import low_and_slow
+from kineme.features.feet import find_low_and_slow
 from kineme.recordings import Motion, Provenance
-from kineme.recordings.arrays import spans_of
-from kineme.recordings.kinematics import forward_kinematics, local_translations, world_rotations
+from kineme.recordings.arrays import find_spans
+from kineme.recordings.kinematics import (
+    compute_local_translations,
+    compute_world_rotations,
+    forward_kinematics,
+)
 from kineme.recordings.motion import check_motion
 from kineme.synthesis.graph import MotionGraph
 
@@ -164,7 +168,7 @@ def place_spans(graph: MotionGraph, route: Sequence[int], at: Placement) -> list
     return spans
 
 
-def jump_frames(spans: Sequence[PlacedSpan]) -> list[int]:
+def find_jump_frames(spans: Sequence[PlacedSpan]) -> list[int]:
     """Return the frame of the new motion at the middle of each jump."""
     # Ends of all spans but the last.
     return list(accumulate(span.stop - span.start for span in spans))[:-1]
@@ -175,18 +179,18 @@ def _blend_spans(
 ) -> tuple[Floats, Floats]:
     """Rotations and translations of all spans, blended over ``half`` frames about each jump."""
     shifts = [
-        local_translations(motion.skeleton, motion.positions, motion.rotations)
+        compute_local_translations(motion.skeleton, motion.positions, motion.rotations)
         for motion in motions
     ]
 
     def placed(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
         motion = motions[span.source]
         rotations = np.array(motion.rotations)[start:stop]
-        return _placed_motion(motion, rotations, shifts[span.source][start:stop], span.at)
+        return _place_motion(motion, rotations, shifts[span.source][start:stop], span.at)
 
     placed_spans = [placed(span, span.start, span.stop) for span in spans]
     rotations, translations = (np.concatenate(each) for each in zip(*placed_spans, strict=True))
-    for t, (a, b) in zip(jump_frames(spans), pairwise(spans), strict=True):
+    for t, (a, b) in zip(find_jump_frames(spans), pairwise(spans), strict=True):
         # Blends of neighbouring jumps must not overlap, and need frames of both recordings.
         room = min(a.stop - a.start, b.stop - b.start) // 2
         n = min(half, room, motions[a.source].n_frames - a.stop, b.start)
@@ -201,7 +205,7 @@ def _blend_spans(
     return rotations, translations
 
 
-def _placed_motion(
+def _place_motion(
     motion: Motion, rotations: Floats, shifts: Floats, at: Placement
 ) -> tuple[Floats, Floats]:
     roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
@@ -261,13 +265,13 @@ def plant_feet(motion: Motion) -> Motion:
         if hip < 0:
             continue
         path = motion.positions[:, ankle]
-        target = path + _corrections(path, foot_contacts(path, motion.fps), motion.fps)
+        target = path + _compute_corrections(path, find_foot_contacts(path, motion.fps), motion.fps)
         # The second leg starts from the motion that the first one has changed.
         motion = _reach(motion, (hip, knee, ankle), target)
     return motion
 
 
-def foot_contacts(path: Floats, fps: float) -> Spans:
+def find_foot_contacts(path: Floats, fps: float) -> Spans:
     """Return the spans [start, stop) of frames over which an ankle is low and slow.
 
     Parameters
@@ -290,11 +294,11 @@ def foot_contacts(path: Floats, fps: float) -> Spans:
     """
     if len(path) < 2:
         return []
-    spans = spans_of(low_and_slow(path, fps, height=HEIGHT, speed=SPEED)).tolist()
+    spans = find_spans(find_low_and_slow(path, fps, height=HEIGHT, speed=SPEED)).tolist()
     return [(start, stop) for start, stop in spans if stop - start >= SHORTEST * fps]
 
 
-def _corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
+def _compute_corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
     """Return what to add to the ankle's path, (frames, 3); nothing along y."""
     floor = path[:, [0, 2]]
     fade = round(FADE * fps)
@@ -339,7 +343,7 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     The knee opens or closes about its hinge until the ankle is as far from the
     hip as the target, then the leg turns about the hip.
     """
-    world = world_rotations(motion.skeleton, motion.rotations)
+    world = compute_world_rotations(motion.skeleton, motion.rotations)
     hip, knee, ankle = (motion.positions[:, j] for j in leg)
     # Untouched frames must stay exactly as they are.
     moved = np.linalg.norm(target - ankle, axis=1) > 1e-9
@@ -354,10 +358,10 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
     # Law of cosines for the length wanted.
     angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
-    bend = _rotate_about(_hinge(thigh, shin, world[:, leg[0]]), angle - now)
+    bend = _rotate_about(_find_hinge(thigh, shin, world[:, leg[0]]), angle - now)
     reached = thigh + rot.rotate(bend, shin)
     # The bent leg turns about the hip so that the ankle points to the target.
-    swing = _arc(reached, target - hip)
+    swing = _rotate_onto(reached, target - hip)
     still = np.where(moved[:, None], 1.0, 0.0)
     bend, swing = (still * q + (1 - still) * rot.IDENTITY for q in (bend, swing))
     # New world rotations: the thigh swings, the shin bends and swings, the foot keeps its own.
@@ -375,12 +379,14 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     positions = forward_kinematics(
         motion.skeleton,
         rotations,
-        translations=local_translations(motion.skeleton, motion.positions, motion.rotations),
+        translations=compute_local_translations(
+            motion.skeleton, motion.positions, motion.rotations
+        ),
     )
     return replace(motion, rotations=rotations, positions=positions)
 
 
-def _hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
+def _find_hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
     """Return the knee's axis in the world; that of the whole motion where the leg is straight."""
     axis = np.cross(thigh, shin)
     size = np.linalg.norm(axis, axis=1, keepdims=True)
@@ -398,7 +404,7 @@ def _rotate_about(axis: Floats, angle: Floats) -> Floats:
     return np.concatenate([np.cos(half), np.sin(half) * axis], axis=1)
 
 
-def _arc(a: Floats, b: Floats) -> Floats:
+def _rotate_onto(a: Floats, b: Floats) -> Floats:
     """Return the smallest rotations that turn the direction of a into that of b."""
     a, b = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (a, b))
     # (1 + cos, sin axis) is twice cos(half) times the quaternion: normalised, it is the half angle.

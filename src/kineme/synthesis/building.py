@@ -51,7 +51,7 @@ class _Ends:
     nodes: Ints
 
 
-def jumps(
+def find_jumps(
     motions: Sequence[Motion], nodes: Sequence[Node], threshold: float, window: float
 ) -> list[Edge]:
     """Return the best jump of every pair of nodes that has one below the threshold."""
@@ -64,14 +64,16 @@ def jumps(
     features = np.concatenate([compute_motion_features(motion, POSES) for motion in motions])
     half = round(window * rate / 2)
     ratio = motions[0].fps / rate
-    ends, starts = (_ends_of(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0))
+    ends, starts = (
+        _sample_ends(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0)
+    )
     if not (len(ends.frames) and len(starts.frames)):
         return []
     near = neighbor_graph(features[ends.frames], features[starts.frames], radius=RADIUS)
     # Row of each neighbour pair, from the counts of the sparse search.
     rows = np.repeat(np.arange(len(near)), near.counts)
     # One number for each pair of nodes.
-    pairs = _nearest(
+    pairs = _find_nearest(
         ends.nodes[rows] * len(nodes) + starts.nodes[near.indices], near.distances, CANDIDATES
     )
     leave, enter = rows[pairs], near.indices[pairs]
@@ -82,7 +84,7 @@ def jumps(
     below = np.flatnonzero(distances <= threshold)
     key = ends.nodes[leave[below]] * len(nodes) + starts.nodes[enter[below]]
     edges = []
-    for i in below[_nearest(key, distances[below], 1)].tolist():
+    for i in below[_find_nearest(key, distances[below], 1)].tolist():
         tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
         at = (
             # Frames are counted within their own recording again, at its own rate.
@@ -94,7 +96,7 @@ def jumps(
     return edges
 
 
-def _ends_of(
+def _sample_ends(
     nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
 ) -> _Ends:
     """Return the ends (side 1) or starts (side 0) of all nodes.
@@ -118,7 +120,7 @@ def _ends_of(
     return _Ends(np.concatenate(frames), np.concatenate(owners))
 
 
-def _nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
+def _find_nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
     """Return the indices of the ``count`` smallest distances of each group."""
     # Sorted by group, and by distance within each group: the last key counts first.
     order = np.lexsort((distances, groups))
@@ -199,8 +201,8 @@ def motion_graph(
     if len(found) > 1:
         # Clusters of different recordings are numbered alike where they match.
         found = share_clusters(motions, found)
-    nodes, natural = _nodes_of(found)
-    best = {(e.tail, e.head): e for e in jumps(motions, nodes, threshold, window)}
+    nodes, natural = _make_nodes(found)
+    best = {(e.tail, e.head): e for e in find_jumps(motions, nodes, threshold, window)}
     # The recording's own successor replaces a jump between the same nodes.
     best |= {(e.tail, e.head): e for e in natural}
     graph = MotionGraph(
@@ -262,7 +264,7 @@ def check_source(motion: Motion, first: Motion) -> None:
         )
 
 
-def _nodes_of(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
+def _make_nodes(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
     """Return all primitives, and the edges to their successors."""
     nodes: list[Node] = []
     edges: list[Edge] = []

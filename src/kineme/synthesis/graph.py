@@ -282,7 +282,7 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
         "fps": graph.fps,
         "threshold": graph.threshold,
         "window": graph.window,
-        "sources": [_source_cells(source, folder) for source in graph.sources],
+        "sources": [_format_sources(source, folder) for source in graph.sources],
     }
     # The rows follow one on a line, so the closing brace comes last.
     text = json.dumps(head, indent=2).removesuffix("\n}")
@@ -327,7 +327,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     if schema != SCHEMA:
         raise ReadError(path, f"has schema {schema!r}, but this version reads {SCHEMA!r}")
     try:
-        graph = _graph(data)
+        graph = _parse_graph(data)
     except ValueError as error:
         reason = f"is damaged ({error!s:.120}): build it anew with kineme graph"
         raise ReadError(path, reason) from error
@@ -376,24 +376,24 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     return motions
 
 
-def _source_cells(source: Source, folder: Path) -> dict[str, Any]:
+def _format_sources(source: Source, folder: Path) -> dict[str, Any]:
     if source.path is None or source.sha256 is None:
         raise ParameterError("a graph can be written if its motions were read from files")
     options = source.options
     if options.skeleton is not None:
-        options = replace(options, skeleton=_relative(options.skeleton, folder))
-    path = _relative(source.path, folder)
+        options = replace(options, skeleton=_make_relative(options.skeleton, folder))
+    path = _make_relative(source.path, folder)
     return {**vars(source), "path": path, "options": options_to_json(options)}
 
 
-def _relative(path: str, folder: Path) -> str:
+def _make_relative(path: str, folder: Path) -> str:
     try:
         return Path(os.path.relpath(path, folder)).as_posix()
     except ValueError:  # another drive
         return str(Path(path).absolute())
 
 
-def _graph(data: dict[str, Any]) -> MotionGraph:
+def _parse_graph(data: dict[str, Any]) -> MotionGraph:
     """What a file holds; ValueError where parts are missing, or cannot be of its recordings."""
     _check_complete(data, MotionGraph)
     graph = convert_json(data, MotionGraph)
@@ -402,7 +402,7 @@ def _graph(data: dict[str, Any]) -> MotionGraph:
             _check_complete(row, kind)
     for row in data["sources"]:
         options_from_json(ReadOptions, row["options"])  # refuses options it does not know
-    for part, sound in _sound(graph):
+    for part, sound in _check_parts(graph):
         if not sound:
             raise ValueError(str(part))
     return graph
@@ -422,7 +422,7 @@ def _resolve_source(source: Source, folder: Path) -> Source:
     return replace(source, path=str(folder / str(source.path)), options=options)
 
 
-def _sound(graph: MotionGraph) -> Iterator[tuple[object, bool]]:
+def _check_parts(graph: MotionGraph) -> Iterator[tuple[object, bool]]:
     """Yield every part of a graph, and whether it can be of its recordings."""
     for name in ("fps", "threshold", "window"):
         value = getattr(graph, name)

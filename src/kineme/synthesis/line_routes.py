@@ -192,7 +192,7 @@ def line_route(
             f"of them, or a tolerance of {np.ceil(progress.worst * 10) / 10:g} m"
         )
     route = last.route()
-    return route, _placement(graph, floors, route[0], points)
+    return route, _place_start(graph, floors, route[0], points)
 
 
 def _search(
@@ -212,7 +212,7 @@ def _search(
         heappush(heap, (bucket, candidate.progress.cost, next(number), candidate))
 
     for node in sorted(nodes):
-        at = _placement(graph, floors, node, points)
+        at = _place_start(graph, floors, node, points)
         push(_Candidate(node, graph.nodes[node].start, at, _Progress()))
     while heap:
         bucket, _, _, candidate = heappop(heap)
@@ -253,12 +253,12 @@ def _expand(
         # The recording's own successor stays where it is placed.
         at = candidate.at.after(edge.angle, edge.shift) if edge.jump else candidate.at
         # Progress up to the frame at which the edge leaves the node.
-        travel = reached[_steps(candidate.enter, edge.leave, step)]
+        travel = reached[_count_poses(candidate.enter, edge.leave, step)]
         onward.append(_Candidate(edge.head, edge.enter, at, travel, candidate))
-    return reached[_steps(candidate.enter, node.stop, step)], onward
+    return reached[_count_poses(candidate.enter, node.stop, step)], onward
 
 
-def _steps(start: int, stop: int, step: int) -> int:
+def _count_poses(start: int, stop: int, step: int) -> int:
     """Return how many poses lie in frames [start, stop)."""
     # Division rounded up.
     return -(-(stop - start) // step)
@@ -296,7 +296,7 @@ def _find_allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
     return named | {i for i, node in enumerate(graph.nodes) if not node.name}
 
 
-def _placement(
+def _place_start(
     graph: MotionGraph, floors: Sequence[Complex], node: int, points: Complex
 ) -> Placement:
     """Where a node begins at the line's first point and heads down it."""

@@ -90,7 +90,7 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
         raise ParameterError("no actions: give names with counts, as in walk,run*3")
     # One layer for each action to play, with all nodes of that name.
     layers = [graph.nodes_of(name) for name in names]
-    cost, before = _cheapest_paths(graph)
+    cost, before = _find_cheapest_paths(graph)
     total = np.zeros(len(layers[0]))
     chosen = []
     for i in range(1, len(layers)):
@@ -99,13 +99,13 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
         chosen.append(through.argmin(axis=0))
         total = through.min(axis=0)
         if not np.isfinite(total).any():
-            raise ParameterError(_no_route(graph, names[: i + 1], cost))
+            raise ParameterError(_refuse_route(graph, names[: i + 1], cost))
     at = int(total.argmin())
     route = [layers[-1][at]]
     # From the last action back to the first.
     for i in range(len(chosen) - 1, -1, -1):
         at = int(chosen[i][at])
-        route = [*_path(before, layers[i][at], route[0]), *route]
+        route = [*_trace_path(before, layers[i][at], route[0]), *route]
     return route
 
 
@@ -159,7 +159,7 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
     return route
 
 
-def following(graph: MotionGraph, name: str) -> list[str]:
+def find_following(graph: MotionGraph, name: str) -> list[str]:
     """Return the super-nodes of which some primitive can come after one of ``name``.
 
     Parameters
@@ -185,10 +185,12 @@ def following(graph: MotionGraph, name: str) -> list[str]:
     >>> following(graph, "walk")
     ['jump']
     """
-    return _names(graph, np.isfinite(_cheapest_paths(graph)[0][graph.nodes_of(name)]).any(axis=0))
+    return _format_names(
+        graph, np.isfinite(_find_cheapest_paths(graph)[0][graph.nodes_of(name)]).any(axis=0)
+    )
 
 
-def _cheapest_paths(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
+def _find_cheapest_paths(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
     """Least costs from node to node through nameless nodes, and predecessors on these paths.
 
     Every node is in the search twice: as one that is left, and, n later, as one
@@ -212,7 +214,7 @@ def _cheapest_paths(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
     return cost[:, n:], before
 
 
-def _path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
+def _trace_path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
     """Return the nodes from start to stop, without stop."""
     n = len(before)
     # Backwards from the second copy of the last node.
@@ -223,20 +225,20 @@ def _path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
     return [node % n for node in path]
 
 
-def _no_route(graph: MotionGraph, names: Sequence[str], cost: Floats) -> str:
+def _refuse_route(graph: MotionGraph, names: Sequence[str], cost: Floats) -> str:
     shown = ", ".join(f"{name}*{len(list(same))}" for name, same in groupby(names))
     tail, head = names[-2:]
     # Nodes from which any node of that name can be reached.
     back = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
     return (
         f"no route leads through {shown}: from {tail!r} one can go on to "
-        f"{_list_names(following(graph, tail))}, and {head!r} is reached from "
-        f"{_list_names(_names(graph, back))}; "
+        f"{_list_names(find_following(graph, tail))}, and {head!r} is reached from "
+        f"{_list_names(_format_names(graph, back))}; "
         "put another action between, or build the graph with a higher threshold"
     )
 
 
-def _names(graph: MotionGraph, mask: Any) -> list[str]:
+def _format_names(graph: MotionGraph, mask: Any) -> list[str]:
     chosen = (node.name for node, yes in zip(graph.nodes, mask, strict=True) if yes)
     return list(dict.fromkeys(name for name in chosen if name))
 

@@ -54,7 +54,7 @@ def warp_columns(products, squares, example_squares, first, sums, begins, rows, 
 
 
 @njit("int64(int64[::1], int32[::1], int64, boolean[::1], int64[::1])", **OPTIONS)
-def apart(ends, starts, most, occupied, chosen):
+def choose_apart(ends, starts, most, occupied, chosen):
     """Ends of matches that do not overlap, the first ones first; how many are ``chosen``.
 
     ``ends`` are in the order in which they are to be taken, ``starts[end]`` is where each begins.

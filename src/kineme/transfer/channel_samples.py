@@ -35,7 +35,7 @@ class ChannelSamples(NamedTuple):
     rows: Floats
 
 
-def channel_samples(signals: Signals) -> ChannelSamples:
+def compute_channel_samples(signals: Signals) -> ChannelSamples:
     """Return the samples of a recording, `RATE` a second outside of its gaps.
 
     Examples
@@ -52,8 +52,8 @@ def channel_samples(signals: Signals) -> ChannelSamples:
         at = np.arange(0, n, signals.fps / RATE).astype(np.int64)
         spans = np.maximum(at - half, 0), np.minimum(at + half, n)
         middle = values.mean(axis=0)
-        means = _means(values - middle, *spans)
-        squares = _means((values - middle) ** 2, *spans)
+        means = _compute_means(values - middle, *spans)
+        squares = _compute_means((values - middle) ** 2, *spans)
         deviations = np.sqrt(np.maximum(squares - means**2, 0.0))
         parts.append(np.column_stack([(first + at) / signals.fps, means + middle, deviations]))
     return ChannelSamples(tuple(signals.names), np.concatenate(parts))
@@ -64,12 +64,12 @@ def fit_units(rows: NDArray[Any]) -> Callable[[NDArray[Any]], Float32s]:
 
     Features are (samples, 2 · channels): means, and how much each channel moves.
     """
-    values, within = _means_and_deviations(rows)
+    values, within = _measure_means_and_deviations(rows)
     varies = values.std(axis=0)
     varies = np.where(varies > 0, varies, np.sqrt((within**2).mean(axis=0)))
 
     def numbers(rows: NDArray[Any]) -> Floats:
-        values, within = _means_and_deviations(rows)
+        values, within = _measure_means_and_deviations(rows)
         return np.hstack([values, np.log(within / np.where(varies > 0, varies, 1.0) + STILL)])
 
     fitted = numbers(rows)
@@ -85,12 +85,12 @@ def thin_samples(rows: NDArray[Any], step: int) -> NDArray[Any]:
     return rows[min(step, len(rows)) // 2 :: step]
 
 
-def _means_and_deviations(rows: NDArray[Any]) -> tuple[Floats, Floats]:
+def _measure_means_and_deviations(rows: NDArray[Any]) -> tuple[Floats, Floats]:
     n = rows.shape[1] // 2
     return rows[:, 1 : 1 + n].astype(np.float64), rows[:, 1 + n :].astype(np.float64)
 
 
-def _means(values: Floats, first: Ints, last: Ints) -> Floats:
+def _compute_means(values: Floats, first: Ints, last: Ints) -> Floats:
     sums = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
     means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
     return means

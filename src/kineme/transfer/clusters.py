@@ -415,7 +415,7 @@ def assign_to_centres(
     for load, groups in zip(loads, spans, strict=True):
         rows = load(1)
         features = to_features(rows).astype(np.float64)
-        means += [features[samples_in(rows[:, 0], group)].mean(axis=0) for group in groups]
+        means += [features[find_samples_in(rows[:, 0], group)].mean(axis=0) for group in groups]
     distances = np.sqrt(((np.array(means)[:, None] - centres) ** 2).sum(axis=2))
     # A centre may be nobody's nearest: there is no cluster of it.
     used, cluster = np.unique(distances.argmin(axis=1), return_inverse=True)
@@ -424,7 +424,7 @@ def assign_to_centres(
     return _number_by_seconds(found, lasts)
 
 
-def samples_in(seconds: NDArray[Any], spans: Floats) -> Ints:
+def find_samples_in(seconds: NDArray[Any], spans: Floats) -> Ints:
     """Return which samples lie in spans; of a span without any, the next one."""
     firsts = np.minimum(np.searchsorted(seconds, spans[:, 0]), len(seconds) - 1)
     stops = np.maximum(np.searchsorted(seconds, spans[:, 1]), firsts + 1)
@@ -460,7 +460,7 @@ def estimate_n_clusters(points: Float32s) -> int:
     return int(np.argmin(costs)) + 1
 
 
-def spans_with_clusters(columns: Mapping[str, NDArray[Any]], clusters: Ints) -> Spans:
+def list_spans(columns: Mapping[str, NDArray[Any]], clusters: Ints) -> Spans:
     """Return the activities of a segment table; also primitives whose cluster no activity has."""
     active, coarse = columns["kind"] != "transition", columns["level"] == "activity"
     rows = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))

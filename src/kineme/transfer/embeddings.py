@@ -71,16 +71,16 @@ def embedding(poses: ArrayLike) -> NDArray[np.float32]:
             f"poses have {POSE_DIMS} numbers each, not {array.shape[1]}: matching_poses(motion) "
             "gives them"
         )
-    return embed_course(array, *axes_of_embeddings())
+    return embed_course(array, *load_axes())
 
 
 def embed_course(poses: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
     """Return the unit vector of where a course lies from the mean, along the axes."""
-    values = (course(poses) - mean) @ axes
+    values = (describe_course(poses) - mean) @ axes
     return np.asarray(values / max(float(np.linalg.norm(values)), 1e-9), np.float32)
 
 
-def course(features: Floats) -> Floats:
+def describe_course(features: Floats) -> Floats:
     """Mean, two slow cosines and what they leave (4 * dims,), of any features (n, dims)."""
     at_length = interpolate_frames(features, np.linspace(0, len(features) - 1, _LENGTH))
     terms = _COSINES @ at_length
@@ -90,7 +90,7 @@ def course(features: Floats) -> Floats:
 
 
 @cache
-def axes_of_embeddings() -> tuple[Floats, Floats]:
+def load_axes() -> tuple[Floats, Floats]:
     """Return the mean (68,) and the axes (68, 32)."""
     with np.load(Path(__file__).with_name("axes.npz"), allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)

@@ -29,9 +29,9 @@ from kineme._util.checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.segments.editing.rows import replace_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level, Segment, SegmentTable, kind_of
-from kineme.transfer.knowledge import FPS, KnowledgeBase, working_frames
-from kineme.transfer.matching import Primitives, label_costs, same_movements
+from kineme.segments.table import Level, Segment, SegmentTable, choose_kind
+from kineme.transfer.knowledge import FPS, KnowledgeBase, convert_frames
+from kineme.transfer.matching import Primitives, label_costs, number_movements
 from kineme.transfer.subsequences import THRESHOLD, search
 
 Row = tuple[int, int, str]
@@ -48,7 +48,7 @@ class Found(NamedTuple):
     distance: float
 
 
-def found_by_search(
+def find_by_search(
     features: NDArray[np.floating], knowledge: KnowledgeBase, threshold: float
 ) -> list[Found]:
     """Matches of labelled primitives that do not overlap, in time order."""
@@ -67,7 +67,7 @@ def found_by_search(
     return sorted(kept)
 
 
-def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmentation:
+def segment_as_found(segmentation: Segmentation, found: list[Found]) -> Segmentation:
     """Return the recording cut into what was found: labelled activities and primitives."""
     frames_per_sample = segmentation.fps / FPS
     primitives: list[Row] = []
@@ -89,7 +89,7 @@ def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmen
     rows = [
         Segment(
             level,
-            kind_of(level, transition=not label),
+            choose_kind(level, transition=not label),
             start,
             stop,
             start / segmentation.fps,
@@ -192,10 +192,10 @@ def transfer_labels(
     margins, costs = rows.confidence.copy(), np.full(len(rows), np.nan)
     unnamed = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
     if len(unnamed) and len(knowledge):
-        unknown = _primitives(rows.select(unnamed), features, segmentation.fps)
-        found, names = _costs_of(unknown, knowledge, REACH * threshold)
-        named = _cheapest(found, names, threshold)
-        other = _another_movement(named[0], named[2], same_movements(unknown, SIMILAR))
+        unknown = _list_primitives(rows.select(unnamed), features, segmentation.fps)
+        found, names = _list_costs(unknown, knowledge, REACH * threshold)
+        named = _choose_cheapest(found, names, threshold)
+        other = _find_other_movements(named[0], named[2], number_movements(unknown, SIMILAR))
         named[0][other], named[1][other], named[2][other] = "", np.nan, np.nan
         labels[unnamed], margins[unnamed], costs[unnamed] = named
     if spread:
@@ -205,9 +205,9 @@ def transfer_labels(
     all_labels[of_level], all_margins[of_level] = labels, margins
     if level == "primitive":
         activities = table.level == "activity"
-        all_labels[activities] = _activity_labels(segmentation, labels)
+        all_labels[activities] = _label_activities(segmentation, labels)
     table = table.with_columns(label=all_labels.astype(np.str_), confidence=all_margins)
-    provenance = _provenance(segmentation, labels[unnamed], costs, threshold, spread=spread)
+    provenance = _make_provenance(segmentation, labels[unnamed], costs, threshold, spread=spread)
     return replace(segmentation, table=table, provenance=provenance, hierarchy=None)
 
 
@@ -261,15 +261,15 @@ def _search_labels(
     spread: bool,
 ) -> Segmentation:
     """Known primitives, found in a recording without activities; the same segments without any."""
-    found = found_by_search(features, knowledge, threshold)
-    result = segmented_as_found(segmentation, found) if found else segmentation
+    found = find_by_search(features, knowledge, threshold)
+    result = segment_as_found(segmentation, found) if found else segmentation
     labels = np.array([match.label for match in found], np.str_)
     costs = np.array([match.distance for match in found])
-    provenance = _provenance(segmentation, labels, costs, threshold, spread=spread)
+    provenance = _make_provenance(segmentation, labels, costs, threshold, spread=spread)
     return replace(result, provenance=provenance, hierarchy=None)
 
 
-def _costs_of(
+def _list_costs(
     unknown: Primitives, knowledge: KnowledgeBase, radius: float
 ) -> tuple[Floats, NDArray[np.str_]]:
     """Costs (primitives, names), and the names; without a match the radius."""
@@ -278,7 +278,7 @@ def _costs_of(
     return np.minimum(costs, radius), names
 
 
-def _cheapest(
+def _choose_cheapest(
     costs: Floats, names: NDArray[np.str_], threshold: float
 ) -> tuple[NDArray[Any], Floats, Floats]:
     """Label, margin and cost of each row; empty and nan where nothing is within the threshold."""
@@ -297,7 +297,7 @@ def _cheapest(
     )
 
 
-def _another_movement(
+def _find_other_movements(
     labels: NDArray[Any], costs: Floats, movements: NDArray[np.int64]
 ) -> NDArray[np.bool_]:
     """Which rows are another movement than the cheapest match of their label in the recording.
@@ -327,7 +327,7 @@ def _spread_in_clusters(
         margins[others] = votes / named.total()
 
 
-def _activity_labels(segmentation: Segmentation, labels: NDArray[Any]) -> list[str]:
+def _label_activities(segmentation: Segmentation, labels: NDArray[Any]) -> list[str]:
     """Return the label of each activity: its own, else that of more than half of its frames."""
     primitives = segmentation.primitives
     names = []
@@ -353,9 +353,9 @@ def _check_features(features: ArrayLike, segmentation: Segmentation) -> Floats:
     return array
 
 
-def _primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
+def _list_primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
     """Return the rows with their frames; those of a cluster that touch are a run."""
-    starts, stops = working_frames(rows, fps, len(features))
+    starts, stops = convert_frames(rows, fps, len(features))
     follows = (rows.start_frame[1:] == rows.stop_frame[:-1]) & (
         rows.cluster[1:] == rows.cluster[:-1]
     )
@@ -363,7 +363,7 @@ def _primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
     return Primitives(frames, stops - starts, np.concatenate([[0], np.cumsum(~follows)]))
 
 
-def _provenance(
+def _make_provenance(
     segmentation: Segmentation,
     given: NDArray[Any],
     costs: Floats,

@@ -73,19 +73,19 @@ def label_costs(
     costs = np.full((len(unknown), n_labels), np.inf)
     of_run = np.empty(int(examples.runs[-1]) + 1, np.int64)
     of_run[examples.runs] = codes
-    u, run, cost = mutual_matches(unknown, examples, radius)
+    u, run, cost = find_mutual_matches(unknown, examples, radius)
     np.minimum.at(costs, (u, of_run[run]), cost)
     return costs
 
 
-def mutual_matches(unknown: Primitives, examples: Primitives, radius: float) -> Matches:
+def find_mutual_matches(unknown: Primitives, examples: Primitives, radius: float) -> Matches:
     """Return every match of an unknown primitive with a run of known ones: number, run, cost."""
     u, example_run, forward = _matches_within(unknown, examples, np.arange(len(unknown)), radius)
     reached = np.flatnonzero(np.isin(examples.runs, example_run))
     k, unknown_run, backward = _matches_within(examples, unknown, reached, radius)
     n = int(examples.runs[-1]) + 1
     most = np.bincount(examples.runs)
-    pairs, medians = _medians(unknown_run * n + examples.runs[k], backward, most)
+    pairs, medians = _compute_medians(unknown_run * n + examples.runs[k], backward, most)
     keys = unknown.runs[u] * n + example_run
     at = np.searchsorted(pairs, keys)
     both = at < len(pairs)
@@ -93,9 +93,9 @@ def mutual_matches(unknown: Primitives, examples: Primitives, radius: float) -> 
     return u[both], example_run[both], np.maximum(forward[both], medians[at[both]])
 
 
-def same_movements(primitives: Primitives, radius: float) -> Ints:
+def number_movements(primitives: Primitives, radius: float) -> Ints:
     """A number for each primitive, equal for those that match, by themselves or through others."""
-    one, run, _ = mutual_matches(primitives, primitives, radius)
+    one, run, _ = find_mutual_matches(primitives, primitives, radius)
     n = len(primitives)
     size = n + int(primitives.runs[-1]) + 1
     links = coo_array((np.ones(len(one)), (one, n + run)), shape=(size, size))
@@ -134,7 +134,7 @@ def _append_walls(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
     return separated, first
 
 
-def _medians(keys: Ints, costs: Floats, sizes: Ints) -> tuple[Ints, Floats]:
+def _compute_medians(keys: Ints, costs: Floats, sizes: Ints) -> tuple[Ints, Floats]:
     """Return each key once, ascending, with the lower median of its costs.
 
     ``keys % len(sizes)`` is a run, of so many primitives; where less than half of them have a

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
-from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
+from kineme.features.canonical.matching import MATCHING_FPS, compute_features_and_poses
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
 from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.channel_samples import (
     ChannelSamples,
-    channel_samples,
+    compute_channel_samples,
     fit_units,
     thin_samples,
 )
@@ -31,10 +31,10 @@ from kineme.transfer.clusters import (
     LocalCluster,
     assign_to_centres,
     find_local_clusters,
+    find_samples_in,
     keep_numbers,
     link_clusters,
-    samples_in,
-    spans_with_clusters,
+    list_spans,
 )
 from kineme.transfer.embeddings import embedding
 from kineme.transfer.subsequences import THRESHOLD
@@ -100,7 +100,7 @@ def share_clusters(
         return _share_by_search(motions, segmentations, threshold)
     if len(signals) < len(recordings):
         raise ParameterError("clusters are shared over motions or over signals, not over both")
-    samples = [channel_samples(each) for each in signals]
+    samples = [compute_channel_samples(each) for each in signals]
     return share_by_samples(samples, segmentations, n_clusters=n_clusters)
 
 
@@ -129,7 +129,7 @@ def assign_to_labels(
         raise ParameterError(
             f"signals have the channels {', '.join(others.names)}, not {', '.join(signals.names)}"
         )
-    known, new = channel_samples(signals).rows, channel_samples(others).rows
+    known, new = compute_channel_samples(signals).rows, compute_channel_samples(others).rows
     # deviations of both are measured by those of the known ones
     to_features = fit_units(known)
     points, unknown = to_features(known), to_features(new)
@@ -138,7 +138,8 @@ def assign_to_labels(
     there = np.unique(here)
     centres = np.array([points[here == label].mean(axis=0) for label in there])
     means = [
-        unknown[samples_in(new[:, 0], np.array([span]) / others.fps)].mean(axis=0) for span in spans
+        unknown[find_samples_in(new[:, 0], np.array([span]) / others.fps)].mean(axis=0)
+        for span in spans
     ]
     apart = ((np.array(means)[:, None] - centres) ** 2).sum(axis=2)
     return np.asarray(there[apart.argmin(axis=1)], np.int64)
@@ -147,7 +148,7 @@ def assign_to_labels(
 def _share_by_search(
     motions: Sequence[Motion], segmentations: Sequence[Segmentation], threshold: float
 ) -> list[Segmentation]:
-    described = [features_and_poses(motion) for motion in motions]
+    described = [compute_features_and_poses(motion) for motion in motions]
     local = [
         each
         for number, found in enumerate(segmentations)
@@ -176,8 +177,8 @@ def _share_by_search(
         return result
     first = segmentations[0].table
     lasting = keep_numbers(
-        {0: spans_with_clusters(first.columns(), first.cluster)},
-        {i: spans_with_clusters(r.table.columns(), r.table.cluster) for i, r in enumerate(result)},
+        {0: list_spans(first.columns(), first.cluster)},
+        {i: list_spans(r.table.columns(), r.table.cluster) for i, r in enumerate(result)},
         following=int(first.cluster.max()) + 1,
     )
     return [renumber_clusters(each, lasting) for each in result]

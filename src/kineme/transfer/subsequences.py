@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Float32s, Floats, Ints
 from kineme._util.checks import as_floats, is_number
 from kineme.errors import ParameterError
-from kineme.transfer._kernels import apart, warp_columns
+from kineme.transfer._kernels import choose_apart, warp_columns
 
 THRESHOLD = 0.85
 """Distance up to which two movements are one, whoever makes them."""
@@ -147,7 +147,7 @@ def search(
     ends = ends[np.argsort(distances[ends], kind="stable")]
     chosen = np.empty(len(ends), np.int64)
     most = len(ends) if top is None else int(top)
-    n = apart(ends, starts, most, np.zeros(len(starts), np.bool_), chosen)
+    n = choose_apart(ends, starts, most, np.zeros(len(starts), np.bool_), chosen)
     ends = chosen[:n]
     return Matches(starts[ends].astype(np.int64), ends + 1, distances[ends])
 
@@ -164,16 +164,18 @@ def warp(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np
     costs, starts = np.empty(n, np.float32), np.empty(n, np.int32)
     sums = np.full((3, m + 1), np.inf, np.float32)
     begins, rows = np.zeros((3, m + 1), np.int32), np.zeros((2, m), np.float32)
-    twice, example_squares = -2 * short.T, _squares(short)
+    twice, example_squares = -2 * short.T, _sum_squares(short)
     for first in range(0, n, BLOCK):
         part, span = long[first : first + BLOCK], slice(first, first + BLOCK)
         products = part @ twice
         found = costs[span], starts[span]
-        warp_columns(products, _squares(part), example_squares, first, sums, begins, rows, *found)
+        warp_columns(
+            products, _sum_squares(part), example_squares, first, sums, begins, rows, *found
+        )
     return costs, starts
 
 
-def _squares(features: Float32s) -> Float32s:
+def _sum_squares(features: Float32s) -> Float32s:
     squares: Float32s = np.einsum("ij,ij->i", features, features)
     return squares
 

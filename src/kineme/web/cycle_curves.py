@@ -82,14 +82,14 @@ class CycleCurves:
     def channels(self) -> list[CycleChannel]:
         """What can be measured: those that are measured where nobody says which come first."""
         from kineme.cycles.channels import channels_of
-        from kineme.cycles.comparison import sides_of
+        from kineme.cycles.comparison import pair_sides
 
         with self._lock:
             if not self._heads:
                 recording, beside = self._read(), self._beside()
                 every = channels_of(recording, ["*"], beside=[] if beside is None else [beside])
                 self._usual = [each.name for each in channels_of(recording)[:MOST_USUAL]]
-                pairs = sides_of(tuple(each.name for each in every))
+                pairs = pair_sides(tuple(each.name for each in every))
                 opposite = dict(pairs) | {right: left for left, right in pairs}
                 # Those measured by default first; the sort is stable and keeps the rest in order.
                 for each in sorted(every, key=lambda one: one.name not in self._usual):
@@ -253,7 +253,7 @@ class CycleCurves:
 
     def _with_channels(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
         from kineme.cycles.channels import channels_of
-        from kineme.cycles.measure import measured_anew
+        from kineme.cycles.measure import measure_again
 
         missing = [name for name in names if name not in self._values]
         if missing:
@@ -272,7 +272,7 @@ class CycleCurves:
         # Drop the channel that was used longest ago.
         while len(self._values) > MOST_KEPT:
             self._values.popitem(last=False)
-        return measured_anew(cycles, channels)
+        return measure_again(cycles, channels)
 
 
 def _copy_numbers(channel: Channel) -> Channel:

@@ -13,7 +13,7 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme.cycles.channels import ANGLE, channels_of
 from kineme.cycles.joints import bend
-from kineme.features.feet import speed_of
+from kineme.features.feet import measure_speed
 from kineme.recordings import Motion, Signals
 
 
@@ -98,7 +98,7 @@ def _place(joint: int, axis: int) -> Callable[[Motion | Signals], Floats]:
 
 
 def _measure_speed(joint: int) -> Callable[[Motion | Signals], Floats]:
-    return lambda recording: speed_of(_positions(recording)[:, joint], recording.fps)
+    return lambda recording: measure_speed(_positions(recording)[:, joint], recording.fps)
 
 
 def _flexion(parent: int, joint: int, end: int) -> Callable[[Motion | Signals], Floats]:

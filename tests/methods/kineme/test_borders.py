@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kineme.methods.kineme.borders import to_the_frame
+from kineme.methods.kineme.borders import refine_borders
 from kineme.methods.kineme.preset import KINEME, SENSORS
 
 FPS = round(SENSORS.working_fps)
@@ -28,7 +28,7 @@ def test_a_border_moves_towards_where_quiet_ends(seed, late) -> None:
     true = 6 * FPS
     channels = quiet_and_loud(seed, [true, 12 * FPS])
     borders = np.array([0, true + late, 12 * FPS])
-    starts, _ = to_the_frame(channels, borders, SENSORS)
+    starts, _ = refine_borders(channels, borders, SENSORS)
     assert abs(starts[1] - (true + (1 - SENSORS.border_shift) * late)) <= 2
 
 
@@ -39,14 +39,14 @@ def test_no_segment_comes_or_goes(seed, lengths) -> None:
     borders = np.array([0, *ends])
     channels = quiet_and_loud(seed, ends)
     for preset in (SENSORS, KINEME.replace(transition_cost=1e-9)):
-        starts, stops = to_the_frame(channels, borders, preset)
+        starts, stops = refine_borders(channels, borders, preset)
         assert starts[0] == 0
         assert stops[-1] == borders[-1]
         assert (starts < stops).all()
         assert (stops[:-1] <= starts[1:]).all()
         assert (np.abs(starts - borders[:-1]) <= SECOND).all()
         assert (np.abs(stops - borders[1:]) <= SECOND).all()
-        again = to_the_frame(-8 * channels[:, ::-1] + 64, borders, preset)
+        again = refine_borders(-8 * channels[:, ::-1] + 64, borders, preset)
         assert (starts == again[0]).all()
         assert (stops == again[1]).all()
 
@@ -59,10 +59,10 @@ def test_what_neither_side_explains_is_a_transition(off: int) -> None:
     at = np.arange(12 * fps)
     going = np.clip((at - 5.75 * fps) / (0.5 * fps), 0, 1)[:, None]
     borders = np.array([0, 6 * fps + off, 12 * fps])
-    starts, stops = to_the_frame(noise + going, borders, KINEME)
+    starts, stops = refine_borders(noise + going, borders, KINEME)
     assert abs(stops[0] - 5.75 * fps) <= 4
     assert abs(starts[1] - 6.25 * fps) <= 4
-    starts, stops = to_the_frame(noise + (at >= 6 * fps)[:, None], borders, KINEME)
+    starts, stops = refine_borders(noise + (at >= 6 * fps)[:, None], borders, KINEME)
     assert starts[1] == stops[0]
 
 
@@ -70,5 +70,5 @@ def test_too_short_a_side_tells_nothing() -> None:
     ends = [3 * FPS, 3 * FPS + SECOND, 7 * FPS]
     borders = np.array([0, *ends])
     borders[1] += 10
-    starts, stops = to_the_frame(quiet_and_loud(0, ends), borders, SENSORS)
+    starts, stops = refine_borders(quiet_and_loud(0, ends), borders, SENSORS)
     assert [*starts, stops[-1]] == [0, *stops] == borders.tolist()

@@ -31,7 +31,7 @@ def similarities(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
 def test_no_division_is_cheaper(similarity, width, penalty) -> None:
     width = min(width, len(similarity) - 1)
     divisions = naive.divisions(len(similarity), width + 1)
-    found = kernels.change_points(one_sided(similarity, width), penalty).tolist()
+    found = kernels.find_change_points(one_sided(similarity, width), penalty).tolist()
     assert found in divisions
     costs = [naive.division_cost(similarity, borders, penalty) for borders in divisions]
     assert naive.division_cost(similarity, found, penalty) == pytest.approx(min(costs), abs=1e-4)

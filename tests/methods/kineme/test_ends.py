@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import naive
 from kineme.methods.kineme import _repetition_kernels as kernels
-from kineme.methods.kineme.ends import Ends, fitted_ends
+from kineme.methods.kineme.ends import Ends, fit_ends
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
 from loops import swing
@@ -25,7 +25,7 @@ def ends(
     starts, stops, labels = zip((start, stop, 0), *others, strict=True)
     every = [np.array(cuts, np.int64), *(np.empty(0, np.int64) for _ in others)]
     spans = (np.array(part, np.int64) for part in (starts, stops, labels))
-    return fitted_ends(np.ascontiguousarray(rows, np.float32), *spans, every, KINEME)
+    return fit_ends(np.ascontiguousarray(rows, np.float32), *spans, every, KINEME)
 
 
 def shaken(seed: int) -> np.ndarray:
@@ -41,12 +41,12 @@ def test_stretches_are_compared_as_by_the_naive_versions(seed: int) -> None:
     rows = np.cumsum(rng.normal(0, 1, (60, 3)), axis=0).astype(np.float32)
     cuts = np.sort(rng.choice(np.arange(20, 60), 4, replace=False))
     lengths, places = np.diff(cuts), 7
-    inner = kernels.evenly_in_time(rows, cuts[:-1], lengths, places)
+    inner = kernels.sample_evenly(rows, cuts[:-1], lengths, places)
     for found, start, length in zip(inner, cuts, lengths):
         expected = naive.evenly_in_time(rows, start, length, places)
         np.testing.assert_allclose(found, expected, atol=1e-5)
     mean = inner.mean(axis=0)
-    assert kernels.best_length(rows, cuts[0], 4, 20, mean) == naive.best_length(
+    assert kernels.find_best_length(rows, cuts[0], 4, 20, mean) == naive.best_length(
         rows, cuts[0], 4, 20, mean
     )
 

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 import naive
 from gestures import stacked, wandering, with_gestures
 from kineme.methods.kineme import _event_kernels as kernels
-from kineme.methods.kineme.events import Occurrences, occurrences, warped_path
+from kineme.methods.kineme.events import Occurrences, find_occurrences, split_path
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
 
@@ -35,7 +35,9 @@ def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
-    ends, scores, _ = kernels.local_paths(columns, costs, begins, gap, width, 99, 0.8, -2.0, least)
+    ends, scores, _ = kernels.find_local_paths(
+        columns, costs, begins, gap, width, 99, 0.8, -2.0, least
+    )
     found: dict[tuple[int, int], float] = {}
     for (i, j, *_), score in zip(ends.tolist(), scores, strict=True):
         found[i, j] = max(found.get((i, j), 0), score)
@@ -48,7 +50,7 @@ def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
 def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
-    ends, scores, _ = kernels.local_paths(columns, costs, begins, 1, 30, 99, 0.8, -2.0, 1.0)
+    ends, scores, _ = kernels.find_local_paths(columns, costs, begins, 1, 30, 99, 0.8, -2.0, 1.0)
     for each, score in zip(ends, scores, strict=True):
         partners, sums, other_partners, other_sums = kernels.follow(columns, costs, each, 0.8, -2.0)
         expected = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
@@ -66,8 +68,8 @@ def test_a_long_path_is_followed(walk, leg) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
     options = columns, costs, begins, 1, 30
-    whole, whole_scores, _ = kernels.local_paths(*options, 99, 0.8, -2.0, 1.0)
-    ends, scores, passed = kernels.local_paths(*options, leg, 0.8, -2.0, 1.0)
+    whole, whole_scores, _ = kernels.find_local_paths(*options, 99, 0.8, -2.0, 1.0)
+    ends, scores, passed = kernels.find_local_paths(*options, leg, 0.8, -2.0, 1.0)
     assert ends[:, :4].tolist() == whole[:, :4].tolist()
     assert scores.tolist() == whole_scores.tolist()
     for each, score in zip(ends, scores, strict=True):
@@ -78,7 +80,7 @@ def test_a_long_path_is_followed(walk, leg) -> None:
         rows = np.array([*pairs, each[:2]])[::-1, 0]
         assert (leg <= np.diff(rows)[:-1]).all()
         assert np.diff(rows).max() <= leg + 1  # a step is two samples at most
-        forth, sums, back, back_sums = warped_path(columns, costs, each, passed, 0.8)
+        forth, sums, back, back_sums = split_path(columns, costs, each, passed, 0.8)
         assert forth[[0, -1]].tolist() == [each[1], each[3]]
         assert back[[0, -1]].tolist() == [each[0], each[2]]
         assert (np.diff(forth) > 0).all()
@@ -118,7 +120,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     totals: dict[tuple[int, int], float] = {}
     for start in range(n):
         for stop in start + lengths[start + lengths <= n]:
-            total, count = kernels.recurrences(
+            total, count = kernels.count_recurrences(
                 start, stop, starts, ptr, *flat, row_ptr, row_paths, free, cover, spans, gains
             )
             expected = naive.recurrences_of(start, stop, paths, free, cover)
@@ -128,7 +130,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
             if expected and free[start:stop].all():
                 covered = min(low for *_, low, _ in of), max(high for *_, high in of)
                 totals[covered] = max(total, totals.get(covered, 0))
-    places, _, ranks = kernels.best_sets(
+    places, _, ranks = kernels.choose_sets(
         lengths, starts, ptr, *flat, row_ptr, row_paths, free, cover
     )
     if len(places):
@@ -138,7 +140,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
 
 def found_in(rows: np.ndarray, free: np.ndarray | None = None) -> Occurrences:
     everywhere = np.ones(len(rows), np.bool_)
-    return occurrences(rows, everywhere if free is None else free, KINEME)
+    return find_occurrences(rows, everywhere if free is None else free, KINEME)
 
 
 def test_a_gesture_made_now_and_then_is_one_cluster() -> None:
@@ -157,7 +159,7 @@ def test_two_must_be_more_alike_than_three(places: list[int], sure: float) -> No
 
     def found(min_recurrence: float) -> int:
         preset = KINEME.replace(min_recurrence=min_recurrence)
-        return len(occurrences(rows, everywhere, preset))
+        return len(find_occurrences(rows, everywhere, preset))
 
     strongest = 1.7  # path here, seconds
     assert found(0.9 * strongest / sure) == len(places)

@@ -61,7 +61,7 @@ def test_twice_as_long_takes_about_twice_the_time_and_memory() -> None:
 def found_in(rows: np.ndarray, leg: float) -> Occurrences:
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(events, "LEG", leg)
-        return events.occurrences(rows, np.ones(len(rows), np.bool_), KINEME)
+        return events.find_occurrences(rows, np.ones(len(rows), np.bool_), KINEME)
 
 
 def test_paths_that_fit_into_a_leg_are_found_as_without_one() -> None:

@@ -7,7 +7,7 @@ import pytest
 
 from kineme.methods.kineme.joining import Sets, join_sets
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.kineme.repetitions import repetitions
+from kineme.methods.kineme.repetitions import find_repetitions
 
 PERIOD = 18
 HALF = 6 * PERIOD
@@ -26,7 +26,10 @@ def joined(left: np.ndarray, right: np.ndarray) -> Sets:
     rows = np.concatenate([left, right])
     rows = rows + np.random.default_rng(0).normal(0, 0.02, rows.shape)
     rows, ends = np.ascontiguousarray(rows, np.float32), np.array([0, len(left), len(rows)])
-    cuts = [repetitions(rows, 0, ends[1], KINEME), repetitions(rows, ends[1], ends[2], KINEME)]
+    cuts = [
+        find_repetitions(rows, 0, ends[1], KINEME),
+        find_repetitions(rows, ends[1], ends[2], KINEME),
+    ]
     return join_sets(
         rows, Sets(ends[:-1], ends[1:], np.arange(2), np.array([0.2, 0.6]), cuts), KINEME
     )
@@ -52,7 +55,7 @@ def test_two_activities_stay_apart(other: np.ndarray) -> None:
 
 def test_a_single_activity_stays_as_it_is() -> None:
     rows = np.ascontiguousarray(swings(1), np.float32)
-    cuts = [repetitions(rows, 0, HALF, KINEME)]
+    cuts = [find_repetitions(rows, 0, HALF, KINEME)]
     found = Sets(np.array([0]), np.array([HALF]), np.array([0]), np.array([1.0]), cuts)
     same = join_sets(rows, found, KINEME)
     assert [values.tolist() for values in same[:4]] == [[0], [HALF], [0], [1]]

@@ -10,7 +10,7 @@ import pytest
 from kineme.methods.kineme.events import Occurrences
 from kineme.methods.kineme.primitives import (
     Segments,
-    action_means,
+    average_by_cluster,
     drop_repetitions,
     drop_still_clusters,
     replace_by_occurrences,
@@ -108,9 +108,9 @@ def test_repetitions_that_are_given_up_are_no_primitives() -> None:
 
 def test_shares_are_those_of_actions() -> None:
     shares = np.array([0.8, np.nan, 0.5, 0.2])
-    found = action_means(shares, np.diff(BORDERS), LABELS)
+    found = average_by_cluster(shares, np.diff(BORDERS), LABELS)
     np.testing.assert_allclose(found, [0.5, 0, 0.5, 0.5])
-    found = action_means(shares, np.diff(BORDERS) * [True, True, False, False], LABELS)
+    found = average_by_cluster(shares, np.diff(BORDERS) * [True, True, False, False], LABELS)
     np.testing.assert_allclose(found, [0.8, 0, 0, 0.8])
 
 

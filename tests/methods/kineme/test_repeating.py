@@ -14,7 +14,7 @@ from kineme.datasets import random_recording
 from kineme.methods.kineme import _repeating_kernels as kernels
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.kineme.repeating import Repeating, channel_energies
+from kineme.methods.kineme.repeating import Repeating, measure_channel_energies
 
 seconds = settings(max_examples=60)
 FPS = round(KINEME.working_fps)
@@ -63,7 +63,7 @@ def test_what_is_explained_is_that_of_the_naive_version(seed, count, noise) -> N
 @seconds
 def test_the_best_parting_is_that_of_the_naive_version(seed, count, noise) -> None:
     repetitions = centered(similar(seed, count, noise))
-    found = kernels.best_parting(repetitions)
+    found = kernels.find_best_parting(repetitions)
     assert found == pytest.approx(naive.best_parting(list(repetitions)), abs=1e-9)
     assert 0 <= found <= 1
     if count < 4:  # two of each are the fewest
@@ -74,10 +74,10 @@ def test_the_best_parting_is_that_of_the_naive_version(seed, count, noise) -> No
 @seconds
 def test_similarities_are_those_of_the_naive_version(seed: int, count: int) -> None:
     movements = np.random.default_rng(seed).normal(size=(count, 6, 3)).cumsum(axis=1)
-    found = kernels.similarities(movements)
+    found = kernels.measure_similarities(movements)
     np.testing.assert_allclose(found, naive.similarities(list(movements)), atol=1e-9)
     shifted = np.stack([movements[0], np.roll(movements[0], 2, axis=0)])
-    np.testing.assert_allclose(kernels.similarities(shifted), 1, atol=1e-9)  # at any phase
+    np.testing.assert_allclose(kernels.measure_similarities(shifted), 1, atol=1e-9)  # at any phase
 
 
 @given(st.integers(0, 99), st.integers(1, 30), st.integers(0, 29), st.integers(1, 30))
@@ -85,13 +85,13 @@ def test_similarities_are_those_of_the_naive_version(seed: int, count: int) -> N
 def test_the_spread_is_that_of_the_naive_version(seed, n, start, length) -> None:
     view = np.random.default_rng(seed).normal(size=(n, 3)).astype(np.float32)
     start = min(start, n - 1)
-    found = kernels.spread(view, start, start + length, 32)
+    found = kernels.measure_spread(view, start, start + length, 32)
     assert found == pytest.approx(naive.spread(view, start, start + length), rel=1e-5, abs=1e-6)
 
 
 def test_few_samples_tell_the_spread_of_many() -> None:
     view = np.random.default_rng(0).normal(size=(2000, 4)).astype(np.float32)
-    whole, some = (kernels.spread(view, 0, 2000, most) for most in (2000, 32))
+    whole, some = (kernels.measure_spread(view, 0, 2000, most) for most in (2000, 32))
     assert some == pytest.approx(whole, rel=0.1)
 
 
@@ -135,7 +135,7 @@ def share_saved(rows: np.ndarray) -> float:
     saved = repeating.saved(view, 2.0, 0, len(view))
     assert saved == repeating.saved(view, 2.0, 0, len(view))  # what was asked once is known
     assert 2 * saved == pytest.approx(repeating.saved(view, 1.0, 0, len(view)))
-    return 2.0 * saved / max(kernels.spread(view, 0, len(view), 10_000), 1e-12)
+    return 2.0 * saved / max(kernels.measure_spread(view, 0, len(view), 10_000), 1e-12)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -186,7 +186,7 @@ def parting_of_channels(*sizes: np.ndarray) -> float:
     """Of repetitions of one shape whose channels have these sizes, repetition by repetition."""
     angle = np.linspace(0, 2 * np.pi, 16, endpoint=False)
     repetitions = np.array([np.outer(np.sin(angle), size) for size in sizes])
-    return float(kernels.best_parting(channel_energies(repetitions)))
+    return float(kernels.find_best_parting(measure_channel_energies(repetitions)))
 
 
 def test_other_channels_are_another_movement_and_another_size_is_not() -> None:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import naive
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.kineme.repetitions import Candidate, repetitions, shift_to_rest
+from kineme.methods.kineme.repetitions import Candidate, find_repetitions, shift_to_rest
 from loops import nod, swing
 
 seconds = settings(max_examples=60)
@@ -24,7 +24,7 @@ seconds = settings(max_examples=60)
 def test_distances_are_those_of_the_naive_version(features, data) -> None:
     frames = st.integers(0, len(features) - 1)
     references = np.array(data.draw(st.lists(frames, max_size=4)), np.int64)
-    found = kernels.distances_to(features, references)
+    found = kernels.measure_distances(features, references)
     assert found.shape == (len(references), len(features))
     for row, reference in zip(found, references, strict=True):
         expected = np.linalg.norm(features[reference] - features, axis=1)
@@ -35,7 +35,7 @@ def test_distances_are_those_of_the_naive_version(features, data) -> None:
 @seconds
 def test_dips_are_those_of_the_naive_version(row, least) -> None:
     rows = np.array([row, row[::-1]], np.float32)
-    depths, columns = kernels.dips(rows, np.array([least, 0.5], np.float32))
+    depths, columns = kernels.find_dips(rows, np.array([least, 0.5], np.float32))
     for found, where, values, limit in zip(depths, columns, rows, (least, 0.5), strict=True):
         pairs = [(d, c) for d, c in zip(found.tolist(), where.tolist(), strict=True) if d > 0]
         expected = naive.dips(values.tolist(), limit)
@@ -45,7 +45,7 @@ def test_dips_are_those_of_the_naive_version(row, least) -> None:
 
 def count(rows: np.ndarray) -> np.ndarray:
     frames = len(rows)
-    return repetitions(rows.astype(np.float32), 0, frames, KINEME)
+    return find_repetitions(rows.astype(np.float32), 0, frames, KINEME)
 
 
 movements = pytest.mark.parametrize("movement", [swing, nod])
@@ -201,7 +201,7 @@ def test_parts_of_a_division_are_those_of_the_naive_versions(seed: int) -> None:
     path = np.append(0, np.cumsum(rng.integers(0, 3, 12))).astype(float)
     lengths = rng.uniform(0, path[-1] + 0.1, 5)
     expected = naive.poses_at(poses, path, lengths)
-    np.testing.assert_array_equal(kernels.poses_at(poses, path, lengths), expected)
+    np.testing.assert_array_equal(kernels.look_up_poses(poses, path, lengths), expected)
     parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
     for centering in (0.0, 0.4, 1.0):
         found = kernels.measure_unexplained(parts, centering)
@@ -212,7 +212,7 @@ def test_parts_of_a_division_are_those_of_the_naive_versions(seed: int) -> None:
     np.testing.assert_allclose((length, counted), known if best > 0 else (0, 0), atol=1e-9)
     visits = np.array([1, 5, 9])
     for part, (a, b) in zip(
-        kernels.repetitions_between(poses, path, visits, 4),
+        kernels.sample_repetitions(poses, path, visits, 4),
         pairwise(path[visits]),
         strict=True,
     ):
@@ -231,5 +231,5 @@ def test_divisions_are_those_of_the_naive_version(seed: int, count: int, smooth:
     path = np.append(0, np.cumsum(speeds))
     visits = np.sort(rng.choice(np.arange(2, 39, 6), count, replace=False))
     options = 6, 1.0, 1.5, 0.4, 0.2
-    found = kernels.division(poses, path, visits, *options)
+    found = kernels.measure_division(poses, path, visits, *options)
     np.testing.assert_allclose(found, naive.division(poses, path, visits, *options), atol=1e-9)

@@ -13,12 +13,12 @@ from sklearn.metrics import normalized_mutual_info_score
 import kineme
 import naive
 from kineme.errors import ParameterError
-from kineme.features.channels import channel_statistics
+from kineme.features.channels import compute_channel_statistics
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.kineme import tree
 from kineme.methods.kineme.preset import SENSORS
-from kineme.methods.kineme.tree import MOVED, part_ends
-from kineme.methods.kineme.views import mutual_information, reduce_shared, views_of
+from kineme.methods.kineme.tree import MOVED, choose_part_ends
+from kineme.methods.kineme.views import compute_views, measure_mutual_information, reduce_shared
 
 FPS = 50.0
 
@@ -56,7 +56,7 @@ def samples() -> st.SearchStrategy[np.ndarray]:
 def test_the_band_is_that_of_the_naive_version(features, width, unit) -> None:
     width = min(width, len(features))
     found = np.empty((len(features), width), np.float32)
-    kernels.similarity_band(features, unit, 0, len(features), found)
+    kernels.compute_similarity_band(features, unit, 0, len(features), found)
     np.testing.assert_allclose(found, naive.similarity_band(features, unit, width), atol=1e-5)
 
 
@@ -83,7 +83,7 @@ def test_the_cheapest_grouping_is_that_of_the_naive_version(
     sums = np.ascontiguousarray(means * np.outer(lengths, lengths))
     cost, groups = naive.cheapest_grouping(sums, lengths, most, run, cluster, share)
     labels = np.empty(n, np.int64)
-    assert kernels.cheapest_grouping(
+    assert kernels.find_cheapest_grouping(
         sums.copy(), lengths.copy(), most, run, cluster, share, labels
     ) == pytest.approx(cost)
     assert sorted(np.flatnonzero(labels == g).tolist() for g in np.unique(labels)) == groups
@@ -97,7 +97,7 @@ def test_two_stretches_of_much_movement_are_one_sooner_than_two_postures() -> No
     sums = tree.sum_between_segments(features, np.arange(0, 81, 20), 1.0)
     labels = np.empty(4, np.int64)
     for share, expected in ((0.0, [0, 1, 2, 2]), (SENSORS.spread_share, [0, 0, 2, 3])):
-        kernels.cheapest_grouping(sums.copy(), np.full(4, 20.0), 3, 0.0, 1.0, share, labels)
+        kernels.find_cheapest_grouping(sums.copy(), np.full(4, 20.0), 3, 0.0, 1.0, share, labels)
         assert labels.tolist() == expected
 
 
@@ -106,7 +106,7 @@ def test_two_stretches_of_much_movement_are_one_sooner_than_two_postures() -> No
 def test_each_level_has_the_borders_of_the_coarser_ones(features, data) -> None:
     cuts = data.draw(st.sets(st.integers(1, len(features) - 1)))
     borders = np.array([0, *sorted(cuts), len(features)])
-    levels = tree.levels(borders, tree.sum_between_segments(features, borders, 1.0))
+    levels = tree.list_levels(borders, tree.sum_between_segments(features, borders, 1.0))
     assert [len(level) - 1 for level in levels] == list(range(1, len(borders)))
     for coarse, fine in pairwise(levels):
         assert set(coarse.tolist()) <= set(fine.tolist())
@@ -128,8 +128,10 @@ def test_activities_of_sensors_are_found_and_known_again() -> None:
 
 
 def test_a_slow_recording_has_no_energies_above_its_rate() -> None:
-    fast = channel_statistics(worn()[0], FPS, rate=5, window=1, bands=SENSORS.bands)
-    slow = channel_statistics(worn()[0][::10], FPS / 10, rate=5, window=1, bands=SENSORS.bands)
+    fast = compute_channel_statistics(worn()[0], FPS, rate=5, window=1, bands=SENSORS.bands)
+    slow = compute_channel_statistics(
+        worn()[0][::10], FPS / 10, rate=5, window=1, bands=SENSORS.bands
+    )
     assert (fast.shape[1], slow.shape[1]) == (30, 18)
     found = kineme.segment(kineme.Signals(worn()[0][::10], FPS / 10))
     assert found.provenance["parameters"]["working_fps"] == FPS / 10
@@ -186,14 +188,14 @@ def test_long_recordings_are_cut_as_finely_as_their_parts_and_known_again() -> N
 @given(st.integers(1, 10_000), st.integers(1, 500), st.integers(1, 40), st.integers(0, 9))
 def test_parts_are_whole_and_none_is_too_long(n: int, longest: int, side: int, seed: int) -> None:
     rows = np.random.default_rng(seed).normal(size=(n, 2))
-    lengths = np.diff(part_ends(rows, longest, side))
+    lengths = np.diff(choose_part_ends(rows, longest, side))
     assert lengths.sum() == n
     assert 1 <= lengths.min() <= lengths.max() <= max(2, longest * (1 + 2 * MOVED))
 
 
 def test_parts_meet_where_the_recording_changes() -> None:
     rows = np.repeat([[0.0, 1.0], [1.0, 0.0], [0.0, 1.0]], [95, 110, 95], axis=0)
-    assert part_ends(rows, 100, 10) == [0, 95, 205, 300]
+    assert choose_part_ends(rows, 100, 10) == [0, 95, 205, 300]
 
 
 def test_what_channels_share_is_held_down() -> None:
@@ -236,16 +238,16 @@ def test_the_order_of_channels_changes_nothing() -> None:
 
 def test_one_channel_has_no_halves_and_one_view_no_rivals() -> None:
     alone = SENSORS.replace(shared=(0.3,), weights=(1.0,), restless_over=(1.0,))
-    assert len(views_of(worn()[0], SENSORS).halves) == 4
-    assert not views_of(worn()[0][:, :1], SENSORS).halves
-    assert not views_of(worn()[0], alone).halves
+    assert len(compute_views(worn()[0], SENSORS).halves) == 4
+    assert not compute_views(worn()[0][:, :1], SENSORS).halves
+    assert not compute_views(worn()[0], alone).halves
 
 
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), min_size=2, max_size=40))
 def test_agreement_is_the_mutual_information(pairs) -> None:
     first, second = np.array(pairs, np.int64).T
     expected = normalized_mutual_info_score(first, second)
-    assert mutual_information(first, second) == pytest.approx(expected, abs=1e-9)
+    assert measure_mutual_information(first, second) == pytest.approx(expected, abs=1e-9)
 
 
 def test_views_need_a_number_of_each_kind() -> None:
@@ -261,11 +263,11 @@ def test_what_samples_differ_by_does_not_hang_on_what_else_a_file_has() -> None:
     minute = np.repeat(rng.normal(size=(6, 4)), 50, axis=0) + rng.normal(0, 0.1, (300, 4))
     others = [k + minute for k in range(20)]
     alone, joined = (
-        tree.median_distance(np.float32(features), SENSORS.near)
+        tree.compute_median_distance(np.float32(features), SENSORS.near)
         for features in (minute, np.concatenate(others))
     )
     assert joined < 1.5 * alone
-    assert tree.median_distance(np.float32(np.concatenate(others)), 10**6) > 4 * alone
+    assert tree.compute_median_distance(np.float32(np.concatenate(others)), 10**6) > 4 * alone
 
 
 def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
@@ -273,9 +275,11 @@ def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
     height = np.abs((t / 6) % 2 - 1)
     channels = np.column_stack([height, 2 * height**2])
     down, up, again = np.round(np.array([15, 21, 27]) * SENSORS.rate).astype(int)  # halfway each
-    joints, sensors = (views_of(channels, SENSORS, joints=each).views for each in (True, False))
+    joints, sensors = (
+        compute_views(channels, SENSORS, joints=each).views for each in (True, False)
+    )
     for told, plain in zip(joints, sensors, strict=True):
-        unit = tree.median_distance(plain, SENSORS.near)
+        unit = tree.compute_median_distance(plain, SENSORS.near)
         assert np.linalg.norm(plain[down] - plain[up]) < 0.05 * unit
         assert np.linalg.norm(told[down] - told[up]) > 0.3 * unit
         assert np.linalg.norm(told[down] - told[again]) < 0.05 * unit

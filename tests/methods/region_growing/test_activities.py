@@ -14,9 +14,9 @@ from graphs import as_graph, as_pairs, block_graphs, sparse_graphs
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.activities import (
     ActivityCuts,
-    _peaks,
+    _find_peaks,
+    find_square_cuts,
     scan_line_cuts,
-    square_cuts,
 )
 
 seconds = settings(max_examples=60)
@@ -38,7 +38,7 @@ def blocks(*lengths: int, gap: int = 20):
 @seconds
 def test_squares_are_those_of_the_naive_version(graph, min_gap, min_count, min_distance) -> None:
     options = {"min_gap": min_gap, "min_count": min_count, "min_distance": min_distance}
-    cuts = square_cuts(graph, **options)
+    cuts = find_square_cuts(graph, **options)
     expected = naive.growing_squares(as_pairs(graph), len(graph), **options)
     assert (cuts.forward.tolist(), sorted(set(cuts.backward.tolist()))) == (
         expected[0],
@@ -59,7 +59,7 @@ def test_scan_lines_are_those_of_the_naive_version(graph, min_gap, min_count) ->
 @given(st.lists(st.integers(0, 6), min_size=1, max_size=40), st.integers(0, 5), st.integers(0, 9))
 @seconds
 def test_peaks_are_those_of_the_naive_version(heights, min_height, min_distance) -> None:
-    found = _peaks(np.array(heights, np.int64), min_height, min_distance)
+    found = _find_peaks(np.array(heights, np.int64), min_height, min_distance)
     assert found.tolist() == naive.peaks(dict(enumerate(heights)), min_height, min_distance)
 
 
@@ -81,7 +81,9 @@ def test_inner_neighbors_are_those_of_the_naive_version(graph, data) -> None:
     n = len(graph)
     inner = data.draw(st.sets(st.integers(1, n - 1))) if n > 1 else set()
     borders = [0, *sorted(inner), n]
-    counts = _kernels.inner_neighbors(graph.indptr, graph.indices, np.array(borders, np.int64))
+    counts = _kernels.count_inner_neighbors(
+        graph.indptr, graph.indices, np.array(borders, np.int64)
+    )
     assert counts.tolist() == naive.inner_neighbors(as_pairs(graph), borders)
 
 
@@ -89,7 +91,7 @@ def test_inner_neighbors_are_those_of_the_naive_version(graph, data) -> None:
 def test_blocks_end_and_begin_at_their_borders(form: str) -> None:
     graph = blocks(40, 30, 50)
     if form == "squares":
-        cuts = square_cuts(graph, min_gap=10, min_count=128, min_distance=30)
+        cuts = find_square_cuts(graph, min_gap=10, min_count=128, min_distance=30)
     else:
         cuts = scan_line_cuts(graph, min_gap=5, min_count=120)
     # a block's last frame is the last to bring neighbours; its first, seen from the end,

@@ -24,7 +24,7 @@ COVERAGES = st.sampled_from([0.1, 0.5, 0.66, 1.0])
 def test_links_are_those_of_the_naive_version(paths, data, coverage, interpolate) -> None:
     borders = sorted(data.draw(st.sets(st.integers(0, 25), min_size=2)))
     g = data.draw(st.integers(0, len(borders) - 2))
-    linked, shares = _kernels.linked_segments(
+    linked, shares = _kernels.find_linked_segments(
         *flat(paths), np.array(borders, np.int64), g, coverage, interpolate
     )
     expected = naive.linked_segments(paths, borders, g, coverage=coverage, interpolate=interpolate)

@@ -16,7 +16,7 @@ from kineme.features import mirror, mirror_features
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.found import RegionsFound
-from kineme.methods.region_growing.mirroring import merged_cuts
+from kineme.methods.region_growing.mirroring import merge_cuts
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 from kineme.methods.segmenter import segment_and_found
 
@@ -40,7 +40,7 @@ def longest(found: RegionsFound) -> str:
 
 @given(frames, frames, st.sampled_from([0.5, 7.5, 30.0]))
 def test_merging_equals_the_naive_version(main, mirrored, gap) -> None:
-    found = merged_cuts(np.array(main, np.int64), np.array(mirrored, np.int64), gap)
+    found = merge_cuts(np.array(main, np.int64), np.array(mirrored, np.int64), gap)
     assert found.tolist() == naive.merged_cuts(main, mirrored, gap)
 
 

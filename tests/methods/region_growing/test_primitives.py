@@ -11,7 +11,7 @@ import naive
 from graphs import as_lists, flat, sparse_graphs, staircases
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.neighbors import neighbor_graph
-from kineme.methods.region_growing.primitives import _choose, primitive_cuts
+from kineme.methods.region_growing.primitives import _choose, find_primitive_cuts
 from kineme.methods.region_growing.warping import BASIC_STEPS, WarpingPaths, warping_paths
 
 seconds = settings(max_examples=60)
@@ -21,7 +21,7 @@ CONSTANTS = {"steps": BASIC_STEPS, "skip_penalty": 0.0, "zero_cost": 1e-6, "sepa
 @given(st.lists(staircases(), max_size=5), st.sampled_from([0.1, 0.5, 1.0]))
 @seconds
 def test_symmetry_is_that_of_the_naive_version(paths, share) -> None:
-    coherent = _kernels.coherent_paths(*flat(paths), share)
+    coherent = _kernels.mark_coherent_paths(*flat(paths), share)
     assert coherent.tolist() == naive.symmetric_paths(paths, share)
 
 
@@ -36,7 +36,7 @@ def test_symmetry_is_that_of_the_naive_version(paths, share) -> None:
 def test_cuts_are_those_of_the_naive_rules(graph, data, symmetry, max_slope, min_length) -> None:
     first = data.draw(st.integers(0, len(graph) - 1))
     last = data.draw(st.integers(first, len(graph) - 1))
-    found = primitive_cuts(
+    found = find_primitive_cuts(
         graph,
         (first, last),
         min_nodes=2,
@@ -76,7 +76,7 @@ def slope(path: list[tuple[int, int]]) -> float:
 def test_each_repetition_of_a_cycle_is_cut(period: int, repetitions: int) -> None:
     turns = 2 * np.pi * np.arange(period * repetitions) / period
     graph = neighbor_graph(np.stack([np.cos(turns), np.sin(turns)], axis=1), radius=0.01)
-    found = primitive_cuts(
+    found = find_primitive_cuts(
         graph,
         (0, len(turns) - 1),
         min_nodes=15,

@@ -13,7 +13,7 @@ import naive
 from graphs import as_graph, as_lists, as_pairs, sparse_graphs
 from kineme.errors import ParameterError
 from kineme.methods.region_growing.neighbors import neighbor_graph
-from kineme.methods.region_growing.warping import BASIC_STEPS, component_labels, warping_paths
+from kineme.methods.region_growing.warping import BASIC_STEPS, label_components, warping_paths
 
 seconds = settings(max_examples=60)
 STEPS = st.sampled_from(
@@ -42,7 +42,7 @@ def boxes(draw: st.DrawFn, n: int) -> tuple[tuple[int, int], tuple[int, int]]:
 def test_components_are_those_of_the_naive_version(graph, steps) -> None:
     pairs = sorted(as_pairs(graph))
     firsts = naive.components(pairs, steps)
-    labels = component_labels(graph, steps=steps)
+    labels = label_components(graph, steps=steps)
     assert [pairs[label] for label in labels] == [firsts[pair] for pair in pairs]
 
 

@@ -183,10 +183,10 @@ def evaluate(
 
 
 def _give(records: Sequence[Mapping[str, Any]], output: Path | None, *, as_json: bool) -> None:
-    from kineme.evaluation.score import records_json, write_records
+    from kineme.evaluation.score import format_json, write_records
 
     if as_json:
-        typer.echo(records_json(records))
+        typer.echo(format_json(records))
     if output is not None:
         write_records(records, output)
 

@@ -14,13 +14,13 @@ from kineme.errors import ReadError
 from kineme.evaluation.annotators import (
     AnnotatorAgreement,
     annotator_agreement,
-    annotator_names,
-    extent_of,
-    labels_of_annotators,
+    find_labels,
+    name_annotators,
+    read_extent,
 )
 from kineme.evaluation.folder import recordings_below
 from kineme.evaluation.score import format_score, write_result
-from kineme.labels.collections import Extent, labels_of
+from kineme.labels.collections import Extent, find_labels
 
 BY = {
     "names": "by names",
@@ -35,16 +35,16 @@ def run_people(
     with progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
         recordings = recordings_below(folder)
-        names = annotator_names(labels)
+        names = name_annotators(labels)
         sources = {
-            name: labels_of(recordings, path) for name, path in zip(names, labels, strict=True)
+            name: find_labels(recordings, path) for name, path in zip(names, labels, strict=True)
         }
 
         def extent(path: Path) -> Extent:
             stage(f"reading {path.name}")
-            return extent_of(path)
+            return read_extent(path)
 
-        labelled, failures = labels_of_annotators(sources, extent)
+        labelled, failures = find_labels(sources, extent)
     for failure in failures:
         typer.echo(harmless(failure), err=True)
     if not any(len(sides) > 1 for sides in labelled.values()):

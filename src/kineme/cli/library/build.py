@@ -90,11 +90,11 @@ def build(
 
             start_soon()  # what is imported next takes a while as well
         from kineme.library.building import build as build_library
-        from kineme.library.planning import sources_after
+        from kineme.library.planning import change_sources
         from kineme.library.storage.places import is_remote
 
         as_before = not are_given(context, OPTIONS)
-        sources = sources_after(into, files or (), remove or ())
+        sources = change_sources(into, files or (), remove or ())
         with progress(into, quiet=quiet) as stage:
             built = build_library(
                 files or (),

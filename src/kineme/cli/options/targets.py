@@ -19,7 +19,7 @@ import typer
 
 from kineme._util.files import CORRECTED, make_person_suffix
 from kineme.errors import ReadError, WriteError
-from kineme.labels.delimited import columns
+from kineme.labels.delimited import read_columns
 
 NAME, PARENT = "{name}", "{parent}"
 PICTURES = (".png", ".pdf", ".svg")
@@ -59,7 +59,7 @@ def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -
     In a folder that of this ``person`` in it, where there is one.
     """
     if not _is_folder(given):
-        of_all = "recording" in columns(given)  # a table that says whose each row is
+        of_all = "recording" in read_columns(given)  # a table that says whose each row is
         return [given] * len(inputs) if of_all else _one_each(option, given, inputs)
     if not given.exists() and not _FIELD.search(str(given)):
         raise ReadError(given, "there is no such file or folder")
@@ -94,9 +94,9 @@ def check_writable(
 
     Makes the folders that they go to.
     """
-    from kineme.labels import written_suffixes
+    from kineme.labels import list_written_suffixes
 
-    for path, suffixes in ((table, written_suffixes()), (picture, PICTURES), (page, PAGES)):
+    for path, suffixes in ((table, list_written_suffixes()), (picture, PICTURES), (page, PAGES)):
         if path is None:
             continue
         if path.suffix.lower() not in suffixes:
@@ -176,8 +176,10 @@ def _fill_pattern(pattern: Path, name: str, folders: tuple[str, ...], depth: int
 
 def _find_kept(path: Path, recordings: set[Path]) -> Path:
     """Return the first file of a name, with one of the suffixes of tables, that is no recording."""
-    from kineme.labels import written_suffixes
+    from kineme.labels import list_written_suffixes
 
-    candidates = [path.with_name(path.name + suffix) for suffix in (CORRECTED, *written_suffixes())]
+    candidates = [
+        path.with_name(path.name + suffix) for suffix in (CORRECTED, *list_written_suffixes())
+    ]
     files = (file for file in candidates if file.is_file() and file not in recordings)
     return next(files, candidates[0])

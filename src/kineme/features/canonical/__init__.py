@@ -5,13 +5,13 @@ from kineme.features.canonical.matching import (
     MATCHING_FPS,
     matching_features,
     matching_poses,
-    mirrored_features,
+    mirror_features,
 )
 
 __all__ = [
     "MATCHING_FPS",
     "matching_features",
     "matching_poses",
+    "mirror_features",
     "mirror_poses",
-    "mirrored_features",
 ]

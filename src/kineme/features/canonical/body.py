@@ -36,7 +36,7 @@ _STRAIGHT = 0.98  # of the frames show a limb shorter than it is when straight
 _FLAT = 0.1  # of the line through the hips and shoulders; where less lies flat, it has no heading
 
 
-def canonical_poses(joints: Joints, fps: float) -> Floats:
+def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
     """Poses (frames, 17): x, y, z of ankles, head and wrists, left before right; height; rise.
 
     Parameters
@@ -52,31 +52,32 @@ def canonical_poses(joints: Joints, fps: float) -> Floats:
     ndarray
     """
     pelvis = (joints["left_hip"] + joints["right_hip"]) / 2
-    hips = _unit(joints["left_hip"] - joints["right_hip"])
+    hips = _normalize(joints["left_hip"] - joints["right_hip"])
     shoulders, sides = hips, dict(joints)
     # Without shoulders the chest is put on the line from pelvis to head, at the canonical share.
     chest = pelvis + TRUNK / (TRUNK + NECK) * (joints["head"] - pelvis)
     if {"left_shoulder", "right_shoulder"} <= joints.keys():
-        shoulders = _unit(joints["left_shoulder"] - joints["right_shoulder"])
+        shoulders = _normalize(joints["left_shoulder"] - joints["right_shoulder"])
         chest = (joints["left_shoulder"] + joints["right_shoulder"]) / 2
     else:
         sides |= {"left_shoulder": chest, "right_shoulder": chest}
     # All points are relative to the middle of the hips.
-    trunk = TRUNK * _unit(chest - pelvis)
+    trunk = TRUNK * _normalize(chest - pelvis)
     legs = [
-        sign * HIP * hips + _limb(sides, (f"{side}_hip", f"{side}_knee", f"{side}_ankle"), LEG)
+        sign * HIP * hips
+        + _compute_limb(sides, (f"{side}_hip", f"{side}_knee", f"{side}_ankle"), LEG)
         for side, sign in _SIDES
     ]
     arms = [
         trunk
         + sign * SHOULDER * shoulders
-        + _limb(sides, (f"{side}_shoulder", f"{side}_elbow", f"{side}_wrist"), ARM)
+        + _compute_limb(sides, (f"{side}_shoulder", f"{side}_elbow", f"{side}_wrist"), ARM)
         for side, sign in _SIDES
     ]
     # (frames, 5, 3) in the order of the end effectors: ankles, head, wrists.
-    ends = np.stack([*legs, trunk + NECK * _unit(joints["head"] - chest), *arms], axis=1)
+    ends = np.stack([*legs, trunk + NECK * _normalize(joints["head"] - chest), *arms], axis=1)
     ground = np.minimum(joints["left_ankle"][:, 1], joints["right_ankle"][:, 1])
-    leg = _leg_length(joints)
+    leg = _measure_legs(joints)
     # The gradient needs two frames; a single one does not rise.
     rise = RISE * fps * np.gradient(pelvis[:, 1]) if len(pelvis) > 1 else np.zeros(1)
     vertical = np.stack([pelvis[:, 1] - ground, rise], axis=1) / leg
@@ -108,21 +109,23 @@ def mirror_poses(poses: Floats) -> Floats:
 _SIDES = (("left", 1.0), ("right", -1.0))
 
 
-def _limb(joints: Joints, names: tuple[str, str, str], bones: tuple[float, float]) -> Floats:
+def _compute_limb(
+    joints: Joints, names: tuple[str, str, str], bones: tuple[float, float]
+) -> Floats:
     """From the top of a limb of the canonical body to its end, (frames, 3)."""
     top, end = joints[names[0]], joints[names[2]]
     if names[1] in joints:
         middle = joints[names[1]]
-        return bones[0] * _unit(middle - top) + bones[1] * _unit(end - middle)
+        return bones[0] * _normalize(middle - top) + bones[1] * _normalize(end - middle)
     # Without a middle joint, bending shows only in how far the end is from the top.
     reach = np.linalg.norm(end - top, axis=1, keepdims=True)
     # A high quantile instead of the maximum, which may be a tracking error.
     bent = np.minimum(reach / max(float(np.quantile(reach, _STRAIGHT)), _TINY), 1.0)
-    straight: Floats = sum(bones) * bent * _unit(end - top)
+    straight: Floats = sum(bones) * bent * _normalize(end - top)
     return straight
 
 
-def _leg_length(joints: Joints) -> float:
+def _measure_legs(joints: Joints) -> float:
     """Metres, the mean of both legs."""
     lengths = []
     for side, _ in _SIDES:
@@ -140,7 +143,7 @@ def _leg_length(joints: Joints) -> float:
 _TINY = 1e-9
 
 
-def _unit(vectors: Floats) -> Floats:
+def _normalize(vectors: Floats) -> Floats:
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
     unit: Floats = vectors / np.maximum(lengths, _TINY)
     return unit

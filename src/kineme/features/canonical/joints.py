@@ -39,7 +39,7 @@ _NAMED = (
 )
 
 
-def canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[str, Points]:
+def match_canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[str, Points]:
     """Return for each of `JOINTS` the points of the motion whose middle it is.
 
     Knees, elbows and shoulders that were not found are not there.
@@ -94,7 +94,7 @@ def find_limbs(
         # Equal joints from the root on: the limbs part below the last of these.
         shared = sum(1 for a, b in zip(*chains, strict=False) if a == b)
         for side, tip, chain in zip(SIDES, tips, chains, strict=True):
-            places = (*_top_and_middle(skeleton, chain[shared:]), tip)
+            places = (*_find_top_and_middle(skeleton, chain[shared:]), tip)
             for part, place in zip((top, middle, end), places, strict=True):
                 joint = f"{side}_{part}"
                 points = (place,) if place >= 0 else named.get(joint)
@@ -103,7 +103,7 @@ def find_limbs(
     return found
 
 
-def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
+def _find_top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
     """Return where the two long bones of a chain begin, -1 where it has no such joint.
 
     They are the longest pair, and the most equal one. Where the limbs part, left and right are one:

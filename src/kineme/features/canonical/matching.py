@@ -20,10 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
-from kineme.features.canonical.body import canonical_poses, mirror_poses
-from kineme.features.canonical.joints import canonical_joints
+from kineme.features.canonical.body import compute_canonical_poses, mirror_poses
+from kineme.features.canonical.joints import match_canonical_joints
 from kineme.features.effectors import Names
-from kineme.features.pose import offsets_in_frames, stack
+from kineme.features.pose import round_offsets, stack
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample
 
@@ -70,7 +70,7 @@ def matching_features(
     >>> matching_features(kineme.read(kineme.bundled_recording())).shape
     (725, 40)
     """
-    return features_and_poses(motion, effectors=effectors, mirrored=mirrored)[0]
+    return compute_features_and_poses(motion, effectors=effectors, mirrored=mirrored)[0]
 
 
 def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
@@ -85,7 +85,7 @@ def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
     Returns
     -------
     ndarray
-        See `kineme.features.canonical.body.canonical_poses`.
+        See `kineme.features.canonical.body.compute_canonical_poses`.
 
     Raises
     ------
@@ -101,44 +101,44 @@ def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
     (725, 17)
     """
     # Every second one: 30 Hz to 15 Hz.
-    return poses_of(resample(motion, POSE_FPS), effectors=effectors)[::2]
+    return compute_poses(resample(motion, POSE_FPS), effectors=effectors)[::2]
 
 
-def features_and_poses(
+def compute_features_and_poses(
     motion: Motion, *, effectors: Names | None = None, mirrored: bool = False
 ) -> tuple[NDArray[np.float32], Floats]:
     """Return what `matching_features` and `matching_poses` give, of one look at the body."""
     at_rate = resample(motion, POSE_FPS)
-    poses = poses_of(at_rate, effectors=effectors)
-    stacked = stacked_poses(mirror_poses(poses) if mirrored else poses)
-    features = directions(stacked, *basis())
+    poses = compute_poses(at_rate, effectors=effectors)
+    stacked = stack_poses(mirror_poses(poses) if mirrored else poses)
+    features = compute_directions(stacked, *load_basis())
     for start, stop in at_rate.gaps:
         # Gaps are in frames at 30 Hz: half as many, rounded up to the first kept frame inside.
         features[(start + 1) // 2 : (stop + 1) // 2] = 0.0
     return features, poses[::2]
 
 
-def poses_of(motion: Motion, *, effectors: Names | None = None) -> Floats:
+def compute_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
     """Poses of the canonical body (frames, 17) at the rate of the motion, which is smoothed."""
     joints = {
         joint: _smooth(motion.positions[:, list(points)].mean(axis=1))
-        for joint, points in canonical_joints(motion, effectors=effectors).items()
+        for joint, points in match_canonical_joints(motion, effectors=effectors).items()
     }
-    return canonical_poses(joints, motion.fps)
+    return compute_canonical_poses(joints, motion.fps)
 
 
-def stacked_poses(poses: Floats) -> Floats:
+def stack_poses(poses: Floats) -> Floats:
     """(n, 85): every second one of poses at 30 Hz, stacked with its neighbours."""
     # Stacked at 30 Hz, where neighbours are 3 and 6 frames away, and thinned afterwards.
-    return stack(poses, offsets_in_frames(OFFSETS_S, POSE_FPS))[::2]
+    return stack(poses, round_offsets(OFFSETS_S, POSE_FPS))[::2]
 
 
-def directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
+def compute_directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
     """Unit vectors (frames, 40): where stacked poses lie from the mean, along the axes."""
-    return _unit_vectors((stacked - mean) @ axes)
+    return _normalize((stacked - mean) @ axes)
 
 
-def mirrored_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
+def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
     """Matching features (n, 40) of the body in a mirror, estimated from those of the body.
 
     The axes hold nearly, not exactly, what a mirror shows of them: the median error is about 0.1.
@@ -153,13 +153,13 @@ def mirrored_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
     >>> bool(np.median(errors) < 0.15)
     True
     """
-    return _unit_vectors(features @ _mirror())
+    return _normalize(features @ _mirror())
 
 
 @cache
 def _mirror() -> Floats:
     """(40, 40): by least squares, what features along the axes become in a mirror."""
-    _, axes = basis()
+    _, axes = load_basis()
     # Numbers in one pose: the rows of the axes are those of five stacked poses.
     poses = len(axes) // len(OFFSETS_S)
     # The mirror of a pose is linear: its matrix, once on the diagonal for each stacked pose.
@@ -170,13 +170,13 @@ def _mirror() -> Floats:
 
 
 @cache
-def basis() -> tuple[Floats, Floats]:
+def load_basis() -> tuple[Floats, Floats]:
     """Return the mean (85,) and the axes (85, 40), each over its shrunk deviation."""
     with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
 
 
-def _unit_vectors(values: NDArray[np.floating]) -> NDArray[np.float32]:
+def _normalize(values: NDArray[np.floating]) -> NDArray[np.float32]:
     lengths = np.linalg.norm(values, axis=1, keepdims=True)
     return np.asarray(values / np.maximum(lengths, 1e-9), np.float32)
 

@@ -33,7 +33,7 @@ from kineme.formats.timing import table_timing
 from kineme.recordings import Signals
 from kineme.recordings.channel_names import is_channel_name
 from kineme.recordings.regular import Timing, fill_gaps_in_channels
-from kineme.recordings.times import NO_TIMES, clock_name
+from kineme.recordings.times import NO_TIMES, name_clock
 
 WILD = frozenset("*?[")
 """Characters by which a pattern is told from a name."""
@@ -88,7 +88,7 @@ def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> Channel
     text.refuse_interleaved()
     names, numeric, times = list(text.names), text.numeric(), text.times
     columns = asked_for(text.content, names, columns, numeric, times)
-    chosen = columns_read(columns, numeric, times or list(filter(clock_name, numeric)))
+    chosen = columns_read(columns, numeric, times or list(filter(name_clock, numeric)))
     places = {name: i for i, name in enumerate(names)}  # each is there once
     values = text.numbers([places[name] for name in chosen])
     read = dict(zip(chosen, values.T, strict=True))
@@ -169,8 +169,8 @@ def channel_table(
     timing = {times[name]: column for name, column in values.items() if name in times}
     hints = [f"; {name!r} {NO_TIMES}" for name in times if name not in values]
     if not times:
-        clocks = (name for name in values if clock_name(name) and _mostly_rises(values[name]))
-        times = {name: clock_name(name) or "" for name in islice(clocks, 1)}
+        clocks = (name for name in values if name_clock(name) and _mostly_rises(values[name]))
+        times = {name: name_clock(name) or "" for name in islice(clocks, 1)}
         timing = {called: values[name] for name, called in times.items()}
     if columns is not None:
         chosen, notes = list(columns), []

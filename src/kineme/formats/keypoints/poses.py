@@ -47,7 +47,7 @@ from kineme.formats.keypoints.people import Detections, track_people
 from kineme.formats.keypoints.video import MOST_FRAMES_MORE, Person, Video, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion, Note
-from kineme.recordings.arrays import spans_of
+from kineme.recordings.arrays import find_spans
 from kineme.recordings.regular import place_rows
 
 KEY = b"kineme.poses"
@@ -273,7 +273,7 @@ def _smooth(motion: Motion) -> Motion:
     if motion.fps <= 2 * CUTOFF:
         return motion.noted(f"not smoothed: {motion.fps:g} Hz are too few for {CUTOFF:g} Hz")
     positions = motion.positions.copy()
-    for start, stop in spans_of(~np.array(unseen(motion))).tolist():
+    for start, stop in find_spans(~np.array(unseen(motion))).tolist():
         padding = min(round(motion.fps), stop - start - 2)
         if padding > 0:
             flat = positions[start:stop].reshape(stop - start, -1)

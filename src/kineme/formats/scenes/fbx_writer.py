@@ -34,7 +34,7 @@ from kineme.formats.scenes.fbx_scene import ROTATION, SCALING, TRANSLATION
 from kineme.formats.scenes.gltf_writer import check_animations
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.recordings import Motion
-from kineme.recordings.posing import pose_rig, rig_of
+from kineme.recordings.posing import get_rig, pose_rig
 
 VERSION = 7400
 CENTIMETRE = 0.01
@@ -67,7 +67,7 @@ class _Scene:
 
     def __init__(self, motion: Motion, path: Path) -> None:
         skeleton = motion.skeleton
-        rig = rig_of(skeleton).to_metres()
+        rig = get_rig(skeleton).to_metres()
         self.rig = replace(rig, translations=rig.translations / CENTIMETRE, unit=CENTIMETRE)
         self.fps, self.longest = motion.fps, 0
         self.objects: list[FBXNode] = []

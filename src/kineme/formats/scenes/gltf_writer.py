@@ -36,7 +36,7 @@ from kineme.formats.scenes.assembly import compose
 from kineme.formats.scenes.gltf_file import BYTES, CHUNK, HEADER, JSON, MAGIC
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.posing import pose_rig, rig_of
+from kineme.recordings.posing import get_rig, pose_rig
 from kineme.recordings.rig import Rig
 
 EXTRAS = "kineme"
@@ -183,7 +183,7 @@ class _Writer(Animator):
     def __init__(self, motion: Motion, path: Path) -> None:
         skeleton = motion.skeleton
         # Lengths are metres in a glTF, and y is up.
-        rig = rig_of(skeleton).to_metres()
+        rig = get_rig(skeleton).to_metres()
         tree: dict[str, Any] = {
             "asset": {
                 "version": "2.0",

@@ -23,7 +23,7 @@ from kineme.formats.files import rotations_of, spell_names
 from kineme.formats.gaps import warn_of_gaps
 from kineme.formats.scenes.assembly import compose
 from kineme.recordings import Motion
-from kineme.recordings.posing import pose_rig, rig_of
+from kineme.recordings.posing import get_rig, pose_rig
 
 END_SITES = "kineme:endSites"
 
@@ -43,7 +43,7 @@ def write_usd(motion: Motion, path: Path) -> None:
         joints.append(word if parent < 0 else f"{joints[parent]}/{word}")
     stage = Usd.Stage.CreateInMemory()
     # Programs differ in what a transform above the skeleton does to its bind pose.
-    rig = rig_of(skeleton).join_root().to_metres()
+    rig = get_rig(skeleton).join_root().to_metres()
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
     stage.SetTimeCodesPerSecond(motion.fps)

@@ -27,7 +27,7 @@ from kineme.formats.skeletons.asf import ROOT
 from kineme.formats.skeletons.bvh_writer import RIGID, local_pose
 from kineme.formats.units import UNITS
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.posing import rig_of
+from kineme.recordings.posing import get_rig
 
 UNIT = UNITS["cmu"]
 
@@ -58,7 +58,7 @@ def write_amc(motion: Motion, path: Path) -> None:
     if moving:
         raise WriteError(path, f"end site {skeleton.names[moving[0]]!r} moves on its bone")
     # The frame of each bone is that of its node at rest; the root has none.
-    rig = rig_of(skeleton)
+    rig = get_rig(skeleton)
     frames = rot.multiply(rig.turn, rig.world[1][rig.above :])
     frames[0] = rot.IDENTITY
     back = rot.conjugate(frames)

@@ -22,7 +22,7 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.formats.files import rotations_of, save, spell_names, table
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import local_translations
+from kineme.recordings.kinematics import compute_local_translations
 from kineme.recordings.posing import align_to_rest
 
 UNIT = 0.01
@@ -84,7 +84,7 @@ def local_pose(
     rotations_of(motion, path, what)
     aligned = align_to_rest(motion)
     turns, offsets = rotations_of(aligned, path, what), aligned.skeleton.offsets
-    translations = local_translations(aligned.skeleton, motion.positions, turns)
+    translations = compute_local_translations(aligned.skeleton, motion.positions, turns)
     return turns, translations, offsets, np.abs(translations - offsets).max(axis=(0, 2)) > RIGID
 
 

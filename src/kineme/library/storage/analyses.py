@@ -22,16 +22,16 @@ from numpy.typing import NDArray
 from kineme._util.files import translate_read_errors
 from kineme._util.json import decode_json
 from kineme.errors import ReadError
-from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_column
-from kineme.library.storage.places import near, written
-from kineme.library.windows import all_windows
+from kineme.library.storage.layout import BODIES, EMBEDDED, as_array, as_column, import_arrow
+from kineme.library.storage.places import copy_nearby, write_locally
+from kineme.library.windows import describe_all_windows
 from kineme.segments.table import COLUMNS, SegmentTable
 from kineme.transfer.channel_samples import thin_samples
 
 METADATA = b"kineme.library"
 FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
 KEY_LENGTH = 32
-"""Characters of the name of an analysis; see `kineme.library.planning.analysis_key`."""
+"""Characters of the name of an analysis; see `kineme.library.planning.make_analysis_key`."""
 _FILE = re.compile(rf"[0-9a-f]{{{KEY_LENGTH}}}(\.parquet|(\.windows|\.moments)?\.npy)")
 LARGEST = 1e30
 """Sum of the squares of all features of a recording; no distance overflows below it."""
@@ -46,7 +46,7 @@ class Analysis:
     Attributes
     ----------
     facts : dict
-        Of the recording and its features; see `kineme.library.descriptions.analysis_of`.
+        Of the recording and its features; see `kineme.library.descriptions.make_analysis`.
     table : SegmentTable
         Its segments, with the clusters of this recording alone.
     embeddings : (segments, 32) array of float32
@@ -66,17 +66,17 @@ def write_analysis(
     channel_samples: NDArray[np.float32] | None = None,
 ) -> None:
     """Leave an analysis in a folder, with features (samples, dims) and samples of channels."""
-    pa, parquet = arrow()
+    pa, parquet = import_arrow()
     values = np.ascontiguousarray(features, np.float32)
     arrays: dict[str, NDArray[Any]] = {FEATURES: values}
     if analysis.facts["vocabulary"] == BODIES:
-        arrays[WINDOWS] = all_windows(values)
+        arrays[WINDOWS] = describe_all_windows(values)
     if channel_samples is not None:
         arrays[SAMPLES] = channel_samples
     for suffix, array in arrays.items():
         buffer = BytesIO()  # into a file itself, numpy does not tell that the disk is full
         np.save(buffer, array, allow_pickle=False)
-        with written(folder / f"{key}{suffix}") as draft:
+        with write_locally(folder / f"{key}{suffix}") as draft:
             draft.write_bytes(buffer.getbuffer())
     flat = as_column(analysis.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)
@@ -86,7 +86,7 @@ def write_analysis(
     }
     table = pa.table({**columns, "embedding": embeddings})
     facts = json.dumps(analysis.facts, sort_keys=True).encode()
-    with written(folder / f"{key}.parquet") as draft:
+    with write_locally(folder / f"{key}.parquet") as draft:
         parquet.write_table(
             table.replace_schema_metadata({METADATA: facts}), draft, compression="zstd"
         )
@@ -104,11 +104,11 @@ def has_analysis(folder: Path, key: str) -> bool:
 
 def read_analysis(folder: Path, key: str) -> Analysis:
     """Return the analysis of that name."""
-    pa, parquet = arrow()
+    pa, parquet = import_arrow()
     path = folder / f"{key}.parquet"
     with translate_read_errors(path):
         content = pa.BufferReader(path.read_bytes())
-        table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
+        table = parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
         facts = decode_json(table.schema.metadata[METADATA], path, dict[str, Any])
         columns = {name: _column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
@@ -122,7 +122,7 @@ def read_features(folder: Path, key: str) -> NDArray[np.float32]:
 
 
 def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
-    """Return the windows of these features, as `kineme.library.windows.all_windows` gives them."""
+    """Return the windows of these features, as `kineme.library.windows.describe_all_windows` gives them."""
     windows: NDArray[np.int8] = _read_array(folder / f"{key}{WINDOWS}", np.int8)
     return windows
 
@@ -131,7 +131,7 @@ def read_parts(
     folder: Path, key: str, starts: Iterable[int], into: Iterable[NDArray[np.float32]]
 ) -> None:
     """Fill arrays (samples, dims) with the features in an analysis, each from a sample on."""
-    with _features(folder, key) as (file, start, _):
+    with _open_features(folder, key) as (file, start, _):
         _fill(file, start, starts, into)
 
 
@@ -139,7 +139,7 @@ def read_spans(
     folder: Path, key: str, spans: Sequence[tuple[int, int]]
 ) -> list[NDArray[np.float32]]:
     """Return the features in an analysis from some samples to others."""
-    with _features(folder, key) as (file, start, dims):
+    with _open_features(folder, key) as (file, start, dims):
         parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
         _fill(file, start, [first for first, _ in spans], parts)
     return parts
@@ -148,8 +148,8 @@ def read_spans(
 def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
     """The samples of channels in an analysis, one of each ``step``: second, means, deviations."""
     path = folder / f"{key}{SAMPLES}"
-    with _opening(path):
-        rows: NDArray[np.float32] = np.load(near(path), mmap_mode="r", allow_pickle=False)
+    with _open_array(path):
+        rows: NDArray[np.float32] = np.load(copy_nearby(path), mmap_mode="r", allow_pickle=False)
         rows = np.array(thin_samples(rows, step))
         if rows.ndim != 2 or rows.dtype != np.float32 or not len(rows) or rows.shape[1] % 2 == 0:
             raise ValueError("not samples of channels")
@@ -159,7 +159,7 @@ def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.fl
     return rows
 
 
-def _header(file: IO[bytes]) -> tuple[int, int]:
+def _read_header(file: IO[bytes]) -> tuple[int, int]:
     """Where the rows of an npy file begin, and how many float32 numbers each has."""
     length = int.from_bytes(file.read(10)[8:], "little")
     header = re.search(rb"'descr': '<f4'.*'shape': \(\d+, (\d+)\)", file.read(length))
@@ -180,8 +180,8 @@ def _fill(
 
 
 def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
-    with _opening(path):
-        rows: NDArray[Any] = np.load(near(path), allow_pickle=False)
+    with _open_array(path):
+        rows: NDArray[Any] = np.load(copy_nearby(path), allow_pickle=False)
         if rows.ndim != 2 or rows.dtype != kind:
             raise ValueError("not rows of features")
         if kind is np.float32:  # integers cannot be nan or overflow a distance
@@ -196,15 +196,15 @@ def _check_sound(features: NDArray[np.float32]) -> None:
 
 
 @contextmanager
-def _features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
+def _open_features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
     """A block that reads features of an analysis: their file, where they begin in it, and dims."""
     path = folder / f"{key}{FEATURES}"
-    with _opening(path), near(path).open("rb", buffering=0) as file:
-        yield file, *_header(file)
+    with _open_array(path), copy_nearby(path).open("rb", buffering=0) as file:
+        yield file, *_read_header(file)
 
 
 @contextmanager
-def _opening(path: Path) -> Iterator[None]:
+def _open_array(path: Path) -> Iterator[None]:
     """A block that reads an array of an analysis, or ends in a ReadError."""
     try:
         yield

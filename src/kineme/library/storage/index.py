@@ -16,7 +16,7 @@ from kineme._util.arrays import Ints
 from kineme.errors import ReadError
 from kineme.library.storage.analyses import read_windows
 from kineme.library.storage.layout import ANALYSES, BODIES, TABLES
-from kineme.library.storage.places import near, written
+from kineme.library.storage.places import copy_nearby, write_locally
 from kineme.library.windows import LENGTHS, NUMBERS, Bytes, count, group_by_length
 
 FROM_HOURS = 100.0
@@ -55,7 +55,7 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
     with ExitStack() as stack:
         drafts = {
             length: np.lib.format.open_memmap(
-                stack.enter_context(written(_place(home, length))),
+                stack.enter_context(write_locally(_place(home, length))),
                 mode="w+",
                 dtype=np.int8,
                 shape=(int(count(samples, length).sum()), NUMBERS),
@@ -78,7 +78,7 @@ def open_index(
     """Return the windows of one length, or None where the library has no index."""
     path = _place(folder / TABLES / named, length)
     try:
-        embedded: Bytes = np.load(near(path), mmap_mode="r", allow_pickle=False)
+        embedded: Bytes = np.load(copy_nearby(path), mmap_mode="r", allow_pickle=False)
     except FileNotFoundError:
         return None
     except (OSError, ValueError) as error:

@@ -19,7 +19,7 @@ from kineme._util.checks import is_number, require_extra
 from kineme._util.files import refuse_link
 from kineme._util.json import load_json
 from kineme.errors import ReadError, WriteError
-from kineme.library.storage.places import is_remote, place, written
+from kineme.library.storage.places import is_remote, place, write_locally
 
 if sys.platform != "win32":
     import fcntl
@@ -93,12 +93,12 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
     """Leave an object at ``path``, whole or not at all."""
     # Escaped, for names of files need not be UTF-8.
     text = json.dumps(content, indent=1, sort_keys=True)
-    with written(path) as draft:
+    with write_locally(path) as draft:
         draft.write_text(text + "\n", encoding="utf-8")
 
 
 @contextmanager
-def writer_lock(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
+def lock_for_writing(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
     """The library, for one writer alone; WriteError where another one holds it.
 
     ``what`` is what to do once that is done, ``name`` that of the lock: of builds, or of edits.
@@ -128,7 +128,7 @@ def writer_lock(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
         os.close(descriptor)
 
 
-def arrow() -> tuple[Any, Any]:
+def import_arrow() -> tuple[Any, Any]:
     """Return the modules pyarrow and pyarrow.parquet.
 
     Read with ``use_threads=False``: a thread of theirs that lets go of bytes of Python while Python
@@ -145,7 +145,7 @@ def as_array(column: Any) -> NDArray[Any]:
 
     By way of DLPack: pyarrow's own way imports pandas.
     """
-    pa, _ = arrow()
+    pa, _ = import_arrow()
     values = column.combine_chunks()
     if not pa.types.is_string(values.type):
         return np.from_dlpack(values)
@@ -160,7 +160,7 @@ def as_column(values: Iterable[Any], kind: type) -> Any:
 
     By way of buffers: pyarrow's own way imports pandas.
     """
-    pa, _ = arrow()
+    pa, _ = import_arrow()
     if kind is str:
         texts = [str(text).encode() for text in values]
         ends = np.cumsum([0, *map(len, texts)], dtype=np.int32)

@@ -64,7 +64,7 @@ def lies_in(path: Path, folder: Path) -> bool:
 
 
 @contextmanager
-def reaching(path: Path) -> Iterator[None]:
+def reach(path: Path) -> Iterator[None]:
     """A block that uses a place: what goes wrong on the way there is a ReadError."""
     try:
         yield
@@ -78,7 +78,7 @@ def reaching(path: Path) -> Iterator[None]:
 
 
 @contextmanager
-def written(path: Path) -> Iterator[Path]:
+def write_locally(path: Path) -> Iterator[Path]:
     """A path of this machine to write to; what is there when the block ends becomes ``path``.
 
     Whole or not at all: as `kineme._util.files.atomic_write` here, and as one object elsewhere.
@@ -98,7 +98,7 @@ def written(path: Path) -> Iterator[Path]:
             raise WriteError(path, f"cannot be written: {reason}") from error
 
 
-def near(path: Path) -> Path:
+def copy_nearby(path: Path) -> Path:
     """A file that never changes under its name, on this machine: its copy, where it is elsewhere.
 
     Copies are in ``KINEME_CACHE``, else in ``~/.cache/kineme``, and may be deleted.

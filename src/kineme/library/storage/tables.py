@@ -19,8 +19,8 @@ import numpy as np
 
 from kineme._util.files import OwnedFolder, atomic_write, is_draft, translate_read_errors
 from kineme.errors import ReadError, WriteError
-from kineme.library.storage.layout import EMBEDDED, TABLES, arrow, as_array, as_column
-from kineme.library.storage.places import is_remote, written
+from kineme.library.storage.layout import EMBEDDED, TABLES, as_array, as_column, import_arrow
+from kineme.library.storage.places import is_remote, write_locally
 from kineme.segments.table import COLUMNS, Column
 
 DESCRIBED: Mapping[str, Mapping[str, Column]] = {
@@ -92,7 +92,7 @@ def table_of(name: str, columns: Mapping[str, Any]) -> Any:
 
     Embeddings are a pyarrow.Array already.
     """
-    pa, _ = arrow()
+    pa, _ = import_arrow()
     return pa.table(
         {
             column: columns[column]
@@ -106,7 +106,7 @@ def table_of(name: str, columns: Mapping[str, Any]) -> Any:
 
 def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
     """Leave tables in the folder of a library; the name under which they lie there."""
-    _, parquet = arrow()
+    _, parquet = import_arrow()
     home = folder / TABLES
     if is_remote(home):
         return _put(home, tables)
@@ -133,18 +133,18 @@ def _put(home: Path, tables: Mapping[str, Any]) -> str:
     with TemporaryDirectory(prefix="kineme-") as near:
         named = write_tables(Path(near), tables)
         for file in sorted((Path(near) / TABLES / named).iterdir()):
-            with written(home / named / file.name) as draft:
+            with write_locally(home / named / file.name) as draft:
                 shutil.copy(file, draft)
     return named
 
 
 def read_table(folder: Path, named: str, name: str) -> Any:
     """Return a table of those that the head of the library names, a pyarrow.Table."""
-    pa, parquet = arrow()
+    pa, parquet = import_arrow()
     path = folder / TABLES / named / f"{name}.parquet"
     with translate_read_errors(path):
         content = pa.BufferReader(path.read_bytes())
-        table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
+        table = parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
         table.validate(full=True)
     for column, declared in DESCRIBED[name].items():
         times = table.column_names.count(column)
@@ -158,7 +158,7 @@ def read_table(folder: Path, named: str, name: str) -> Any:
 
 def _is_sound(column: Any, kind: type) -> bool:
     """Return whether a column is of its type, and has a value in every row."""
-    pa, _ = arrow()
+    pa, _ = import_arrow()
     types = {str: pa.string(), int: pa.int64(), float: pa.float64()}
     if column.null_count:
         return False

@@ -18,7 +18,7 @@ BLOCK = 512
 
 
 @njit("void(float64[:, ::1], float64[::1], int64, int64, float64, float64, float64[::1])", **SUMS)
-def pair_scores(samples, costs, i, start, scale, worst, found):
+def score_pairs(samples, costs, i, start, scale, worst, found):
     """Scores of sample i with as many from ``start`` on as ``found`` holds.
 
     1 where two are equal, less by the square of their distance, ``worst`` at least.
@@ -41,7 +41,7 @@ def pair_scores(samples, costs, i, start, scale, worst, found):
     " boolean[::1], int64, int64, int64, float64, float64, float64)",
     **OPTIONS,
 )
-def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
+def find_local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
     """First and last pair (i, j, i, j) and score of the best path from each first pair.
 
     Pairs are ``gap`` to ``width`` samples apart. A path steps by one sample on
@@ -71,7 +71,7 @@ def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
         # A step must not lead into the start of a span; nor may a passed sample be one.
         go, skip = i > 0 and not begins[i], i > 1 and not (begins[i] or begins[i - 1])
         near, far = min(i + gap, n), min(i + width + 1, n)
-        pair_scores(samples, costs, i, near, scale, worst, line[near:far])
+        score_pairs(samples, costs, i, near, scale, worst, line[near:far])
         for j in range(near, far):
             # The best way here: a new path, or one of three steps.
             score = line[j]
@@ -137,13 +137,13 @@ def follow(samples, costs, ends, scale, worst):
     scores = np.full((rows, columns), -np.inf)
     steps = np.zeros((rows, columns), np.int8)
     line = np.empty(columns)
-    pair_scores(samples, costs, i0, j0, scale, worst, line[:1])
+    score_pairs(samples, costs, i0, j0, scale, worst, line[:1])
     scores[0, 0] = line[0]
     for i in range(1, rows):
         ahead = rows - 1 - i  # only pairs that can be reached, and from which the end can be
         first = max(1, (i + 1) // 2, columns - 1 - 2 * ahead)
         last = min(columns, 2 * i + 1, columns - (ahead + 1) // 2)
-        pair_scores(samples, costs, i0 + i, j0 + first, scale, worst, line[first:last])
+        score_pairs(samples, costs, i0 + i, j0 + first, scale, worst, line[first:last])
         for j in range(first, last):
             score = line[j]
             scores[i, j], steps[i, j] = scores[i - 1, j - 1] + score, 1
@@ -188,7 +188,7 @@ def set_in(flags, start, stop):
     " int64[::1], int64[::1], boolean[::1], float64, int64[:, ::1], float64[::1])",
     **OPTIONS,
 )
-def recurrences(
+def count_recurrences(
     start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
 ):
     """Return the total gain and number of recurrences of ``[start, stop)``.
@@ -251,7 +251,7 @@ def recurrences(
 
 
 @njit("int64(float64[::1], int64)", **OPTIONS)
-def largest(values, count):
+def find_largest(values, count):
     """Return place of the largest of the first ``count`` values, the first if there are several."""
     best = 0
     for i in range(1, count):
@@ -266,7 +266,7 @@ def renew(tops, values, start, stop):
     # All blocks that the places touch; the last one may be incomplete.
     for block in range(start // BLOCK, (stop + BLOCK - 1) // BLOCK):
         first = block * BLOCK
-        tops[block] = values[first + largest(values[first:], min(BLOCK, len(values) - first))]
+        tops[block] = values[first + find_largest(values[first:], min(BLOCK, len(values) - first))]
 
 
 @njit(
@@ -274,14 +274,14 @@ def renew(tops, values, start, stop):
     " float64[::1], float64[::1], int64[::1], int64[::1], boolean[::1], float64)",
     **OPTIONS,
 )
-def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, cover):
+def choose_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, cover):
     """Spans, gains and set of each occurrence: the sets with the largest total gain, one by one.
 
     Gains hardly ever rise as samples are taken, so that only that of the best span is computed
     anew (lazy greedy, after Minoux 1978). Changes ``free``.
 
     ``lengths`` are the lengths of spans that are tried. The other arrays are those of
-    `events.matching_paths`, and ``cover`` is that of `recurrences`.
+    `events.matching_paths`, and ``cover`` is that of `count_recurrences`.
     """
     n, sizes = len(free), len(lengths)
     most = 0
@@ -300,22 +300,22 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
             stop = start + lengths[k]
             # Spans with taken samples keep a gain of 0.
             if stop <= n and set_in(free, start, stop) == lengths[k]:
-                totals[start, k] = recurrences(
+                totals[start, k] = count_recurrences(
                     start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover,
                     spans, gains,
                 )[0]  # fmt: skip
-        best[start] = totals[start, largest(totals[start], sizes)]
+        best[start] = totals[start, find_largest(totals[start], sizes)]
     tops = np.empty((n + BLOCK - 1) // BLOCK)
     renew(tops, best, 0, n)
     # The best span: taken if its total is up to date, else computed anew.
     while n > 0:
-        block = largest(tops, len(tops)) * BLOCK
-        start = block + largest(best[block:], min(BLOCK, n - block))
+        block = find_largest(tops, len(tops)) * BLOCK
+        start = block + find_largest(best[block:], min(BLOCK, n - block))
         if best[start] <= 0:
             break
-        k = largest(totals[start], sizes)
+        k = find_largest(totals[start], sizes)
         stop = start + lengths[k]
-        total, count = recurrences(
+        total, count = count_recurrences(
             start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
         )
         if versions[start, k] == rank and count > 0:
@@ -323,7 +323,7 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
             for other in range(count):
                 covered, stop = min(covered, spans[other, 2]), max(stop, spans[other, 3])
             # The span itself gets the gain of its best recurrence.
-            found.append((covered, stop, gains[largest(gains, count)], rank))
+            found.append((covered, stop, gains[find_largest(gains, count)], rank))
             for other in range(count):
                 found.append((spans[other, 0], spans[other, 1], gains[other], rank))  # noqa: PERF401
             # The span and its recurrences, which were appended last.
@@ -333,12 +333,12 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
                 for begin in range(max(covered - lengths[sizes - 1] + 1, 0), stop):
                     for k in range(sizes):  # spans that reach into it gain nothing
                         totals[begin, k] *= begin + lengths[k] <= covered
-                    best[begin] = totals[begin, largest(totals[begin], sizes)]
+                    best[begin] = totals[begin, find_largest(totals[begin], sizes)]
                 renew(tops, best, max(covered - lengths[sizes - 1] + 1, 0), stop)
             rank += 1
         else:
             totals[start, k], versions[start, k] = total, rank
-            best[start] = totals[start, largest(totals[start], sizes)]
+            best[start] = totals[start, find_largest(totals[start], sizes)]
             renew(tops, best, start, start + 1)
     # The list as arrays, without the entry that gave it its type.
     places = np.empty((len(found) - 1, 2), np.int64)

@@ -103,7 +103,7 @@ def explain_variance(poses, path, visits, centered):
 
 
 @njit("float64(float64[:, ::1], float64[::1], int64, int64)", **SUMS)
-def _left(rows, total, start, stop):
+def _measure_rest(rows, total, start, stop):
     """Squares that the best multiple of the mean of the others leaves of rows, summed over rows.
 
     ``total`` is the sum of the rows from start to stop.
@@ -123,7 +123,7 @@ def _left(rows, total, start, stop):
 
 
 @njit("float64(float64[:, :, ::1])", **OPTIONS)
-def best_parting(centered):
+def find_best_parting(centered):
     """What two means leave of repetitions, as a share of what one mean leaves; the least share.
 
     One mean is of the first repetitions, the other of the last. 1 where there are too few.
@@ -140,18 +140,18 @@ def best_parting(centered):
     for k in range(count):
         for e in range(rows.shape[1]):
             rough += ROUGH * rows[k, e] * rows[k, e]
-    one_mean = _left(rows, sums[count], 0, count)
+    one_mean = _measure_rest(rows, sums[count], 0, count)
     best = 1.0
     for cut in range(LEAST, count - LEAST + 1):
         # Both parts have as many repetitions as a movement needs.
-        two_means = _left(rows, sums[cut], 0, cut)
-        two_means += _left(rows, sums[count] - sums[cut], cut, count)
+        two_means = _measure_rest(rows, sums[cut], 0, cut)
+        two_means += _measure_rest(rows, sums[count] - sums[cut], cut, count)
         best = min(best, (two_means + rough) / (one_mean + rough))
     return best
 
 
 @njit("float64(float32[:, ::1], int64, int64, int64)", **SUMS)
-def spread(view, start, stop, most):
+def measure_spread(view, start, stop, most):
     """Return cost of a span: half the mean distance of two samples, times its number of samples.
 
     It is estimated from ``most`` of its samples at most.
@@ -173,7 +173,7 @@ def spread(view, start, stop, most):
 
 
 @njit("float64[:, ::1](float64[:, :, ::1])", **SUMS)
-def similarities(movements):
+def measure_similarities(movements):
     """Similarity of each two movements (movements, places, dims) at the phase that fits best.
 
     It is 1 minus their squared distance over the sum of their variances.

@@ -19,7 +19,7 @@ FAR = np.float32(np.inf)
 
 
 @njit("float32[:, ::1](float32[:, ::1], int64[::1])", **SUMS)
-def distances_to(features, references):
+def measure_distances(features, references):
     """Distance of each reference frame to each frame."""
     distances = np.empty((len(references), len(features)), np.float32)
     for r in range(len(references)):
@@ -34,7 +34,7 @@ def distances_to(features, references):
 
 
 @njit("int64[::1](float32[::1], float32)", **OPTIONS)
-def turning_points(row, least):
+def find_turning_points(row, least):
     """Lowest, highest, ..., lowest columns of a row that rises and falls by ``least`` between."""
     turns = np.empty(len(row) + 1, np.int64)
     count = low = high = 0  # columns of the lowest and highest value since the last turn
@@ -60,7 +60,7 @@ def turning_points(row, least):
 
 
 @njit("Tuple((float32[:, ::1], int64[:, ::1]))(float32[:, ::1], float32[::1])", **OPTIONS)
-def dips(distances, least):
+def find_dips(distances, least):
     """Depths of the dips of each row, deepest first, and their columns; zero where no more.
 
     A dip is as deep as one must climb to reach a deeper one, the deepest as
@@ -74,7 +74,7 @@ def dips(distances, least):
     for r in range(rows):
         row = distances[r]
         # Lows are at even turns, highs at odd ones.
-        turns = turning_points(row, least[r])
+        turns = find_turning_points(row, least[r])
         found = np.zeros(len(turns) // 2 + 1, np.float32)
         where = np.zeros(len(turns) // 2 + 1, np.int64)
         count = n = 0
@@ -145,7 +145,7 @@ def smooth_rows(rows, smoothing):
 
 
 @njit("float64[:, ::1](float64[:, ::1], float64[::1], float64[::1])", **OPTIONS)
-def poses_at(poses, path, lengths):
+def look_up_poses(poses, path, lengths):
     """Return the poses at these lengths along the path."""
     found = np.empty((len(lengths), poses.shape[1]))
     # Binary search for the frame before this length.
@@ -201,7 +201,7 @@ def measure_unexplained(repetitions, centering):
 
 
 @njit("float64[:, :, ::1](float64[:, ::1], float64[::1], int64[::1], int64)", **OPTIONS)
-def repetitions_between(poses, path, visits, places):
+def sample_repetitions(poses, path, visits, places):
     """(repetitions, places, dims): poses evenly along the path from each visit to the next."""
     found = np.empty((len(visits) - 1, places, poses.shape[1]))
     lengths = np.empty(places)
@@ -210,7 +210,7 @@ def repetitions_between(poses, path, visits, places):
         for p in range(places):
             # Middles of equal parts of the path.
             lengths[p] = first + (last - first) * ((p + 0.5) / places)
-        reached = poses_at(poses, path, lengths)
+        reached = look_up_poses(poses, path, lengths)
         for p in range(places):
             for d in range(poses.shape[1]):
                 found[k, p, d] = reached[p, d]
@@ -218,7 +218,7 @@ def repetitions_between(poses, path, visits, places):
 
 
 @njit("float64(float64[::1])", **OPTIONS)
-def upper_median(values):
+def find_upper_median(values):
     """Return the middle value, the upper one of two."""
     ordered = np.empty(len(values))
     # Insertion sort: a division has few repetitions.
@@ -232,7 +232,7 @@ def upper_median(values):
 
 
 @njit("float64[:, ::1](float64[:, :, ::1])", **OPTIONS)
-def mean_repetition(repetitions):
+def average_repetitions(repetitions):
     """(places, dims): the mean of repetitions of (places, dims) each."""
     count, places, dims = repetitions.shape
     mean = np.zeros((places, dims))
@@ -247,7 +247,7 @@ def mean_repetition(repetitions):
 
 
 @njit("float64(float64[:, :, ::1], float64[:, ::1])", **SUMS)
-def scatter(repetitions, mean):
+def measure_scatter(repetitions, mean):
     """Mean square distance of the poses of repetitions from those of their mean; 0 of one."""
     count, places, dims = repetitions.shape
     total = 0.0
@@ -297,7 +297,7 @@ def match_columns(gains, full):
 
 
 @njit("float64[::1](float64, float64, int64, int64, float64)", **OPTIONS)
-def steps_inside(begin, step, places, number, path_length):
+def place_steps(begin, step, places, number, path_length):
     """Lengths on the path, ``places`` a step from ``begin`` on: ``number``, less those off it."""
     lengths = np.empty(number)
     count = 0
@@ -321,7 +321,7 @@ def follow_end(poses, path, lengths, mean, near, full):
     ``near`` and ``full`` are squared distances from the mean: a pose gains by being nearer than
     ``near``, and counts in full up to ``full``.
     """
-    reached = poses_at(poses, path, lengths)
+    reached = look_up_poses(poses, path, lengths)
     # Gains begin at `near`, from which the squared distance is subtracted.
     gains = np.full((len(reached), len(mean)), near)
     for i in range(len(reached)):
@@ -339,7 +339,7 @@ def follow_end(poses, path, lengths, mean, near, full):
     " int64[::1], int64, float64, float64, float64, float64)",
     **OPTIONS,
 )
-def division(poses, path, visits, places, near, followed_for, centering, scattered):
+def measure_division(poses, path, visits, places, near, followed_for, centering, scattered):
     """Lengths of both ends in repetitions, how much of them counts, and the unexplained share.
 
     The ends lie before the first visit and after the last. An end is as long as it follows the
@@ -354,17 +354,17 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
     for k in range(count):
         lengths[k] = path[visits[k + 1]] - path[visits[k]]
     # The floor avoids a division by 0 where the path stands still.
-    length = max(upper_median(lengths), 1e-12)
-    inner = repetitions_between(poses, path, visits, places)
-    mean = mean_repetition(inner)
+    length = max(find_upper_median(lengths), 1e-12)
+    inner = sample_repetitions(poses, path, visits, places)
+    mean = average_repetitions(inner)
     first, last = path[visits[0]], path[visits[-1]]
     # The ends: back from the first visit on the reversed mean, and on from the last visit.
     number_of_steps = int(places * followed_for)
-    before = steps_inside(first, -length, places, number_of_steps, total_length)
-    after = steps_inside(last, length, places, number_of_steps, total_length)
+    before = place_steps(first, -length, places, number_of_steps, total_length)
+    after = place_steps(last, length, places, number_of_steps, total_length)
     full = FARTHEST * near
     if count > 1:
-        full = min(scattered * scatter(inner, mean), full)
+        full = min(scattered * measure_scatter(inner, mean), full)
     # Backwards, so the mean is reversed as well.
     to_head, in_head = follow_end(poses, path, before, np.ascontiguousarray(mean[::-1]), near, full)
     to_tail, in_tail = follow_end(poses, path, after, mean, near, full)
@@ -379,7 +379,7 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
             ahead[p] = last + (total_length - length) * ((p + 0.5) / places)
             if ahead[p] >= total_length:
                 ahead[p] -= total_length
-        reached = poses_at(poses, path, ahead)
+        reached = look_up_poses(poses, path, ahead)
         both = np.empty((2, places, poses.shape[1]))
         for p in range(places):
             for d in range(poses.shape[1]):
@@ -396,7 +396,7 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
 
 
 @njit("void(float32[:, ::1], float64, float64[::1])", **OPTIONS)
-def pose_at(rows, at, found):
+def interpolate_pose(rows, at, found):
     """Return the row at a time between two rows, in frames; the first or last one beyond them."""
     # Beyond the ends the first or last row.
     before = min(max(int(np.floor(at)), 0), len(rows) - 1)
@@ -407,19 +407,19 @@ def pose_at(rows, at, found):
 
 
 @njit("float64[:, :, ::1](float32[:, ::1], int64[::1], int64[::1], int64)", **OPTIONS)
-def evenly_in_time(rows, starts, lengths, places):
+def sample_evenly(rows, starts, lengths, places):
     """(spans, places, dims): rows evenly in time from each start on, over each length."""
     found = np.empty((len(starts), places, rows.shape[1]))
     for k in range(len(starts)):
         for p in range(places):
             # Frames are centred on their middles, hence half a frame less.
             at = starts[k] + lengths[k] * ((p + 0.5) / places) - 0.5
-            pose_at(rows, at, found[k, p])
+            interpolate_pose(rows, at, found[k, p])
     return found
 
 
 @njit("int64(float32[:, ::1], int64, int64, int64, float64[:, ::1])", **SUMS)
-def best_length(rows, stop, shortest, longest, mean):
+def find_best_length(rows, stop, shortest, longest, mean):
     """Return the length of the span up to a frame that is nearest to the mean, evenly in time."""
     places, dims = mean.shape
     pose = np.empty(dims)
@@ -428,7 +428,7 @@ def best_length(rows, stop, shortest, longest, mean):
         misfit = 0.0
         for p in range(places):
             # From the start of the span, which is its stop less its length.
-            pose_at(rows, stop - length + length * ((p + 0.5) / places) - 0.5, pose)
+            interpolate_pose(rows, stop - length + length * ((p + 0.5) / places) - 0.5, pose)
             for d in range(dims):
                 difference = pose[d] - mean[p, d]
                 misfit += difference * difference

@@ -14,7 +14,7 @@ SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 
 
 @njit("void(float32[:, ::1], float64, int64, int64, float32[:, ::1])", **SUMS)
-def similarity_band(features, unit, start, stop, similarity):
+def compute_similarity_band(features, unit, start, stop, similarity):
     """``similarity[i, j - i] = 1 - |x_i - x_j| / unit`` for the rows from start to stop."""
     n, width = similarity.shape
     one, units = np.float32(1.0), np.float32(1.0 / unit)  # sums in doubles take twice as long
@@ -33,7 +33,7 @@ def similarity_band(features, unit, start, stop, similarity):
 
 
 @njit("float64[::1](float32[:, ::1], int64[::1], int64)", **OPTIONS)
-def near_distances(features, chosen, width):
+def measure_near_distances(features, chosen, width):
     """Distances of the chosen samples, ascending, of which two are less than `width` apart."""
     count = 0
     for i in range(len(chosen)):
@@ -57,7 +57,7 @@ def near_distances(features, chosen, width):
 
 
 @njit("int64[::1](float32[:, ::1], float64)", **OPTIONS)
-def change_points(similarity, penalty):
+def find_change_points(similarity, penalty):
     """Borders of the segments whose samples are most similar, ends included.
 
     Minimises, by dynamic programming, the sum over segments of
@@ -118,7 +118,7 @@ def mean_distances(features, chosen, borders, start, stop, means):
 
 
 @njit("float64(float64[:, ::1], float64[::1], int64, int64, float64)", **OPTIONS)
-def _distance(sums, lengths, g, h, spread_share):
+def _measure_distance(sums, lengths, g, h, spread_share):
     """Return the mean distance of two clusters, less a share of the mean distance within them.
 
     ``sums`` are summed distances of the samples of each two clusters, ``lengths`` their numbers.
@@ -138,7 +138,7 @@ def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
     # A cluster is alive if it is named after itself.
     for h in range(len(lengths)):
         if h != g and owner[h] == h:
-            distance = _distance(sums, lengths, g, h, spread_share)
+            distance = _measure_distance(sums, lengths, g, h, spread_share)
             if distance < apart[g]:
                 apart[g] = distance
                 nearest[g] = h
@@ -148,7 +148,7 @@ def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
     "float64(float64[:, ::1], float64[::1], int64, float64, float64, float64, int64[::1])",
     **OPTIONS,
 )
-def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share, labels):
+def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share, labels):
     """Return the least cost of a grouping of segments; `labels` gets the grouping.
 
     The two clusters that are nearest are joined, again and again: by their mean distance,
@@ -204,7 +204,7 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_sh
             if nearest[other] in (g, h):
                 _find_nearest(sums, lengths, owner, other, spread_share, nearest, apart)
                 continue
-            distance = _distance(sums, lengths, other, g, spread_share)
+            distance = _measure_distance(sums, lengths, other, g, spread_share)
             if distance < apart[other]:  # a union can be nearer than both of its parts were
                 apart[other] = distance
                 nearest[other] = g

@@ -37,7 +37,7 @@ SHARE = 3
 """A border moves by one part of so many of a segment at most."""
 
 
-def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> Spans:
+def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -> Spans:
     """Where each segment begins, and where it ends; what lies between two is a transition.
 
     Parameters
@@ -72,11 +72,11 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
         # Log-likelihoods of both sides, less that of the whole recording: up to each frame by the
         # left side, from it on by the right side.
         anything = -0.5 * (near**2).mean(axis=1)
-        before = np.append(0.0, np.cumsum(_likelihoods(near, scaled[left_side]) - anything))
-        gains = _likelihoods(near, scaled[right_side]) - anything
+        before = np.append(0.0, np.cumsum(_compute_likelihoods(near, scaled[left_side]) - anything))
+        gains = _compute_likelihoods(near, scaled[right_side]) - anything
         behind = np.append(np.cumsum(gains[::-1])[::-1], 0.0)
         likeliest = int(np.argmax(before + behind))
-        left, right = _apart(before, behind, averaged - 1)
+        left, right = _place_ends(before, behind, averaged - 1)
         # What lies between is described by neither side: by "anything", at no gain and no loss.
         gained = before[left] + behind[right] - before[likeliest] - behind[likeliest]
         if gained > preset.transition_cost * preset.working_fps:
@@ -87,7 +87,7 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
     return starts, stops
 
 
-def _apart(before: Floats, behind: Floats, longest: int) -> tuple[int, int]:
+def _place_ends(before: Floats, behind: Floats, longest: int) -> tuple[int, int]:
     """Where to end the first side and begin the second, at most so far apart: the likeliest."""
     # For each end of the gap, the best start within `longest` before it.
     rights = np.arange(len(before))
@@ -98,7 +98,7 @@ def _apart(before: Floats, behind: Floats, longest: int) -> tuple[int, int]:
     return int(lefts[right]), right
 
 
-def _likelihoods(rows: Floats, side: Floats) -> Floats:
+def _compute_likelihoods(rows: Floats, side: Floats) -> Floats:
     """Log-likelihood of each row by the means and variances of a side, the mean of its channels."""
     variances = np.maximum(side.var(axis=0), QUIETEST**2)
     squares = (rows - side.mean(axis=0)) ** 2 / variances
@@ -120,7 +120,7 @@ def convert_to_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frame
     return borders
 
 
-def carried_over(fine: Frames, before: Frames, after: Frames) -> Frames:
+def carry_over(fine: Frames, before: Frames, after: Frames) -> Frames:
     """Finest borders with those of a level where they have been moved to.
 
     Parameters

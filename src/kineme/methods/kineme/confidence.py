@@ -25,9 +25,9 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
-from kineme.methods.kineme._repetition_kernels import repetitions_between
+from kineme.methods.kineme._repetition_kernels import sample_repetitions
 from kineme.methods.kineme.primitives import Segments
-from kineme.methods.kineme.repetitions import PLACES, movement_of
+from kineme.methods.kineme.repetitions import PLACES, trace_movement
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -87,7 +87,7 @@ class Confidence:
     cuts: Floats
 
 
-def evidence(
+def collect_evidence(
     rows: NDArray[np.float32],
     view: NDArray[np.float32],
     segments: Segments,
@@ -111,8 +111,8 @@ def evidence(
     def correlate(segment: int) -> None:
         first, last = ends[segment], ends[segment + 1]
         edges = segments.primitives[first : last + 1]
-        movement = movement_of(rows[edges[0] : max(edges[-1], edges[0] + 1)], preset)
-        found = repetitions_between(movement.poses, movement.path, edges - edges[0], PLACES)
+        movement = trace_movement(rows[edges[0] : max(edges[-1], edges[0] + 1)], preset)
+        found = sample_repetitions(movement.poses, movement.path, edges - edges[0], PLACES)
         repeated[segment] = mean_correlation(found[repeats[first:last]])
 
     map_threads(correlate, np.unique(parents[repeats]).tolist())
@@ -184,20 +184,20 @@ def mean_correlation(repetitions: Floats) -> float:
     return float(np.arctanh(np.clip(pairs, -CLEAREST, CLEAREST)))
 
 
-def confidence(evidence: Evidence, preset: KinemeConstants) -> Confidence:
+def compute_confidence(evidence: Evidence, preset: KinemeConstants) -> Confidence:
     """Probabilities from the statistics and the weights of the preset."""
-    borders = probability(evidence.sharpness, preset.border_weights)
-    cuts = probability(evidence.repeated, preset.cut_weights)[evidence.parents]
+    borders = compute_probability(evidence.sharpness, preset.border_weights)
+    cuts = compute_probability(evidence.repeated, preset.cut_weights)[evidence.parents]
     first = np.diff(evidence.parents, prepend=-1) > 0
     return Confidence(
-        links=probability(evidence.preferred, preset.link_weights),
-        counts=probability(evidence.repeated, preset.count_weights),
+        links=compute_probability(evidence.preferred, preset.link_weights),
+        counts=compute_probability(evidence.repeated, preset.count_weights),
         borders=borders,
         cuts=np.where(first, borders[evidence.parents], cuts),
     )
 
 
-def probability(statistic: Floats, weights: tuple[float, float]) -> Floats:
+def compute_probability(statistic: Floats, weights: tuple[float, float]) -> Floats:
     """Probability by a statistic, a constant, and its weight; nan where the statistic is.
 
     Examples

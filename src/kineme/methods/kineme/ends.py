@@ -54,7 +54,7 @@ class Ends:
     lasts: Frames
 
 
-def fitted_ends(
+def fit_ends(
     features: Features,
     starts: Frames,
     stops: Frames,
@@ -81,8 +81,8 @@ def fitted_ends(
     back = np.ascontiguousarray(features[::-1])
 
     def fitted(i: int) -> tuple[int, int, int, int]:
-        start, first = _begin(features, int(starts[i]), cuts[i])
-        stop, last = _begin(back, n - int(stops[i]), (n - cuts[i])[::-1].copy())
+        start, first = _find_begin(features, int(starts[i]), cuts[i])
+        stop, last = _find_begin(back, n - int(stops[i]), (n - cuts[i])[::-1].copy())
         return start, n - stop, first, n - last
 
     found = np.array(map_threads(fitted, range(len(cuts))), np.int64).reshape(-1, 4)
@@ -102,7 +102,7 @@ def fitted_ends(
     return Ends(begins, ends, firsts, lasts)
 
 
-def fitted_edges(rows: Features, cuts: Frames) -> Frames:
+def fit_edges(rows: Features, cuts: Frames) -> Frames:
     """Return where repetitions of a span begin, and where the last one ends, if two cuts are known.
 
     Parameters
@@ -112,26 +112,26 @@ def fitted_edges(rows: Features, cuts: Frames) -> Frames:
         Where the second, third, ... repetition begins.
     """
     n, back = len(rows), np.ascontiguousarray(rows[::-1])
-    _, first = _begin(rows, 0, cuts)
-    _, last = _begin(back, 0, (n - cuts)[::-1].copy())
+    _, first = _find_begin(rows, 0, cuts)
+    _, last = _find_begin(back, 0, (n - cuts)[::-1].copy())
     return np.concatenate([[first], cuts, [n - last]])
 
 
-def _begin(rows: Features, start: int, cuts: Frames) -> tuple[int, int]:
+def _find_begin(rows: Features, start: int, cuts: Frames) -> tuple[int, int]:
     """Where the activity that was found from ``start`` on begins, and its first repetition."""
     if len(cuts) < 2:  # nothing lies between two cuts
         return start, start
     lengths = np.diff(cuts)
-    inner = kernels.evenly_in_time(rows, cuts[:-1], lengths, PLACES)
+    inner = kernels.sample_evenly(rows, cuts[:-1], lengths, PLACES)
     mean = inner.mean(axis=0)
-    first = _first(rows, cuts, mean)
+    first = _find_first(rows, cuts, mean)
     return min(first, start), first
 
 
-def _first(rows: Features, cuts: Frames, mean: Floats) -> int:
+def _find_first(rows: Features, cuts: Frames, mean: Floats) -> int:
     """Where the span before the first cut begins that fits the mean best; 0 if none fits."""
     usual, stop = float(np.diff(cuts).mean()), int(cuts[0])
     shortest, longest = max(1, ceil(SHORTEST * usual)), min(int(LONGEST * usual), stop)
     if shortest > longest:
         return 0
-    return stop - int(kernels.best_length(rows, stop, shortest, longest, mean))
+    return stop - int(kernels.find_best_length(rows, stop, shortest, longest, mean))

@@ -87,7 +87,7 @@ class Occurrences:
         return segments
 
 
-def occurrences(
+def find_occurrences(
     poses: NDArray[np.floating], free: NDArray[np.bool_], preset: KinemeConstants
 ) -> Occurrences:
     """Return what recurs among the frames that are free.
@@ -105,12 +105,12 @@ def occurrences(
     def in_samples(seconds: float) -> int:
         return round(seconds * per_second)
 
-    samples = _samples(np.asarray(poses, np.float64), free, preset)
+    samples = _sample_frames(np.asarray(poses, np.float64), free, preset)
     if len(samples.seconds) < 2:
         none = np.empty(0, np.int64)
         return Occurrences(none, none, none, np.empty(0))
     shortest = max(1, in_samples(preset.min_recurrence))
-    starts, ptr, partners, sums, row_ptr, row_paths = matching_paths(
+    starts, ptr, partners, sums, row_ptr, row_paths = find_matching_paths(
         samples.columns,
         preset.event_cost * samples.seconds,
         samples.begins,
@@ -124,7 +124,7 @@ def occurrences(
     lengths = np.unique(np.geomspace(shortest, longest, LENGTHS).round().astype(np.int64))
     all_free = np.ones(len(samples.seconds), np.bool_)
     check_cancelled()
-    spans, scores, ranks = kernels.best_sets(
+    spans, scores, ranks = kernels.choose_sets(
         lengths, starts, ptr, partners, sums, row_ptr, row_paths, all_free, preset.event_cover
     )
     # A set is kept if its strongest path is no chance; of two spans there is no second witness.
@@ -165,7 +165,7 @@ class _Samples:
     begins: NDArray[np.bool_]
 
 
-def _samples(poses: Floats, free: NDArray[np.bool_], preset: KinemeConstants) -> _Samples:
+def _sample_frames(poses: Floats, free: NDArray[np.bool_], preset: KinemeConstants) -> _Samples:
     """Return the free frames at equal steps of movement time."""
     n = len(poses)
     frames = np.arange(n)
@@ -195,7 +195,7 @@ def _step(preset: KinemeConstants) -> int:
 # --- warping paths by which the samples match each other ----------------------------------------
 
 
-def matching_paths(
+def find_matching_paths(
     columns: Floats,
     costs: Floats,
     begins: NDArray[np.bool_],
@@ -239,13 +239,13 @@ def matching_paths(
         Where the paths of each sample begin in the last.
     row_paths : array of int
     """
-    ends, _, passed = kernels.local_paths(
+    ends, _, passed = kernels.find_local_paths(
         columns, costs, begins, gap, width, leg, scale, WORST, least
     )
     starts, partners, sums = [], [np.empty(0)], [np.empty(0)]
     for each in ends:
         check_cancelled()
-        forth, forth_sums, back, back_sums = warped_path(columns, costs, each, passed, scale)
+        forth, forth_sums, back, back_sums = split_path(columns, costs, each, passed, scale)
         starts += [each[0], each[1]]
         partners += [forth, back]
         sums += [forth_sums, back_sums]
@@ -258,7 +258,7 @@ def matching_paths(
     return first, ptr, np.concatenate(partners), np.concatenate(sums), row_ptr, row_paths
 
 
-def warped_path(
+def split_path(
     columns: Floats, costs: Floats, ends: Ints, passed: Ints, scale: float
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Partners and scores of a path, from its first side and from the second.
@@ -266,7 +266,7 @@ def warped_path(
     Parameters
     ----------
     columns, costs, scale
-        See `matching_paths`.
+        See `find_matching_paths`.
     ends : (5,) array
         First and last pair, and the latest of the pairs passed.
     passed : (pairs, 3) array

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.base import Columns
-from kineme.methods.doubts import doubts
+from kineme.methods.doubts import list_doubts
 from kineme.methods.kineme import tree
 from kineme.methods.kineme.borders import convert_to_samples
-from kineme.methods.kineme.confidence import Confidence, Evidence, confidence
+from kineme.methods.kineme.confidence import Confidence, Evidence, compute_confidence
 from kineme.methods.kineme.primitives import Segments
-from kineme.methods.levels import DETAILS, FineSegments, clusters_at, tables_at
+from kineme.methods.levels import DETAILS, FineSegments, assign_clusters, make_tables
 from kineme.methods.segments import make_columns
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ class KinemeFound:
     @cached_property
     def confidence(self) -> Confidence:
         """How probable it is that each thing found is right."""
-        return confidence(self.evidence, self.preset)
+        return compute_confidence(self.evidence, self.preset)
 
     def levels(
         self, columns: Columns, details: tuple[float, ...] | None = None
@@ -98,13 +98,13 @@ class KinemeFound:
         Details that are equal to their coarser neighbour are left out.
         """
         segments, frames = self._fine_segments()
-        at = clusters_at(
+        at = assign_clusters(
             segments,
             details or DETAILS,
             border_price=self.preset.samples(self.preset.segment_cost),
             cluster_price=self.preset.cluster_price(len(self.features)),
         )
-        return tables_at(columns, frames, at, longest=0.0)
+        return make_tables(columns, frames, at, longest=0.0)
 
     def _fine_segments(self) -> tuple[FineSegments, Frames]:
         """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
@@ -112,7 +112,7 @@ class KinemeFound:
         coarse = convert_to_samples(self.borders, self.preset, n)
         nearest = np.rint(self.fine[:-1] / per_sample).astype(np.int64)
         fine = np.unique(np.append(np.minimum(nearest, n - 1), n))
-        found = tree.levels(fine, tree.sum_between_segments(self.features, fine, self.unit))
+        found = tree.list_levels(fine, tree.sum_between_segments(self.features, fine, self.unit))
         most = min(len(found), EACH * len(coarse), max(MOST, len(coarse)))
         borders = np.unique(np.concatenate([coarse, fine[found[most - 1]]]))
         frames = np.rint(borders * per_sample).astype(np.int64)
@@ -126,7 +126,7 @@ class KinemeFound:
 
         One more lists the activities that are not periodic.
         """
-        found = doubts(columns, fps)
+        found = list_doubts(columns, fps)
         is_activity = columns["level"] == "activity"
         not_periodic = is_activity & np.isin(columns["cluster"], self.segments.not_periodic)
         if not_periodic.any():

@@ -25,10 +25,10 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
 from kineme.methods.kineme._repeating_kernels import ROUGH
-from kineme.methods.kineme._repetition_kernels import repetitions_between
-from kineme.methods.kineme.ends import fitted_edges
+from kineme.methods.kineme._repetition_kernels import sample_repetitions
+from kineme.methods.kineme.ends import fit_edges
 from kineme.methods.kineme.repeating import SPAN, share_of_one_movement
-from kineme.methods.kineme.repetitions import PLACES, movement_of, repetitions
+from kineme.methods.kineme.repetitions import PLACES, find_repetitions, trace_movement
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         longer = at + int(stops[at + 1] - starts[at + 1] > stops[at] - starts[at])
         labels[at], preference[at] = labels[longer], preference[longer]
         stops[at] = stops[at + 1]
-        cuts[at] = repetitions(rows, starts[at], stops[at], preset)
+        cuts[at] = find_repetitions(rows, starts[at], stops[at], preset)
         del starts[at + 1], stops[at + 1], labels[at + 1], preference[at + 1], cuts[at + 1]
         del likenesses[at]
         # Only the union has new neighbours.
@@ -124,10 +124,10 @@ def compare_sides(
         Repetitions of each side where it is divided alone.
     preset : KinemeConstants
     """
-    cuts = repetitions(rows, 0, len(rows), preset)
+    cuts = find_repetitions(rows, 0, len(rows), preset)
     if len(cuts) < 2:  # nothing lies between two cuts
         return 0.0
-    edges = fitted_edges(rows, cuts)
+    edges = fit_edges(rows, cuts)
     durations = np.diff(edges)
     before = int(np.count_nonzero(edges[:-1] + durations / 2 < border))
     # The count of a side with two is no evidence: it may be any two halves.
@@ -142,21 +142,21 @@ def compare_sides(
     )
     if not (agree and covered and 0 < before < len(durations)):
         return 0.0
-    movement = movement_of(rows, preset)
-    repeated = repetitions_between(movement.poses, movement.path, edges, PLACES)
+    movement = trace_movement(rows, preset)
+    repeated = sample_repetitions(movement.poses, movement.path, edges, PLACES)
     centered = repeated - repeated.mean(axis=1, keepdims=True)
     even = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
     if even < preset.same_set or share_of_one_movement(centered, preset) < ONE_MOVEMENT:
         return 0.0
     near = repeated[max(before - NEAR, 0) : before + NEAR]
-    beside, across = similarities_at(near, min(before, NEAR), preset.centering)
+    beside, across = compare_at_border(near, min(before, NEAR), preset.centering)
     # Of sets done well nearly all is alike: little may be unlike across the border, too.
     if 1 - beside + ROUGH < preset.two_movements * (1 - across + ROUGH):
         return 0.0
     return even * across / max(beside, TINY)
 
 
-def similarities_at(repeated: Floats, border: int, centering: float) -> tuple[float, float]:
+def compare_at_border(repeated: Floats, border: int, centering: float) -> tuple[float, float]:
     """Return the mean correlation of two repetitions beside a border, and of two across it.
 
     Parameters

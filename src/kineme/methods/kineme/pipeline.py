@@ -27,9 +27,9 @@ from threadpoolctl import ThreadpoolController
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_features
 from kineme._util.parallel import map_threads
-from kineme.features.channels import sampled_at
-from kineme.methods.kineme.borders import carried_over, to_the_frame
-from kineme.methods.kineme.confidence import evidence
+from kineme.features.channels import choose_frames
+from kineme.methods.kineme.borders import carry_over, refine_borders
+from kineme.methods.kineme.confidence import collect_evidence
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.kineme.primitives import (
     divide_into_repetitions,
@@ -40,14 +40,14 @@ from kineme.methods.kineme.repeating import Repeating
 from kineme.methods.kineme.tree import (
     FineLevel,
     Level,
-    fine_level_of,
-    level_of,
+    choose_part_ends,
+    compute_median_distance,
+    find_fine_level,
+    find_level,
     link_parts,
-    median_distance,
-    part_ends,
 )
-from kineme.methods.kineme.views import Views, choose_view, views_of
-from kineme.methods.stages import Progress, stopwatch
+from kineme.methods.kineme.views import Views, choose_view, compute_views
+from kineme.methods.stages import Progress, time_stages
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -112,29 +112,29 @@ def _analyze(
     joints: bool,
 ) -> KinemeFound:
     timings: dict[str, float] = {}
-    stage = stopwatch(timings, progress)
+    stage = time_stages(timings, progress)
     n = len(rows)
     poses = np.ascontiguousarray(rows - rows.mean(axis=0), np.float32)  # a shift costs no digits
     least = 2 * ceil(preset.working_fps / preset.rate)  # frames, so that each part has a sample
-    ends = part_ends(poses, max(least, preset.frames(preset.part)), preset.frames(SIDE))
+    ends = choose_part_ends(poses, max(least, preset.frames(preset.part)), preset.frames(SIDE))
     spans = [slice(*span) for span in pairwise(ends)]
     with stage("views"):
-        views = [views_of(rows[span], preset, joints=joints) for span in spans]
+        views = [compute_views(rows[span], preset, joints=joints) for span in spans]
     with stage("segments"):
         parts = map_threads(
-            lambda i: _part(views[i], poses[spans[i]], spans[i], preset), range(len(spans))
+            lambda i: _segment_part(views[i], poses[spans[i]], spans[i], preset), range(len(spans))
         )
         features = parts[0].view
         if len(parts) > 1:
             scale = int(np.bincount([part.scale for part in parts]).argmax())
-            features = views_of(rows, preset.in_scale(scale), joints=joints).views[0]
-        unit = median_distance(features, preset.near)
-        at = sampled_at(n, preset.working_fps, preset.rate)
+            features = compute_views(rows, preset.in_scale(scale), joints=joints).views[0]
+        unit = compute_median_distance(features, preset.near)
+        at = choose_frames(n, preset.working_fps, preset.rate)
         price = preset.cluster_price(len(parts[0].view))
         level = link_parts(features, at, [part.level for part in parts], unit=unit, price=price)
     with stage("borders"):
-        starts, stops = to_the_frame(rows, level.borders, preset)
-        fine = carried_over(level.fine, level.borders, np.append(starts, n))
+        starts, stops = refine_borders(rows, level.borders, preset)
+        fine = carry_over(level.fine, level.borders, np.append(starts, n))
     with stage("repetitions"):
         segments = divide_into_repetitions(
             poses, starts, stops, level.labels, level.preference, preset
@@ -145,20 +145,20 @@ def _analyze(
         with stage("events"):
             segments = find_events(poses, segments, preset)
     with stage("confidence"):
-        statistics = evidence(poses, features, segments, preset)
+        statistics = collect_evidence(poses, features, segments, preset)
     return KinemeFound(features, preset, unit, segments, statistics, fine, timings)
 
 
-def _part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
+def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
     """Return a part as if it were alone. Its view is chosen before it is known what repeats."""
 
     def clusters(fine: FineLevel) -> Frames:
-        return level_of(fine, preset).per_sample()
+        return find_level(fine, preset).per_sample()
 
-    scale, fine = 0, [fine_level_of(view, preset) for view in views.views]
+    scale, fine = 0, [find_fine_level(view, preset) for view in views.views]
     if len(fine) > 1:
         answers = [*map(clusters, fine)]
-        halves = [clusters(fine_level_of(half, preset)) for half in views.halves]
+        halves = [clusters(find_fine_level(half, preset)) for half in views.halves]
         scale = choose_view(answers, halves, margin=preset.view_margin)
-    level = level_of(fine[scale], preset, Repeating(poses, preset))
+    level = find_level(fine[scale], preset, Repeating(poses, preset))
     return Part(scale, views.views[scale], level.in_frames(span, preset))

@@ -21,11 +21,11 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repeating_kernels as kernels
-from kineme.methods.kineme._repetition_kernels import repetitions_between
-from kineme.methods.kineme.ends import fitted_ends
-from kineme.methods.kineme.events import Occurrences, occurrences
+from kineme.methods.kineme._repetition_kernels import sample_repetitions
+from kineme.methods.kineme.ends import fit_ends
+from kineme.methods.kineme.events import Occurrences, find_occurrences
 from kineme.methods.kineme.joining import Sets, join_sets
-from kineme.methods.kineme.repetitions import PLACES, Movement, movement_of, repetitions
+from kineme.methods.kineme.repetitions import PLACES, Movement, find_repetitions, trace_movement
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
@@ -113,12 +113,12 @@ def divide_into_repetitions(
     preset : KinemeConstants
     """
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
-    cuts = map_threads(lambda span: repetitions(rows, *span, preset), spans)
+    cuts = map_threads(lambda span: find_repetitions(rows, *span, preset), spans)
     if preset.same_set <= 1:
         sets = Sets(starts, stops, labels, preference, cuts)
         starts, stops, labels, preference, cuts = join_sets(rows, sets, preset)
     # Cuts of one activity do not depend on others; ends do, as they may fit another's repetition.
-    ends = fitted_ends(rows, starts, stops, labels, cuts, preset)
+    ends = fit_ends(rows, starts, stops, labels, cuts, preset)
     borders, segment = _tile(len(rows), ends.starts, ends.stops)
     primitives, repeated = _tile(len(rows), ends.firsts, ends.lasts, [borders, *cuts])
     labels, preference = np.append(labels, -1), np.append(preference, np.nan)
@@ -186,7 +186,7 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
     # Rank of each segment in its cluster; the first `COMPARED` of each stand for it.
     within = np.arange(len(repeating)) - np.searchsorted(rank[first], rank[first])
     compared = repeating[np.sort(first[within < COMPARED])]
-    similarity = kernels.similarities(np.stack([movements[at] for at in compared.tolist()]))
+    similarity = kernels.measure_similarities(np.stack([movements[at] for at in compared.tolist()]))
     while True:
         names, of = np.unique(labels[compared], return_inverse=True)
         members = np.eye(len(names))[of]
@@ -215,15 +215,15 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     preset : KinemeConstants
     """
     shares = measure_explained(rows, segments, preset)
-    shares = action_means(shares, np.ones_like(segments.labels), segments.labels)
+    shares = average_by_cluster(shares, np.ones_like(segments.labels), segments.labels)
     weak = shares < preset.min_explained
     if weak.any():
         lengths = np.diff(segments.borders)
         searched = np.repeat(weak | (weak & (segments.labels >= 0)).any(), lengths)
         # Where no activity is weak, transitions are not searched: there is nothing to recur with.
-        found = occurrences(rows, searched, preset)
+        found = find_occurrences(rows, searched, preset)
         recurring = found.within(segments.borders, weak).explained(segments.borders)
-        recurring = action_means(recurring, lengths, segments.labels)
+        recurring = average_by_cluster(recurring, lengths, segments.labels)
         # Repetitions give way only where occurrences cover more of the activity than they explain.
         free = weak & ((segments.labels < 0) | (recurring > shares))
         found = found.within(segments.borders, free)
@@ -258,11 +258,11 @@ def _find_repeated(
     first, last = segments.firsts[segment : segment + 2]
     inside = first + np.flatnonzero(segments.repeats[first:last])
     edges = segments.primitives[inside[0] : inside[-1] + 2]
-    movement, visits = movement_of(rows[edges[0] : edges[-1]], preset), edges - edges[0]
-    return movement, visits, repetitions_between(movement.poses, movement.path, visits, PLACES)
+    movement, visits = trace_movement(rows[edges[0] : edges[-1]], preset), edges - edges[0]
+    return movement, visits, sample_repetitions(movement.poses, movement.path, visits, PLACES)
 
 
-def action_means(shares: Floats, weights: NDArray[np.integer], labels: Frames) -> Floats:
+def average_by_cluster(shares: Floats, weights: NDArray[np.integer], labels: Frames) -> Floats:
     """Return for each segment the weighted mean share of its cluster; 0 of transitions."""
     in_cluster = labels >= 0
     clusters = labels[in_cluster]
@@ -285,7 +285,7 @@ def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) 
         Transitions, and activities of clusters that are not periodic.
     """
     # A border inside an occurrence moves to its nearer end, which may empty a segment.
-    borders, old = _drop_empty(_out_of(found, segments.borders), segments.labels)
+    borders, old = _drop_empty(_move_out_of(found, segments.borders), segments.labels)
     free = free[old]
     cuts = segments.primitives[:-1]
     cuts = cuts[~free[_segment_at(borders, cuts)]]
@@ -374,7 +374,7 @@ def _drop_empty(borders: Frames, labels: Frames) -> tuple[Frames, Frames]:
     return np.append(borders[kept], borders[-1]), kept
 
 
-def _out_of(found: Occurrences, borders: Frames) -> Frames:
+def _move_out_of(found: Occurrences, borders: Frames) -> Frames:
     """Return the borders, those within an occurrence moved to its nearer end."""
     if not len(found):
         return borders

@@ -24,8 +24,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.kineme import _repeating_kernels as kernels
-from kineme.methods.kineme._repetition_kernels import repetitions_between
-from kineme.methods.kineme.repetitions import PLACES, Movement, candidate, movement_of, visits_tried
+from kineme.methods.kineme._repetition_kernels import sample_repetitions
+from kineme.methods.kineme.repetitions import (
+    PLACES,
+    Movement,
+    assess_division,
+    propose_visits,
+    trace_movement,
+)
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -67,7 +73,7 @@ class Repeating:
         best = self.division(start, stop)
         if best is None:
             return 0.0
-        spread: float = kernels.spread(view, best.start, best.stop, COMPARED)
+        spread: float = kernels.measure_spread(view, best.start, best.stop, COMPARED)
         return best.share * spread / unit
 
     def division(self, start: int, stop: int) -> Division | None:
@@ -77,10 +83,10 @@ class Repeating:
         if not SPAN[0] <= (stop - start) / rate <= SPAN[1] or len(rows) < PLACES:
             return None
         # Where a pose is visited once per repetition, the visits divide the span.
-        movement = movement_of(rows, self.preset)
+        movement = trace_movement(rows, self.preset)
         divisions = (
             (self._share(movement, visits), visits)
-            for visits in visits_tried(rows, movement, self.preset)
+            for visits in propose_visits(rows, movement, self.preset)
         )
         share, visits = max(
             divisions,
@@ -90,7 +96,7 @@ class Repeating:
         if share <= 0:
             return None
         # A part of a repetition before the first visit and after the last repeats, too.
-        ends = candidate(movement, visits, self.preset, centering=1.0)
+        ends = assess_division(movement, visits, self.preset, centering=1.0)
         period = (visits[-1] - visits[0]) / (len(visits) - 1)
         first = start + (visits[0] - min(ends.before, 1.0) * period) / fps * rate
         last = start + (visits[-1] + min(ends.after, 1.0) * period) / fps * rate
@@ -111,10 +117,10 @@ class Repeating:
         )
         if share <= 0:
             return 0.0
-        repetitions = repetitions_between(movement.poses, movement.path, visits, PLACES)
+        repetitions = sample_repetitions(movement.poses, movement.path, visits, PLACES)
         kernels.center(repetitions)
         explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
-        share *= _beyond(explained, preset.min_explained)
+        share *= _ramp_up(explained, preset.min_explained)
         return share and share * share_of_one_movement(repetitions, preset)
 
 
@@ -127,13 +133,13 @@ def share_of_one_movement(repetitions: NDArray[np.float64], preset: KinemeConsta
         Each with a mean of 0.
     preset : KinemeConstants
     """
-    share = _beyond(kernels.best_parting(repetitions), preset.two_movements)
-    return share and share * _beyond(
-        kernels.best_parting(channel_energies(repetitions)), preset.same_channels
+    share = _ramp_up(kernels.find_best_parting(repetitions), preset.two_movements)
+    return share and share * _ramp_up(
+        kernels.find_best_parting(measure_channel_energies(repetitions)), preset.same_channels
     )
 
 
-def channel_energies(centered: NDArray[np.float64]) -> NDArray[np.float64]:
+def measure_channel_energies(centered: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return how strongly each channel moves in each repetition, whatever the repetition's size.
 
     Parameters
@@ -157,6 +163,6 @@ def channel_energies(centered: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.ascontiguousarray(energies)
 
 
-def _beyond(share: float, threshold: float) -> float:
+def _ramp_up(share: float, threshold: float) -> float:
     """0 below the threshold and 1 above it, evenly between within `SOFT` of it."""
     return min(max((share - threshold) / (2 * SOFT) + 0.5, 0.0), 1.0)

@@ -140,7 +140,7 @@ class Candidate:
         return self.visits[int(first) : len(self.visits) - (spare - int(first))]
 
 
-def repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) -> Frames:
+def find_repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) -> Frames:
     """Frames at which the second, third, ... repetition of an activity begins, at equal phase.
 
     The first begins with the activity, the others at rest if there are rests.
@@ -154,8 +154,8 @@ def repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) 
     preset : KinemeConstants
     """
     rows = features[start:stop]
-    movement = movement_of(rows, preset)
-    candidates = _candidates(rows, movement, preset)
+    movement = trace_movement(rows, preset)
+    candidates = _find_candidates(rows, movement, preset)
     if not candidates:
         return np.empty(0, np.int64)
     best = min(candidates, key=lambda each: each.cost)
@@ -176,7 +176,7 @@ def repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) 
     return start + shift_to_rest(cuts, movement.path, preset.frames(REST_AVERAGED))
 
 
-def movement_of(rows: Rows, preset: KinemeConstants) -> Movement:
+def trace_movement(rows: Rows, preset: KinemeConstants) -> Movement:
     """Return a span of a recording as a path of poses."""
     poses, speeds = kernels.smooth_rows(rows, preset.frames(SMOOTHED))
     path = np.append(0, np.cumsum(speeds))
@@ -186,11 +186,11 @@ def movement_of(rows: Rows, preset: KinemeConstants) -> Movement:
     return Movement(poses, middle, path, float(shares @ (poses**2).sum(axis=1)))
 
 
-def visits_tried(rows: Rows, movement: Movement, preset: KinemeConstants) -> Iterator[Frames]:
+def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> Iterator[Frames]:
     """Frames at which a pose is visited, once per repetition, of each division that is tried."""
     # Some poses, evenly in time, each of which is searched everywhere.
     references = np.unique(np.linspace(0, len(rows) - 1, min(VOTERS, len(rows))).astype(np.int64))
-    depths, centers = _dips(rows, references, preset)
+    depths, centers = _find_dips(rows, references, preset)
     # Dips are sorted by depth: after the last true visit the next dip is much shallower.
     falls = depths - np.pad(depths[:, 1:], ((0, 0), (0, 1)))
     # A pose votes with its speed, since poses at rest are visited without a repetition.
@@ -203,25 +203,25 @@ def visits_tried(rows: Rows, movement: Movement, preset: KinemeConstants) -> Ite
             yield from np.sort(centers[clear[falls[clear, column] > 0], : column + 1], axis=1)
 
 
-def _dips(rows: Rows, references: Frames, preset: KinemeConstants) -> tuple[Rows, Frames]:
+def _find_dips(rows: Rows, references: Frames, preset: KinemeConstants) -> tuple[Rows, Frames]:
     """Depths, 0 to 1, of each reference's dips, deepest first, and where they are."""
-    distances = kernels.distances_to(rows, references)
+    distances = kernels.measure_distances(rows, references)
     rank = int(DEEP * (len(rows) - 1))
     # A quantile in place of the largest distance, which one outlier decides.
     large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
     noise = np.float32(preset.noise_share)
-    depths, centers = kernels.dips(distances, noise * large)
+    depths, centers = kernels.find_dips(distances, noise * large)
     most = max(int(np.count_nonzero(depths.any(axis=0))), 1)  # the others have none
     depths, centers = depths[:, :most], centers[:, :most]
     shares = np.minimum(depths / large[:, None], 1)
     return np.maximum(shares - noise, 0), centers
 
 
-def _candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
+def _find_candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
     """Divisions of an activity into more than one repetition."""
     found = [
-        candidate(movement, visits, preset, preset.centering)
-        for visits in visits_tried(rows, movement, preset)
+        assess_division(movement, visits, preset, preset.centering)
+        for visits in propose_visits(rows, movement, preset)
     ]
     return [each for each in found if each.count > 1 and not _is_chance(each, movement, preset)]
 
@@ -232,16 +232,16 @@ def _is_chance(division: Candidate, movement: Movement, preset: KinemeConstants)
     Standing and leaning now to one side, now to the other, is no repetition.
     """
     if preset.centering < 1:
-        division = candidate(movement, division.visits, preset, centering=1.0)
+        division = assess_division(movement, division.visits, preset, centering=1.0)
     return division.is_chance(preset.max_unexplained)
 
 
-def candidate(
+def assess_division(
     movement: Movement, visits: Frames, preset: KinemeConstants, centering: float
 ) -> Candidate:
     """Return the division of an activity at these visits, with its ends."""
     near, scattered = preset.end_distance * movement.variance, preset.end_scatter
-    before, after, ends, unexplained = kernels.division(
+    before, after, ends, unexplained = kernels.measure_division(
         movement.poses, movement.path, visits, PLACES, near, FOLLOWED, centering, scattered
     )
     return Candidate(visits, before, after, ends, unexplained, preset)

@@ -114,15 +114,17 @@ class FineLevel(NamedTuple):
     sums: Floats
 
 
-def fine_level_of(features: Rows, preset: KinemeConstants) -> FineLevel:
+def find_fine_level(features: Rows, preset: KinemeConstants) -> FineLevel:
     """Return the finest segments of a view, (samples, dims)."""
-    unit = median_distance(features, preset.near)
+    unit = compute_median_distance(features, preset.near)
     cost = preset.samples(preset.fine_cost)
-    borders = fine_borders(features, unit, width=preset.near, cost=cost)
+    borders = find_fine_borders(features, unit, width=preset.near, cost=cost)
     return FineLevel(features, unit, borders, sum_between_segments(features, borders, unit))
 
 
-def level_of(fine: FineLevel, preset: KinemeConstants, repeating: Repeating | None = None) -> Level:
+def find_level(
+    fine: FineLevel, preset: KinemeConstants, repeating: Repeating | None = None
+) -> Level:
     """Return the segments of a view at the level of the shortest description.
 
     Parameters
@@ -136,9 +138,9 @@ def level_of(fine: FineLevel, preset: KinemeConstants, repeating: Repeating | No
     def saved(start: int, stop: int) -> float:
         return repeating.saved(fine.features, fine.unit, start, stop) if repeating else 0.0
 
-    level = best_level(fine.borders, fine.sums, preset, saved)
+    level = choose_level(fine.borders, fine.sums, preset, saved)
     at = np.searchsorted(fine.borders, level.borders[:-1])
-    preference = preferences(sum_runs(fine.sums, at), np.diff(level.borders), level.labels)
+    preference = measure_preferences(sum_runs(fine.sums, at), np.diff(level.borders), level.labels)
     return Level(fine.borders, level.borders, level.labels, preference)
 
 
@@ -163,7 +165,7 @@ class Grouped(NamedTuple):
     alone: Floats
 
 
-def median_distance(features: Rows, width: int) -> float:
+def compute_median_distance(features: Rows, width: int) -> float:
     """Return the median distance of two samples that are so near in time; 1 where all are equal.
 
     An hour varies more than each of its minutes: the median distance of all samples would grow
@@ -175,14 +177,14 @@ def median_distance(features: Rows, width: int) -> float:
     width : int
         Samples that two are apart, at most.
     """
-    at = spread(0, len(features), PAIRED)
+    at = spread_samples(0, len(features), PAIRED)
     # Samples stand 1/PAIRED of the recording apart: of hours, neighbours must still be a pair.
-    apart = kernels.near_distances(features, at, max(width, 2 * len(features) // PAIRED))
+    apart = kernels.measure_near_distances(features, at, max(width, 2 * len(features) // PAIRED))
     middle = float(np.median(apart)) if len(apart) else 0.0
     return middle if middle > 1e-9 else 1.0
 
 
-def fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Samples:
+def find_fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Samples:
     """Borders of the segments whose samples are near each other, ends included.
 
     Parameters
@@ -198,11 +200,11 @@ def fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Sam
     similarity = np.empty((len(features), min(width, len(features))), np.float32)
 
     def fill(rows: slice) -> None:
-        kernels.similarity_band(features, unit, rows.start, rows.stop, similarity)
+        kernels.compute_similarity_band(features, unit, rows.start, rows.stop, similarity)
 
     map_threads(fill, make_even_slices(len(features)))
     # The cost of a span is half the sum over ordered pairs, so a border costs twice as much there.
-    borders: Samples = kernels.change_points(similarity, 2 * cost)
+    borders: Samples = kernels.find_change_points(similarity, 2 * cost)
     return borders
 
 
@@ -211,7 +213,7 @@ def sum_between_segments(features: Rows, borders: Samples, unit: float) -> Float
     k = len(borders) - 1
     # Few samples stand for a segment where there are many: time and memory stay bounded.
     most = max(LEAST, min(MOST, COMPARED // k))
-    groups = [spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
+    groups = [spread_samples(start, stop, most) for start, stop in pairwise(borders.tolist())]
     lengths = np.diff(borders)
     # A mean distance times the number of pairs estimates the sum over all samples.
     sums = mean_distances(features, groups) * np.outer(lengths, lengths)
@@ -232,7 +234,7 @@ def mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
     return np.triu(means) + np.triu(means, 1).T
 
 
-def levels(borders: Samples, sums: Floats) -> list[Samples]:
+def list_levels(borders: Samples, sums: Floats) -> list[Samples]:
     """Borders of each level, indices of `borders`, from one segment to all.
 
     Parameters
@@ -267,7 +269,7 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
     return found[::-1]
 
 
-def best_level(
+def choose_level(
     borders: Samples, sums: Floats, preset: KinemeConstants, saved: Callable[[int, int], float]
 ) -> Grouped:
     """Return the level and clusters of the shortest description.
@@ -283,7 +285,7 @@ def best_level(
         Samples that a segment, from one to another, saves by repeating itself. They are subtracted
         from the cost of a level, and do not change its grouping.
     """
-    tree = levels(borders, sums.copy())
+    tree = list_levels(borders, sums.copy())
     # Levels of few segments differ most: each is tried; of many segments, ever sparser ones.
     tried = {*range(min(len(tree), EACH_LEVEL))}
     tried |= {int(at) for at in np.geomspace(1, len(tree), LEVELS).astype(np.int64) - 1}
@@ -322,7 +324,7 @@ def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> G
     segment_cost = preset.samples(preset.segment_cost)
     cluster_cost = preset.cluster_price(int(borders[-1]))
     most, share = preset.max_clusters, preset.spread_share
-    kernels.cheapest_grouping(
+    kernels.find_cheapest_grouping(
         sums.copy(), lengths.copy(), most, segment_cost, cluster_cost, share, labels
     )
     shortest = round(preset.samples(preset.min_action))
@@ -383,7 +385,7 @@ def sum_runs(sums: Floats, first: Samples) -> Floats:
     return np.asarray(np.add.reduceat(np.add.reduceat(sums, first, 0), first, 1), np.float64)
 
 
-def preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
+def measure_preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
     """Return how much nearer each segment is to its own cluster than to the next, 0 to 1.
 
     Parameters
@@ -401,7 +403,7 @@ def preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
     return np.asarray(np.clip(1 - inside / np.maximum(means.min(axis=1), 1e-12), 0, 1), np.float64)
 
 
-def spread(start: int, stop: int, most: int) -> Samples:
+def spread_samples(start: int, stop: int, most: int) -> Samples:
     """Samples of a segment, evenly spread, so many at most.
 
     Examples
@@ -413,7 +415,7 @@ def spread(start: int, stop: int, most: int) -> Samples:
     return start + (2 * np.arange(n) + 1) * (stop - start) // (2 * n)
 
 
-def part_ends(rows: Rows | Floats, longest: int, side: int) -> list[int]:
+def choose_part_ends(rows: Rows | Floats, longest: int, side: int) -> list[int]:
     """Return the ends of about equal parts, each where the rows change most nearby.
 
     The first is 0 and the last the number of rows. Equal parts are at most `longest`; their ends
@@ -440,11 +442,11 @@ def part_ends(rows: Rows | Floats, longest: int, side: int) -> list[int]:
         middle = round(n * part / count)
         near = np.arange(max(middle - reach, ends[-1] + 1), middle + reach + 1)
         near = near[(near >= side) & (near <= n - side)]
-        ends.append(int(near[_changes(rows, near, side).argmax()]) if len(near) else middle)
+        ends.append(int(near[_measure_changes(rows, near, side).argmax()]) if len(near) else middle)
     return [*ends, n]
 
 
-def _changes(rows: Rows | Floats, at: Samples, side: int) -> Floats:
+def _measure_changes(rows: Rows | Floats, at: Samples, side: int) -> Floats:
     """Return how much the mean of rows, and their mean change, differ before and after frames."""
     first, last = int(at[0]) - side, int(at[-1]) + side
     span = np.asarray(rows[first:last], np.float64)
@@ -487,7 +489,7 @@ def link_parts(
     sizes = np.bincount(per_sample, minlength=int(firsts[-1]))
     if sizes.all():  # a part shorter than a sample has nothing to compare: parts stay apart
         groups = [np.flatnonzero(per_sample == cluster) for cluster in range(len(sizes))]
-        chosen = [group[spread(0, len(group), OF_CLUSTER)] for group in groups]
+        chosen = [group[spread_samples(0, len(group), OF_CLUSTER)] for group in groups]
         means = mean_distances(features, chosen) / unit
         part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
         labels = link(means, sizes, part_of, price)[labels]

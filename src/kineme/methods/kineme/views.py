@@ -63,7 +63,7 @@ class Scale(NamedTuple):
     restless_over: float
 
 
-def views_of(
+def compute_views(
     channels: Floats,
     preset: KinemeConstants,
     *,
@@ -80,11 +80,11 @@ def views_of(
         Whether channels are of the positions of joints.
     """
     centred = channels - channels.mean(axis=0)
-    scaled = np.asarray(centred / _deviations(centred), np.float64)
+    scaled = np.asarray(centred / _measure_deviations(centred), np.float64)
     scales = [*map(Scale, preset.shared, preset.weights, preset.restless_over)]
     requested = [(np.arange(scaled.shape[1]), scale) for scale in scales]
     if len(scales) > 1 and preset.half_views:
-        halves = slow_and_fast(scaled)
+        halves = split_by_speed(scaled)
         # An answer that half of the channels gives as well depends on no single channel.
         requested += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
     found = _make_scales(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
@@ -107,7 +107,7 @@ def append_velocities(
     return np.ascontiguousarray(np.column_stack([view, velocities]), np.float32)
 
 
-def slow_and_fast(scaled: Floats) -> list[Ints]:
+def split_by_speed(scaled: Floats) -> list[Ints]:
     """Return the half of the channels that changes less from frame to frame, and the other half.
 
     Examples
@@ -231,7 +231,7 @@ def divide_by_change(statistics: Floats, steps: int, weight: float) -> NDArray[n
     return np.ascontiguousarray(centred / np.maximum(restless, least) ** weight, np.float32)
 
 
-def _deviations(centred: Floats) -> Floats:
+def _measure_deviations(centred: Floats) -> Floats:
     """Return the standard deviation of each column; 1 where nothing changes."""
     deviations: Floats = np.sqrt((centred**2).mean(axis=0))
     return np.where(deviations > TINY, deviations, 1.0)
@@ -259,13 +259,13 @@ def choose_view(
     """
     voters = [*answers, *others]
     first, last = (
-        sum(mutual_information(answers[one], voter) for voter in voters) for one in (0, -1)
+        sum(measure_mutual_information(answers[one], voter) for voter in voters) for one in (0, -1)
     )
     needed = first + margin * len(voters)
     return len(answers) - 1 if round(last - needed, DIGITS) > 0 else 0
 
 
-def mutual_information(first: Labels, second: Labels) -> float:
+def measure_mutual_information(first: Labels, second: Labels) -> float:
     """Return mutual information of two clusterings of the same samples, over their mean entropy.
 
     Examples
@@ -279,13 +279,13 @@ def mutual_information(first: Labels, second: Labels) -> float:
     width = int(second.max()) + 1
     together = np.bincount(first * width + second, minlength=(int(first.max()) + 1) * width)
     table = together.reshape(-1, width)
-    one, other = _entropy(table.sum(axis=1)), _entropy(table.sum(axis=0))
+    one, other = _measure_entropy(table.sum(axis=1)), _measure_entropy(table.sum(axis=0))
     if one + other == 0:
         return 1.0
-    return max(0.0, 2 * (1 - _entropy(table.ravel()) / (one + other)))
+    return max(0.0, 2 * (1 - _measure_entropy(table.ravel()) / (one + other)))
 
 
-def _entropy(counts: Labels) -> float:
+def _measure_entropy(counts: Labels) -> float:
     """Of the shares that counts are."""
     shares = counts[counts > 0] / counts.sum()
     return float(-(shares * np.log(shares)).sum()) + 0.0

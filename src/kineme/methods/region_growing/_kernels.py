@@ -37,7 +37,7 @@ def group_pairs(indptr, indices, by_later):
 
 
 @njit("int64(int64[::1], int64, int64)", **OPTIONS)
-def most(counts, first, last):
+def find_most(counts, first, last):
     """Return the largest of the counts from first to last, both inclusive."""
     largest = counts[first]
     for i in range(first + 1, last + 1):
@@ -66,7 +66,7 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
         still += 1
         if still == min_gap:
             # A region that holds too little goes on instead of being cut.
-            if most(counts, last, i) > min_count:
+            if find_most(counts, last, i) > min_count:
                 last = i - still
                 start = i
                 # The new square begins with the pairs of frame i alone.
@@ -102,7 +102,7 @@ def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
             still += 1
             if still == min_gap:
                 still = 0
-                restart = most(counts, i, last) > min_count
+                restart = find_most(counts, i, last) > min_count
         if restart:
             last = end = i
             found = 0
@@ -165,7 +165,7 @@ def count_members(values, of):
 
 
 @njit("boolean[::1](int64[::1], int32[::1], int32[::1], float64)", **OPTIONS)
-def coherent_paths(ptr, rows, columns, share):
+def mark_coherent_paths(ptr, rows, columns, share):
     """Which paths have a mirror image: a path that matches their spans the other way round."""
     n = len(ptr) - 1
     coherent = np.zeros(n, np.bool_)
@@ -198,7 +198,7 @@ def row_of_column(rows, columns, column):
     " float64, boolean)",
     **OPTIONS,
 )
-def linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
+def find_linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
     """Segments h that paths through segment g link to it, and the smaller share covered.
 
     Segments are the frames ``borders[h]..borders[h + 1]``, both inclusive. A
@@ -229,7 +229,7 @@ def linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
 
 
 @njit("int64[::1](int64[::1], int32[::1], int64[::1])", **OPTIONS)
-def inner_neighbors(indptr, indices, borders):
+def count_inner_neighbors(indptr, indices, borders):
     """Neighbours of each frame inside its own block ``[borders[b], borders[b + 1])``."""
     counts = np.zeros(len(indptr) - 1, np.int64)
     for b in range(len(borders) - 1):

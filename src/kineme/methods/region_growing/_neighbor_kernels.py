@@ -18,7 +18,7 @@ RUN = 32
 
 
 @njit("float32(float32[::1], int64, int64)", **OPTIONS)
-def smallest(values, count, rank):
+def select_smallest(values, count, rank):
     """Return the value of this rank, from 0, among the first ``count``, which are reordered.
 
     Hoare's quickselect: numpy's partition would take seconds to compile.
@@ -109,7 +109,7 @@ def measure_columns(rows, others, radius, first_column, columns, counts):
 
 
 @njit("boolean[::1](int64[::1], float32[::1], int64)", **OPTIONS)
-def nearest_mask(indptr, distances, k):
+def mark_nearest(indptr, distances, k):
     """Which entries are among the k nearest of their row, ties to the earlier entry.
 
     Row i is ``distances[indptr[i] - indptr[0]:indptr[i + 1] - indptr[0]]``.
@@ -127,7 +127,7 @@ def nearest_mask(indptr, distances, k):
         for e in range(count):
             values[e] = distances[first + e]
         # The k-th smallest distance of the row.
-        limit = smallest(values, count, k - 1) if k > 0 else np.float32(-1)
+        limit = select_smallest(values, count, k - 1) if k > 0 else np.float32(-1)
         # How many entries at exactly that distance are still to be kept.
         ties = k
         for e in range(first, first + count):

@@ -20,7 +20,7 @@ from kineme._util.parallel import OPTIONS
 @njit(
     "Tuple((int64[::1], int64[::1]))(int64[::1], int32[::1], int64, int64, int64, int64)", **OPTIONS
 )
-def box_rows(indptr, indices, row_start, row_stop, column_start, column_stop):
+def find_box_rows(indptr, indices, row_start, row_stop, column_start, column_stop):
     """``first`` and ``node`` of the rows of a box."""
     rows = row_stop - row_start
     first = np.empty(rows, np.int64)
@@ -35,7 +35,7 @@ def box_rows(indptr, indices, row_start, row_stop, column_start, column_stop):
 
 
 @njit("Tuple((int64, int64))(int32[::1], int64[::1], int64[::1])", **OPTIONS)
-def used_columns(indices, first, node):
+def find_used_columns(indices, first, node):
     """First column with a node, and how many from there hold all: what a ring must span."""
     # The largest number of an index stands for no column yet.
     low, high = np.int64(np.iinfo(np.int32).max), np.int64(-1)
@@ -48,7 +48,7 @@ def used_columns(indices, first, node):
 
 
 @njit("Tuple((int32[::1], int64, int64))(int64[:, ::1], int64)", **OPTIONS)
-def empty_ring(steps, width):
+def make_ring(steps, width):
     """Return the ring, the length of its rows, and how far steps reach to the left."""
     # As many rows as the longest step goes back, plus the current one.
     depth, reach = 1, 0
@@ -87,12 +87,12 @@ def enter_row(ring, line, slots, r, indices, first, node, steps, offset):
 
 
 @njit("int32[::1](int32[::1], int64[::1], int64[::1], int64[:, ::1], int64, int64)", **OPTIONS)
-def component_roots(indices, first, node, steps, column_start, width):
+def find_component_roots(indices, first, node, steps, column_start, width):
     """``roots[v]``: the first node of the weakly connected component of v."""
     n = node[-1]
     # Union-find over nodes; a root has the smallest number of its component.
     parents = np.empty(n, np.int32)
-    ring, line, reach = empty_ring(steps, width)
+    ring, line, reach = make_ring(steps, width)
     slots = np.empty(len(steps), np.int64)
     for r in range(len(first)):
         enter_row(ring, line, slots, r, indices, first, node, steps, reach - column_start)
@@ -132,7 +132,7 @@ def component_roots(indices, first, node, steps, column_start, width):
     " int64[::1], int64[:, ::1], float64[::1], int64, int64, int32[::1], boolean[::1], float64)",
     **OPTIONS,
 )
-def cheapest_arrivals(
+def find_cheapest_arrivals(
     indices, distances, first, node, steps, penalties, column_start, width, roots, valid, zero_cost
 ):
     """Cost, predecessor and first column of the cheapest path to every node.
@@ -145,7 +145,7 @@ def cheapest_arrivals(
     costs = np.full(n, np.inf)
     before = np.full(n, -1, np.int32)
     origins = np.full(n, -1, np.int32)
-    ring, line, reach = empty_ring(steps, width)
+    ring, line, reach = make_ring(steps, width)
     slots = np.empty(len(steps), np.int64)
     for r in range(len(first)):
         enter_row(ring, line, slots, r, indices, first, node, steps, reach - column_start)
@@ -230,16 +230,16 @@ def choose_ends(roots, valid, last_rows, costs, origins, node, separation):
     " float64[::1], float64, int64, int64)",
     **OPTIONS,
 )
-def paths_in_box(
+def find_paths_in_box(
     indptr, indices, distances, row_start, row_stop, column_start, column_stop, steps, penalties,
     zero_cost, min_nodes, separation,
 ):  # fmt: skip
     """Cheapest paths through the components of a box: pointers, rows, columns, costs."""
-    first, node = box_rows(indptr, indices, row_start, row_stop, column_start, column_stop)
-    column_start, width = used_columns(indices, first, node)
-    roots = component_roots(indices, first, node, steps, column_start, width)
+    first, node = find_box_rows(indptr, indices, row_start, row_stop, column_start, column_stop)
+    column_start, width = find_used_columns(indices, first, node)
+    roots = find_component_roots(indices, first, node, steps, column_start, width)
     valid, last_rows = survey_components(roots, node, min_nodes)
-    costs, before, origins = cheapest_arrivals(
+    costs, before, origins = find_cheapest_arrivals(
         indices, distances, first, node, steps, penalties, column_start, width, roots, valid,
         zero_cost,
     )  # fmt: skip

@@ -38,7 +38,7 @@ class ActivityCuts:
         return np.union1d(self.forward, self.backward)
 
 
-def square_cuts(
+def find_square_cuts(
     graph: NeighborGraph,
     *,
     min_gap: int,
@@ -67,13 +67,13 @@ def square_cuts(
     # Grouped by their later frame (True), at which the square takes them in.
     indptr, earlier = _kernels.group_pairs(graph.indptr, graph.indices, True)
     counts = _kernels.grow_squares_forward(indptr, earlier, min_gap, min_count)
-    forward = _peaks(counts, min_count, min_distance)
+    forward = _find_peaks(counts, min_count, min_distance)
     mask = np.zeros(n, np.bool_)
     mask[forward] = True
     indptr, later = _kernels.group_pairs(graph.indptr, graph.indices, False)
     counts = _kernels.grow_squares_backward(indptr, later, mask, min_gap, min_count)
     # The peak is where the region was given up; it stopped growing `min_gap` frames later in time.
-    backward = np.minimum(_peaks(counts, min_count, min_distance) + min_gap, n - 1)
+    backward = np.minimum(_find_peaks(counts, min_count, min_distance) + min_gap, n - 1)
     return ActivityCuts(forward, backward)
 
 
@@ -101,7 +101,7 @@ def scan_line_cuts(graph: NeighborGraph, *, min_gap: int, min_count: int) -> Act
     return ActivityCuts(forward, backward)
 
 
-def _peaks(counts: Cuts, min_height: int, min_distance: int) -> Cuts:
+def _find_peaks(counts: Cuts, min_height: int, min_distance: int) -> Cuts:
     """First frames of the plateaus that rise before and fall after, higher than a height.
 
     In descending height a peak kept removes those within ``min_distance``.

@@ -19,16 +19,16 @@ from kineme.methods.base import Mirror
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.activities import (
     ActivityCuts,
+    find_square_cuts,
     scan_line_cuts,
-    square_cuts,
 )
 from kineme.methods.region_growing.clustering import Clustering, cluster_segments
 from kineme.methods.region_growing.found import RegionsFound
-from kineme.methods.region_growing.mirroring import merged_cuts, symmetry_type
+from kineme.methods.region_growing.mirroring import classify_symmetry, merge_cuts
 from kineme.methods.region_growing.neighbors import NeighborGraph, neighbor_graph
-from kineme.methods.region_growing.primitives import PrimitiveCuts, primitive_cuts
-from kineme.methods.region_growing.warping import component_labels
-from kineme.methods.stages import Progress, stopwatch
+from kineme.methods.region_growing.primitives import PrimitiveCuts, find_primitive_cuts
+from kineme.methods.region_growing.warping import label_components
+from kineme.methods.stages import Progress, time_stages
 
 if TYPE_CHECKING:
     from kineme.methods.region_growing.constants import RegionGrowingConstants
@@ -71,7 +71,7 @@ def analyze_regions(
     if preset.mirror and mirror is None:
         raise ParameterError("these features have no left and right: they take mirror=False")
     timings: dict[str, float] = {}
-    stage = stopwatch(timings, progress)
+    stage = time_stages(timings, progress)
     compared = given
     if preset.bundling is not None:
         from kineme.features.bundling import bundle  # compiled code that few need
@@ -79,32 +79,32 @@ def analyze_regions(
         with stage("bundling"):
             compared = bundle(given, neighbors=preset.bundling)
     with stage("neighbors"):
-        graph = _neighbors(compared, None, preset)
+        graph = _find_neighbors(compared, None, preset)
     with stage("activities"):
-        off_diagonal = _growth_graph(graph, preset)
-        cuts = _activity_cuts(off_diagonal, preset)
-        borders = _borders(cuts.all, len(graph))
+        off_diagonal = _make_growth_graph(graph, preset)
+        cuts = _find_activity_cuts(off_diagonal, preset)
+        borders = _make_borders(cuts.all, len(graph))
         # Neighbours of each frame within its own segment; their sum tells whether a segment
         # repeats.
-        inner = _kernels.inner_neighbors(off_diagonal.indptr, off_diagonal.indices, borders)
-        repeats = _repeats(borders, cuts, np.add.reduceat(inner, borders[:-1]), preset)
+        inner = _kernels.count_inner_neighbors(off_diagonal.indptr, off_diagonal.indices, borders)
+        repeats = _find_repeats(borders, cuts, np.add.reduceat(inner, borders[:-1]), preset)
         # Share of the frames of each segment that have a neighbour in it.
         repetition = np.add.reduceat(inner > 0, borders[:-1]) / np.diff(borders)
     with stage("primitives"):
-        divided = _primitives(graph, borders, preset)
+        divided = _find_primitives(graph, borders, preset)
     cuts_inside = [each.cuts for each in divided]
     symmetry = None
     if preset.mirror and mirror is not None:
         with stage("mirroring"):
             # Mirrored frames are compared with the original ones.
-            graph_across = _neighbors(mirror(compared), compared, preset)
-            mirrored = _primitives(graph_across, borders, preset)
+            graph_across = _find_neighbors(mirror(compared), compared, preset)
+            mirrored = _find_primitives(graph_across, borders, preset)
             cuts_inside = _merge_cuts(divided, mirrored, preset)
-            symmetry = _symmetry(borders, repeats, divided, mirrored, preset)
+            symmetry = _classify_symmetry(borders, repeats, divided, mirrored, preset)
     with stage("clusters"):
         # Borders of activities are borders of primitives, too.
-        primitives = _borders(np.concatenate([borders, *cuts_inside]), len(graph))
-        clustering = _clusters(graph, primitives, preset)
+        primitives = _make_borders(np.concatenate([borders, *cuts_inside]), len(graph))
+        clustering = _find_clusters(graph, primitives, preset)
     return RegionsFound(
         compared,
         graph,
@@ -119,7 +119,7 @@ def analyze_regions(
     )
 
 
-def _neighbors(
+def _find_neighbors(
     features: ArrayLike, others: ArrayLike | None, preset: RegionGrowingConstants
 ) -> NeighborGraph:
     return neighbor_graph(
@@ -131,22 +131,22 @@ def _neighbors(
     )
 
 
-def _growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> NeighborGraph:
+def _make_growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> NeighborGraph:
     """Return the pairs that growing regions count: near enough, and off the main diagonal."""
     if preset.growth_neighbors is not None:
         graph = graph.nearest(preset.growth_neighbors)
     if preset.diagonal == "component":
-        labels = component_labels(graph)
+        labels = label_components(graph)
         # The first stored pair is (0, 0), so its label is that of the main diagonal.
         graph = graph.select(labels != labels[0])
         return graph.restrict(radius=preset.growth_radius)
     return graph.restrict(radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width))
 
 
-def _activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) -> ActivityCuts:
+def _find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) -> ActivityCuts:
     gap = max(1, preset.frames(preset.growth_gap))
     if preset.growth == "squares":
-        return square_cuts(
+        return find_square_cuts(
             graph,
             min_gap=gap,
             min_count=preset.growth_count,
@@ -155,13 +155,13 @@ def _activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) -> Acti
     return scan_line_cuts(graph, min_gap=gap, min_count=preset.growth_count)
 
 
-def _borders(cuts: Frames, n: int) -> Frames:
+def _make_borders(cuts: Frames, n: int) -> Frames:
     """0, the cuts that leave at least a frame on either side, n."""
     inner = np.unique(cuts)
     return np.concatenate([[0], inner[(inner > 0) & (inner < n - 1)], [n]])
 
 
-def _repeats(
+def _find_repeats(
     borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingConstants
 ) -> NDArray[np.bool_]:
     """Segments that repeat themselves; those from an end to the next start do not."""
@@ -170,14 +170,14 @@ def _repeats(
     return (pairs > preset.growth_count) & ~(ends_only & np.isin(borders[1:], cuts.backward))
 
 
-def _primitives(
+def _find_primitives(
     graph: NeighborGraph, borders: Frames, preset: RegionGrowingConstants
 ) -> list[PrimitiveCuts]:
     # Both ends are included, so the last border is the last frame.
     frames = np.minimum(borders, len(graph) - 1).tolist()
 
     def cuts_of(segment: int) -> PrimitiveCuts:
-        return primitive_cuts(
+        return find_primitive_cuts(
             graph,
             (frames[segment], frames[segment + 1]),
             steps=preset.steps,
@@ -185,7 +185,7 @@ def _primitives(
             skip_penalty=preset.skip_penalty * preset.radius,
             zero_cost=preset.zero_cost,
             min_nodes=ceil(preset.min_path * preset.working_fps),
-            separation=_separation(preset),
+            separation=_measure_separation(preset),
             max_slope=preset.max_slope,
             symmetry=preset.symmetry,
             min_length=preset.min_primitive * preset.working_fps,
@@ -198,10 +198,10 @@ def _merge_cuts(
     main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionGrowingConstants
 ) -> list[Frames]:
     gap = preset.min_primitive * preset.working_fps
-    return [merged_cuts(a.cuts, b.cuts, gap) for a, b in zip(main, mirrored, strict=True)]
+    return [merge_cuts(a.cuts, b.cuts, gap) for a, b in zip(main, mirrored, strict=True)]
 
 
-def _symmetry(
+def _classify_symmetry(
     borders: Frames,
     repeats: NDArray[np.bool_],
     main: list[PrimitiveCuts],
@@ -213,12 +213,14 @@ def _symmetry(
     # Last frames, included.
     last = (borders[1:] - 1).tolist()
     types = map(
-        symmetry_type, zip(borders.tolist(), last, strict=False), main, mirrored, repeat(gap)
+        classify_symmetry, zip(borders.tolist(), last, strict=False), main, mirrored, repeat(gap)
     )
     return np.where(repeats, list(types), "")
 
 
-def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionGrowingConstants) -> Clustering:
+def _find_clusters(
+    graph: NeighborGraph, segments: Frames, preset: RegionGrowingConstants
+) -> Clustering:
     if preset.cluster_neighbors is not None:
         graph = graph.nearest(preset.cluster_neighbors)
     return cluster_segments(
@@ -229,7 +231,7 @@ def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionGrowingConst
         skip_penalty=preset.skip_penalty * preset.radius,
         zero_cost=preset.zero_cost,
         min_nodes=ceil(preset.cluster_min_path * preset.working_fps),
-        separation=_separation(preset),
+        separation=_measure_separation(preset),
         max_slope=preset.max_slope,
         coverage=preset.coverage,
         interpolate=preset.interpolate,
@@ -237,5 +239,5 @@ def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionGrowingConst
     )
 
 
-def _separation(preset: RegionGrowingConstants) -> int | None:
+def _measure_separation(preset: RegionGrowingConstants) -> int | None:
     return None if preset.path_separation is None else preset.frames(preset.path_separation)

@@ -83,7 +83,7 @@ def cluster_segments(
             separation=separation,
             max_slope=max_slope,
         )
-        linked: tuple[NDArray[np.int64], NDArray[np.float64]] = _kernels.linked_segments(
+        linked: tuple[NDArray[np.int64], NDArray[np.float64]] = _kernels.find_linked_segments(
             paths.ptr, paths.rows, paths.columns, borders, g, coverage, interpolate
         )
         return linked
@@ -92,7 +92,7 @@ def cluster_segments(
     targets, shares = zip(*map_threads(links_of, range(n)), strict=True)
     links = _link_matrix(targets, shares)
     _, components = connected_components(links, directed=True, connection=connection)
-    return Clustering(number_by_appearance(components), _best_shares(links, components))
+    return Clustering(number_by_appearance(components), _find_best_shares(links, components))
 
 
 def _link_matrix(
@@ -112,7 +112,7 @@ def _link_matrix(
     return csr_array((share[keep], (g[keep], h[keep])), shape=(n, n))
 
 
-def _best_shares(links: csr_array, components: NDArray[np.int32]) -> NDArray[np.float64]:
+def _find_best_shares(links: csr_array, components: NDArray[np.int32]) -> NDArray[np.float64]:
     coo = links.tocoo()
     same = components[coo.row] == components[coo.col]
     # Both ends of a link within a cluster get its share.

@@ -28,7 +28,7 @@ from kineme.methods.region_growing.warping import WarpingPaths
 HALF = 0.5  # of the frames; more are most of them
 
 
-def merged_cuts(
+def merge_cuts(
     main: NDArray[np.int64], mirrored: NDArray[np.int64], gap: float
 ) -> NDArray[np.int64]:
     """Return main cuts, and those mirrored ones that are farther than ``gap`` frames from them all.
@@ -40,7 +40,7 @@ def merged_cuts(
     return np.union1d(main, mirrored[apart])
 
 
-def symmetry_type(
+def classify_symmetry(
     activity: tuple[int, int], main: PrimitiveCuts, mirrored: PrimitiveCuts, gap: float
 ) -> str:
     """``symmetric``, ``alternating`` or ``one-sided``: the symmetry of an activity.
@@ -59,11 +59,11 @@ def symmetry_type(
     # Paths through less than half of the frames: the mirrored movement is not in the activity.
     if len(np.unique(mirrored.paths.rows)) <= HALF * (last - first + 1):
         return "one-sided"
-    between = _distances(mirrored.paths, main.paths) > gap
+    between = _measure_distances(mirrored.paths, main.paths) > gap
     return "alternating" if between.mean() > HALF else "symmetric"
 
 
-def _distances(paths: WarpingPaths, others: WarpingPaths) -> NDArray[np.float64]:
+def _measure_distances(paths: WarpingPaths, others: WarpingPaths) -> NDArray[np.float64]:
     """For each node of the paths, how many columns the nearest node of the others is away."""
     order = np.lexsort((others.columns, others.rows))
     # Rows are put one after the other on a line, so that one sorted search serves all of them.

@@ -107,7 +107,7 @@ class NeighborGraph:
         def mask(rows: slice) -> NDArray[np.bool_]:
             # Pointers of these rows; the kernel counts from the first of them.
             indptr = self.indptr[rows.start : rows.stop + 1]
-            kept: NDArray[np.bool_] = _kernels.nearest_mask(
+            kept: NDArray[np.bool_] = _kernels.mark_nearest(
                 indptr, self.distances[indptr[0] : indptr[-1]], k
             )
             return kept
@@ -193,7 +193,7 @@ def neighbor_graph(
     # Without a limit all frames are within reach.
     lag = max(len(rows), len(columns)) if max_lag is None else max_lag
 
-    blocks = all_neighbors(rows, columns, radius=float(radius), k=k, lag=lag)
+    blocks = iterate_neighbors(rows, columns, radius=float(radius), k=k, lag=lag)
     # Blocks consist of parts that threads made, in order.
     parts = [part for block in blocks for part in block]
     counts, indices, distances = (np.concatenate(part) for part in zip(*parts, strict=True))
@@ -208,7 +208,7 @@ BLOCK_ENTRIES = 1 << 21
 Part = tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]
 
 
-def all_neighbors(
+def iterate_neighbors(
     rows: Floats, columns: Floats, *, radius: float, k: int | None, lag: int
 ) -> Iterator[list[Part]]:
     """Yield all neighbours, block of rows by block of rows.
@@ -230,7 +230,7 @@ def all_neighbors(
     # The condition |y|² - 2 x·y <= r² - |x|² is the same as a distance within r.
     limits = ((radius / scale) ** 2 - row_norms + margin).astype(np.float32)
 
-    height, width = _block_shape(len(rows), len(columns), lag)
+    height, width = _choose_block_shape(len(rows), len(columns), lag)
     # Allocated once and used by all blocks.
     product = np.empty(height * width, np.float32)
     screened = np.empty((height, width), np.int32)
@@ -287,11 +287,11 @@ def _measure(
         return counts, indices, distances
     # The counts of the rows as pointers, for the kernel.
     indptr = np.concatenate([[0], np.cumsum(counts)])
-    mask = _kernels.nearest_mask(indptr, distances, k)
+    mask = _kernels.mark_nearest(indptr, distances, k)
     return np.minimum(counts, k), indices[mask], distances[mask]
 
 
-def _block_shape(n_rows: int, n_columns: int, lag: int) -> tuple[int, int]:
+def _choose_block_shape(n_rows: int, n_columns: int, lag: int) -> tuple[int, int]:
     """Rows per block and the columns they can reach, within BLOCK_ENTRIES."""
     height = max(1, BLOCK_ENTRIES // n_columns)
     # In a narrow band a block has 2 lag more columns than rows: low blocks would waste work.

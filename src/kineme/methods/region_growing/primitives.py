@@ -34,7 +34,7 @@ class PrimitiveCuts:
     paths: WarpingPaths
 
 
-def primitive_cuts(
+def find_primitive_cuts(
     graph: NeighborGraph,
     activity: tuple[int, int],
     *,
@@ -77,7 +77,7 @@ def primitive_cuts(
         min_nodes=min_nodes,
         separation=separation,
     )
-    coherent = _kernels.coherent_paths(paths.ptr, paths.rows, paths.columns, symmetry)
+    coherent = _kernels.mark_coherent_paths(paths.ptr, paths.rows, paths.columns, symmetry)
     paths = paths.select(coherent & paths.is_within_slope(max_slope))
     return _choose(paths, first + min_length, last - min_length, min_length)
 

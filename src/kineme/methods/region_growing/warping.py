@@ -142,7 +142,7 @@ def warping_paths(
     ([0, 1], [2, 3])
     """
     check_type(graph, NeighborGraph, "warping_paths", "kineme.neighbor_graph(...) gives one")
-    rows, columns = _box(rows, "rows"), _box(columns, "columns")
+    rows, columns = _find_box(rows, "rows"), _find_box(columns, "columns")
     numbers = {"skip_penalty": skip_penalty, "zero_cost": zero_cost, "min_nodes": min_nodes}
     chosen = {"separation": separation, "max_slope": max_slope}
     numbers |= {name: value for name, value in chosen.items() if value is not None}
@@ -152,7 +152,7 @@ def warping_paths(
     moves = _as_steps(steps)
     # Rows and columns that a step passes over, beyond the next one.
     skipped = np.maximum(moves - 1, 0).sum(axis=1)
-    ptr, path_rows, path_columns, costs = _path_kernels.paths_in_box(
+    ptr, path_rows, path_columns, costs = _path_kernels.find_paths_in_box(
         graph.indptr,
         graph.indices,
         graph.distances,
@@ -172,7 +172,7 @@ def warping_paths(
     return paths.select(keep)
 
 
-def component_labels(
+def label_components(
     graph: NeighborGraph, *, steps: Sequence[Step] = BASIC_STEPS
 ) -> NDArray[np.int32]:
     """One label per stored pair: equal where warping steps connect two pairs.
@@ -190,13 +190,13 @@ def component_labels(
     """
     indptr = graph.indptr
     # The whole graph as a box: every row begins at its pointer, and nodes are entries.
-    labels: NDArray[np.int32] = _path_kernels.component_roots(
+    labels: NDArray[np.int32] = _path_kernels.find_component_roots(
         graph.indices, indptr[:-1], indptr, _as_steps(steps), 0, graph.n_columns
     )
     return labels
 
 
-def _box(frames: tuple[int, int], name: str) -> tuple[int, int]:
+def _find_box(frames: tuple[int, int], name: str) -> tuple[int, int]:
     found = as_indices(frames, name)
     if len(found) != 2:
         raise ParameterError(f"{name} are a start and a stop frame, not {frames!r:.60}")

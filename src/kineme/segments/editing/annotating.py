@@ -13,7 +13,7 @@ from typing import Any, Literal
 from numpy.typing import NDArray
 
 from kineme.segments.annotation import Comment, Span
-from kineme.segments.editing.rows import starting
+from kineme.segments.editing.rows import find_starting
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -50,7 +50,7 @@ def check(
     >>> check(found, "activity", [380], checked=True).annotation.checked
     (('activity', 380, 928),)
     """
-    chosen = {span_of(starting(segmentation, level, frame)) for frame in frames}
+    chosen = {get_span(find_starting(segmentation, level, frame)) for frame in frames}
     before = find_marked(segmentation, "checked")
     return set_marked(segmentation, "checked", before | chosen if checked else before - chosen)
 
@@ -84,7 +84,7 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
     >>> comments(comment(found, "primitive", 61, "limps"))
     [('primitive', 93, 'limps')]
     """
-    row = starting(segmentation, level, frame)
+    row = find_starting(segmentation, level, frame)
     kept = [each for each in comments(segmentation) if not _is_of(each, row)]
     if text:
         kept.append(_make_comment(row, text))
@@ -122,14 +122,14 @@ def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -
     >>> walk.columns["excluded"][:3].tolist()
     ['', '', 'by hand']
     """
-    rows = [starting(segmentation, "primitive", frame) for frame in frames]
+    rows = [find_starting(segmentation, "primitive", frame) for frame in frames]
     # An exclusion is a frame, so it holds for whatever segment covers that frame.
     others = {
         frame
         for frame in segmentation.annotation.excluded
         if not any(row.start_frame <= frame < row.stop_frame for row in rows)
     }
-    chosen = {_middle(row) for row in rows} if excluded else set()
+    chosen = {_find_middle(row) for row in rows} if excluded else set()
     entry = tuple(sorted(others | chosen))
     return replace(segmentation, annotation=replace(segmentation.annotation, excluded=entry))
 
@@ -147,7 +147,7 @@ def comments(segmentation: Segmentation) -> list[Comment]:
     return sorted(segmentation.annotation.comments, key=lambda each: (each[1], each[0]))
 
 
-def span_of(row: Segment) -> Span:
+def get_span(row: Segment) -> Span:
     """Level, first frame and one past the last frame."""
     return row.level, row.start_frame, row.stop_frame
 
@@ -156,7 +156,7 @@ def find_marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
     """Return the segments that people vouch for in this sense."""
     spans: set[Span] = {*getattr(segmentation.annotation, mark)}
     table = segmentation.table
-    return spans.intersection(_columns(table.level, table.start_frame, table.stop_frame))
+    return spans.intersection(_list_cells(table.level, table.start_frame, table.stop_frame))
 
 
 def set_marked(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
@@ -168,7 +168,7 @@ def set_marked(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) ->
 def mark_edited(before: Segmentation, after: Segmentation) -> Segmentation:
     """Return the segmentation after an edit, with what the edit made marked as made by hand."""
     earlier, now = (
-        {*_columns(rows.level, rows.start_frame, rows.stop_frame, rows.kind, rows.cluster)}
+        {*_list_cells(rows.level, rows.start_frame, rows.stop_frame, rows.kind, rows.cluster)}
         for rows in (before.table, after.table)
     )
     # Rows that are new or changed; their spans are what people made.
@@ -201,17 +201,17 @@ def set_comments(segmentation: Segmentation, entries: list[Comment]) -> Segmenta
     return replace(segmentation, annotation=annotation)
 
 
-def _columns(*columns: NDArray[Any]) -> Iterator[tuple[Any, ...]]:
+def _list_cells(*columns: NDArray[Any]) -> Iterator[tuple[Any, ...]]:
     """Yield the cells of each row in these columns; tables have many rows."""
     return zip(*(column.tolist() for column in columns), strict=True)
 
 
 def _make_comment(row: Segment, text: str) -> Comment:
     """Return a comment on a segment, at its middle frame."""
-    return row.level, _middle(row), text
+    return row.level, _find_middle(row), text
 
 
-def _middle(row: Segment) -> int:
+def _find_middle(row: Segment) -> int:
     # The middle stays inside when borders of the segment move a little.
     return (row.start_frame + row.stop_frame) // 2
 

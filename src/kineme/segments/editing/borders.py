@@ -7,12 +7,12 @@ from kineme.segments.editing.rows import (
     Part,
     Rows,
     change_parent,
+    count_frames,
     cut,
-    cuts,
     find_row_after,
-    handed_over,
+    hand_over,
     join_rows,
-    length,
+    list_cuts,
     move_border_rows,
 )
 from kineme.segments.segmentation import Segmentation
@@ -68,12 +68,12 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
     activities, primitives = part.activities, part.primitives
     if level == "primitive":
         # A border of activities is one of primitives, too, and both move together.
-        if frame in cuts(activities):
+        if frame in list_cuts(activities):
             activities = move_border_rows(activities, frame, to)
         return part.replaced(activities, move_border_rows(primitives, frame, to))
     wider = move_border_rows(activities, frame, to)
     if primitives:
-        primitives = handed_over(primitives, activities, wider, (1, frame, to))
+        primitives = hand_over(primitives, activities, wider, (1, frame, to))
     return part.replaced(wider, primitives)
 
 
@@ -187,7 +187,7 @@ def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segme
     part = Part.of(segmentation, frame - 1, frame + 1)
     rows = part.of_level(level)
     after = _number(rows, frame)
-    longer = after if length(rows[after]) > length(rows[after - 1]) else after - 1
+    longer = after if count_frames(rows[after]) > count_frames(rows[after - 1]) else after - 1
     return _merge_rows(part, level, after - 1, after, like=longer)
 
 

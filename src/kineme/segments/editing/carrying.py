@@ -25,18 +25,18 @@ from kineme.segments.editing.annotating import (
     Mark,
     comments,
     find_marked,
+    get_span,
     set_comments,
     set_marked,
-    span_of,
 )
 from kineme.segments.editing.clusters import cluster_names, name_cluster, set_cluster_names
 from kineme.segments.editing.rows import (
     Rows,
     change_parent,
+    count_frames,
     cut,
-    cuts,
     join_rows,
-    length,
+    list_cuts,
     renumber_clusters,
     replace_rows,
 )
@@ -91,13 +91,13 @@ def carry_corrections(before: Segmentation, found: Segmentation) -> Carried:
     """
     flags = {mark: find_marked(before, mark) for mark in get_args(Mark)}
     # Rows that people vouch for in either sense.
-    fixed = [row for row in before if span_of(row) in set().union(*flags.values())]
+    fixed = [row for row in before if get_span(row) in set().union(*flags.values())]
     if not len(found.primitives):
         fixed = [row for row in fixed if row.level == "activity"]
-    singles = {span_of(row) for row in _singly_named(before)}
+    singles = {get_span(row) for row in _find_singly_named(before)}
     # Names of clusters are carried over separately, so only names of their own stay in the rows.
-    placed = [row if span_of(row) in singles else replace(row, label="") for row in fixed]
-    now = _impose_segments(_numbered_like(before, found), placed)
+    placed = [row if get_span(row) in singles else replace(row, label="") for row in fixed]
+    now = _impose_segments(_renumber(before, found), placed)
     # Marks are set again, since imposing segments made new rows.
     for mark, spans in flags.items():
         now = set_marked(now, mark, spans)
@@ -109,20 +109,20 @@ def carry_corrections(before: Segmentation, found: Segmentation) -> Carried:
     return _carry_names(now, before, len(fixed))
 
 
-def names_of(segmentation: Segmentation) -> int:
+def count_names(segmentation: Segmentation) -> int:
     """Return how many names there are: of clusters, and of segments that have their own."""
-    return len(cluster_names(segmentation)) + len(_singly_named(segmentation))
+    return len(cluster_names(segmentation)) + len(_find_singly_named(segmentation))
 
 
-def _singly_named(segmentation: Segmentation) -> Rows:
+def _find_singly_named(segmentation: Segmentation) -> Rows:
     names = cluster_names(segmentation)
     # A name of its own is one that the row's cluster does not have.
     return [row for row in segmentation if row.label not in ("", names.get(row.cluster, ""))]
 
 
-def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
+def _renumber(before: Segmentation, found: Segmentation) -> Segmentation:
     """Return the new segments, with the old numbers of the clusters that match."""
-    match = _matching_clusters(before, found)
+    match = _match_clusters(before, found)
     # Numbers of former clusters are never reused for other ones.
     used = set(before.table.cluster.tolist())
     free = (number for number in count() if number not in used)
@@ -132,7 +132,7 @@ def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
     return renumber_clusters(found, number)
 
 
-def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]:
+def _match_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]:
     """Return the old number of each new cluster that has one."""
     shared: dict[int, Counter[int]] = {}
     for level in get_args(Level):
@@ -169,7 +169,7 @@ def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> Carried
     """Return the new table with the names of the old one, and the names that found no place."""
     lost, new_names = [], dict[int, str]()
     present = set(now.table.cluster.tolist())
-    names, singles = cluster_names(before), _singly_named(before)
+    names, singles = cluster_names(before), _find_singly_named(before)
     if not names and not singles:
         return Carried(now, fixed, 0, [])
     for cluster, name in names.items():
@@ -181,50 +181,54 @@ def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> Carried
         now = name_cluster(now, cluster, name)
     labels: dict[Span, str] = {}
     for row in singles:
-        twin = _twin(now, row)
+        twin = _find_twin(now, row)
         if twin is None:
             where = f"the {row.level} at {row.start_s:.2f} s"
             lost.append(f"the name “{row.label}” of {where}: no segment matches it")
         else:
-            labels[span_of(twin)] = row.label
-    rows = [replace(row, label=labels.get(span_of(row), row.label)) for row in now]
+            labels[get_span(twin)] = row.label
+    rows = [replace(row, label=labels.get(get_span(row), row.label)) for row in now]
     # Clusters without a name are said to have none, so that none is guessed from labels.
     now = set_cluster_names(replace_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
     return Carried(now, fixed, len(names) + len(singles), lost)
 
 
-def _twin(segmentation: Segmentation, row: Segment) -> Segment | None:
+def _find_twin(segmentation: Segmentation, row: Segment) -> Segment | None:
     """Return the segment of that level that shares more than half of both with a row."""
     rows = segmentation.level(row.level)
     if not len(rows):
         return None
     other = _find_middle_row(rows, row)
-    return other if 2 * _overlap(row, other) > max(length(row), length(other)) else None
+    return (
+        other
+        if 2 * _measure_overlap(row, other) > max(count_frames(row), count_frames(other))
+        else None
+    )
 
 
 def _impose_segments(found: Segmentation, fixed: Rows) -> Segmentation:
     """Return the segmentation with these segments in it as they are."""
     by_level = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
     # Activities first: their borders must not cut primitives that stay.
-    activities = _sparing(list(found.activities), by_level["primitive"])
+    activities = _spare_primitives(list(found.activities), by_level["primitive"])
     activities = _insert_fixed(activities, by_level["activity"])
     if not len(found.primitives):
         return replace_rows(found, activities, [])
     primitives = _cut_at(activities, list(found.primitives))
     for row in by_level["activity"]:
-        primitives = _inside(primitives, row, found)
+        primitives = _keep_inside(primitives, row, found)
     primitives = _cut_at(activities, _insert_fixed(primitives, by_level["primitive"]))
     return replace_rows(found, activities, primitives)
 
 
 def _cut_at(activities: Rows, primitives: Rows) -> Rows:
     """Return the primitives, none of which crosses a border of activities."""
-    for border in cuts(activities):
+    for border in list_cuts(activities):
         primitives = cut(primitives, border)
     return primitives
 
 
-def _sparing(activities: Rows, primitives: Rows) -> Rows:
+def _spare_primitives(activities: Rows, primitives: Rows) -> Rows:
     """Return the activities, their borders moved out of primitives that stay, to the nearer end."""
     starts = [row.start_frame for row in primitives]
 
@@ -233,11 +237,11 @@ def _sparing(activities: Rows, primitives: Rows) -> Rows:
         at = bisect_right(starts, border) - 1
         if at < 0 or border >= primitives[at].stop_frame:
             return border
-        start, stop = _edges(primitives[at])
+        start, stop = _list_edges(primitives[at])
         # To the nearer end; at equal distance to the start.
         return start if border - start <= stop - border else stop
 
-    rows = [_spanning(row, moved(row.start_frame), moved(row.stop_frame)) for row in activities]
+    rows = [_change_span(row, moved(row.start_frame), moved(row.stop_frame)) for row in activities]
     # A row whose borders met has vanished.
     return [row for row in rows if row.start_frame < row.stop_frame]
 
@@ -248,10 +252,10 @@ def _insert_fixed(rows: Rows, fixed: Rows) -> Rows:
     What is left of less than half of a row is joined on.
     """
     # Rows that were put in already must not be changed by later ones.
-    edges = {_edges(one) for one in fixed}
+    edges = {_list_edges(one) for one in fixed}
     for one in fixed:
         # What lies before and after the new row; rows inside are dropped.
-        start, stop = _edges(one)
+        start, stop = _list_edges(one)
         before = [row for row in rows if row.start_frame < start]
         after = [row for row in rows if row.stop_frame > stop]
         if before and before[-1].stop_frame > start:
@@ -267,18 +271,18 @@ def _shorten_row(
 ) -> Rows:
     """Return a row with the frames that it keeps; they go to the row beside it if they are few."""
     row, rows = rows[at], list(rows)
-    rows[at] = _spanning(row, *span)
-    few = 2 * length(rows[at]) < length(row) and len(rows) > 1
-    if few and _edges(rows[beside]) not in edges:
+    rows[at] = _change_span(row, *span)
+    few = 2 * count_frames(rows[at]) < count_frames(row) and len(rows) > 1
+    if few and _list_edges(rows[beside]) not in edges:
         # Indices from the end become indices from the start.
         i, j, k = (k % len(rows) for k in (min(at, beside), max(at, beside), beside))
         return join_rows(rows, min(i, j), max(i, j), k)
     return rows
 
 
-def _inside(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
+def _keep_inside(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
     """Return the primitives of an activity that stays, with its label where they had its old."""
-    inside = [i for i, row in enumerate(primitives) if _overlap(row, activity)]
+    inside = [i for i, row in enumerate(primitives) if _measure_overlap(row, activity)]
     was = _find_middle_row(found.activities, activity)
     if activity.kind == "transition" and was.kind != "transition":
         one = replace(activity, level="primitive", label="")
@@ -295,17 +299,17 @@ def _find_middle_row(rows: SegmentTable, row: Segment) -> Segment:
     return rows[int(np.searchsorted(rows.start_frame, middle, side="right")) - 1]
 
 
-def _overlap(row: Segment, other: Segment) -> int:
+def _measure_overlap(row: Segment, other: Segment) -> int:
     """Frames that both have."""
     shared = min(row.stop_frame, other.stop_frame) - max(row.start_frame, other.start_frame)
     return max(shared, 0)
 
 
-def _edges(row: Segment) -> tuple[int, int]:
+def _list_edges(row: Segment) -> tuple[int, int]:
     return row.start_frame, row.stop_frame
 
 
-def _spanning(row: Segment, start: int, stop: int) -> Segment:
+def _change_span(row: Segment, start: int, stop: int) -> Segment:
     """Return the row with other frames; where it starts anew its border has no confidence."""
     confidence = row.border_confidence if start == row.start_frame else math.nan
     return replace(row, start_frame=start, stop_frame=stop, border_confidence=confidence)

@@ -18,11 +18,11 @@ from kineme.errors import ParameterError
 from kineme.segments.editing.rows import (
     as_movement,
     as_transition,
+    find_starting,
     join_rows,
     renumber_clusters,
     replace_columns,
     replace_rows,
-    starting,
 )
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
@@ -58,7 +58,7 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     >>> name_segment(found, "primitive", 61, "limp").primitives[:3].label.tolist()
     ['walk', 'limp', 'walk']
     """
-    row, names = starting(segmentation, level, frame), names_by_cluster(segmentation)
+    row, names = find_starting(segmentation, level, frame), collect_names(segmentation)
     label = label or names.get(row.cluster, "")
     named = change_columns(segmentation, [(level, row)], label=label)
     # The cluster is said to have no name unless it has: one label must not name it.
@@ -92,12 +92,12 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
     >>> name_cluster(found, 0, "stroll").activities[[0, 4]].label.tolist()
     ['stroll', 'stroll']
     """
-    if not members_of(segmentation, cluster):
+    if not find_members(segmentation, cluster):
         raise ParameterError(f"no segment is in cluster {cluster}")
-    names = names_by_cluster(segmentation)
+    names = collect_names(segmentation)
     called = [
         (row.level, row)
-        for row in members_of(segmentation, cluster)
+        for row in find_members(segmentation, cluster)
         if row.label in ("", names.get(cluster, ""))
     ]
     return set_cluster_names(
@@ -124,7 +124,7 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
     >>> cluster_names(kineme.read_segments(bundled_truth(), fps=60))[0]
     'walk'
     """
-    return {cluster: name for cluster, name in names_by_cluster(segmentation).items() if name}
+    return {cluster: name for cluster, name in collect_names(segmentation).items() if name}
 
 
 def set_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
@@ -138,7 +138,7 @@ def set_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> S
     return replace(segmentation, annotation=annotation)
 
 
-def names_by_cluster(segmentation: Segmentation) -> dict[int, str]:
+def collect_names(segmentation: Segmentation) -> dict[int, str]:
     """Return the names of clusters by number; empty for those that are said to have none."""
     clusters, labels = segmentation.table.cluster.tolist(), segmentation.table.label.tolist()
     sizes = Counter(clusters)
@@ -151,7 +151,7 @@ def names_by_cluster(segmentation: Segmentation) -> dict[int, str]:
     return {cluster: names[cluster] for cluster in sorted(sizes) if 0 <= cluster in names}
 
 
-def members_of(segmentation: Segmentation, cluster: int) -> list[Segment]:
+def find_members(segmentation: Segmentation, cluster: int) -> list[Segment]:
     """Return the segments of a cluster, of both levels."""
     table = segmentation.table
     return [*table.select(table.cluster == cluster)] if cluster >= 0 else []
@@ -210,13 +210,13 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
     if not -1 <= cluster <= following:
         raise ParameterError(f"there is no cluster {cluster}; the next new one is {following}")
-    chosen = starting(segmentation, level, frame)
+    chosen = find_starting(segmentation, level, frame)
     members = [(level, chosen)]
     if level == "activity":
         inside = segmentation.primitives.select(segmentation.primitives.activity == chosen.activity)
         members += [("primitive", row) for row in inside if row.cluster == chosen.cluster]
     # Members that have their own name keep it, those called by their cluster's do not.
-    moved = _moved_to(segmentation, members, cluster)
+    moved = _move_members(segmentation, members, cluster)
     become = as_transition if cluster < 0 and chosen.kind == "transition" else as_movement
     places = {(row.level, row.start_frame) for _, row in members}
     rows = [become(row) if (row.level, row.start_frame) in places else row for row in moved]
@@ -251,12 +251,12 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
     {0: 15, 1: 4, 2: 5, 3: 4, 5: 4}
     """
     for each in (cluster, into):
-        if not members_of(segmentation, each):
+        if not find_members(segmentation, each):
             raise ParameterError(f"no segment is in cluster {each}")
     if cluster == into:
         raise ParameterError(f"cluster {cluster} cannot be merged with itself: name another")
-    members = [(row.level, row) for row in members_of(segmentation, cluster)]
-    return _moved_to(segmentation, members, into)
+    members = [(row.level, row) for row in find_members(segmentation, cluster)]
+    return _move_members(segmentation, members, into)
 
 
 def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int]) -> Segmentation:
@@ -288,7 +288,7 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     >>> split_cluster(found, 0, [962, 1027]).repetitions()
     {0: 7, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4, 6: 2}
     """
-    chosen, rows = set(frames), members_of(segmentation, cluster)
+    chosen, rows = set(frames), find_members(segmentation, cluster)
     level: Level = "primitive" if any(row.level == "primitive" for row in rows) else "activity"
     members = [row for row in rows if row.level == level]
     leavers = [row for row in members if row.start_frame in chosen]
@@ -307,7 +307,7 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
             ("activity", row) for i, row in numbered if i in leaving and row.cluster == cluster
         ]
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
-    return _moved_to(segmentation, moved, following)
+    return _move_members(segmentation, moved, following)
 
 
 def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmentation:
@@ -340,7 +340,7 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
     if sorted(order) != present:
         raise ParameterError(f"name each cluster once: {', '.join(map(str, present))}")
     new = {cluster: number for number, cluster in enumerate(order)}
-    names = names_by_cluster(segmentation)
+    names = collect_names(segmentation)
     renamed = {new[cluster]: name for cluster, name in names.items()}
     return set_cluster_names(renumber_clusters(segmentation, new), renamed)
 
@@ -378,7 +378,7 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     """
     if kind not in get_args(Kind):
         raise ParameterError(f"kind must be {' or '.join(get_args(Kind))}, not {kind!r}")
-    chosen = starting(segmentation, level, frame)
+    chosen = find_starting(segmentation, level, frame)
     if (kind == "transition") == (chosen.kind == "transition"):
         return segmentation
     become = as_transition if kind == "transition" else as_movement
@@ -397,13 +397,13 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     return replace_rows(segmentation, activities, primitives)
 
 
-def _moved_to(
+def _move_members(
     segmentation: Segmentation,
     members: Sequence[tuple[Level, Segment]],
     cluster: int,
 ) -> Segmentation:
     """Return the members in another cluster, called by its name unless they have their own."""
-    names = names_by_cluster(segmentation)
+    names = collect_names(segmentation)
     moved = segmentation
     # First those called by the cluster's name, then those with a name of their own.
     for inherits in (True, False):

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Level, Segment, kind_of
+from kineme.segments.table import COLUMNS, Level, Segment, choose_kind
 
 Rows = list[Segment]
 
@@ -70,7 +70,7 @@ class Part:
         return replace_columns(self.segmentation, columns)
 
 
-def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
+def find_starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
     """Return the segment of a level that starts at ``frame``; ParameterError where none does."""
     rows = segmentation.level(level)
     at = int(np.searchsorted(rows.start_frame, frame))
@@ -124,7 +124,7 @@ def change_parent(row: Segment, before: Segment, after: Segment) -> Segment:
     """Return a primitive that lay in one activity and lies in another."""
     # A primitive that was a transition within an activity stays one, and the other way round.
     same = (row.kind == "transition") == (before.kind == "transition")
-    kind = kind_of(row.level, transition=after.kind == "transition")
+    kind = choose_kind(row.level, transition=after.kind == "transition")
     new = replace(
         row,
         kind=kind if same else row.kind,
@@ -146,11 +146,11 @@ def as_movement(row: Segment) -> Segment:
     return replace(row, kind=row.level, confidence=math.nan)
 
 
-def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, int, int]) -> Rows:
+def hand_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, int, int]) -> Rows:
     """Return the primitives once the border of activities (number, from, to) has moved."""
     number, frame, to = move
     low, high = min(frame, to), max(frame, to)
-    borders = cuts(primitives)
+    borders = list_cuts(primitives)
     # A border of activities must be one of primitives: the nearest one passed moves there.
     if to not in borders:
         passed = [border for border in borders if low <= border <= high]
@@ -171,7 +171,7 @@ def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, in
     return primitives
 
 
-def cuts(rows: Rows) -> list[int]:
+def list_cuts(rows: Rows) -> list[int]:
     """Where one row stops and the next starts."""
     return [row.start_frame for row in rows[1:]]
 
@@ -186,7 +186,7 @@ def find_row_after(segmentation: Segmentation, level: Level, frame: int) -> int:
     return borders.index(frame) + 1
 
 
-def length(row: Segment) -> int:
+def count_frames(row: Segment) -> int:
     """Frames."""
     return row.stop_frame - row.start_frame
 
