@@ -1,27 +1,37 @@
 """Recordings pushed as a stream: scores beside those of the file, how soon, at what cost a row.
 
-    python -m benchmarks stream [SOURCE ...] [--every N] [--delay S] [--interval S] [--record]
+    python -m benchmarks stream [SOURCE|hours|kills ...] [--every N] [--hours N] [--kills N]
 
 ``delay`` of a change: from a border that became final to the first event that told of it, in
 seconds. ``delay`` of a repetition: from its end to the first event that counted it, over its
-length. Cost is processor time of one thread and all others.
+length. Cost is processor time of one thread and all others. ``hours`` is recordings joined to half
+an hour, again and again: memory and MoF of the first and of the last half hour. ``kills`` are runs
+of ``kineme live --record`` that are killed at random moments: takes that lose more than a second.
 """
 
 from __future__ import annotations
 
+import random
+import subprocess
+import sys
 import time
 import warnings
 from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
 import kineme
 from _figures import add_option, record
+from _joined import Piece, clusters_of, joined, pieces
 from _options import command_line, few, needed
 from _recordings import subject_86
-from _sources import SOURCES
+from _sources import SOURCES, judged_labels
+from kineme.evaluation.comparison import UNLABELLED, Comparison
 from kineme.evaluation.score import pool_scores
 from kineme.live import ActivityStarted, Event, Repetition, Stream
+from kineme.live.journal import recover_journal
 from kineme.recordings import Motion, Signals
 
 EVERY = {"subject_86": 1, "uiprmd": 9, "hugadb": 40}
@@ -29,6 +39,9 @@ EVERY = {"subject_86": 1, "uiprmd": 9, "hugadb": 40}
 NEAR_S = 1.5
 """Starts of one activity differ by this at most from event to event."""
 CHUNK_S = 0.25
+PART_S = 1800.0
+"""Seconds of the recordings that are joined and replayed again and again."""
+MOST_LOST_S = 1.0
 
 
 def stream_of(recording: Motion | Signals, **options: float) -> Stream:
@@ -74,12 +87,81 @@ def cost(recording: Motion | Signals, **options: float) -> float:
     return (time.process_time() - start) * 1e3 / recording.n_frames
 
 
+def watch_channels() -> Signals:
+    """Six channels of a watch at the gym."""
+    path = min((needed("sets/gym_watch") / "recordings").glob("*"))
+    watch = kineme.read(path)
+    return Signals(np.tile(watch.values[:, :6], (3, 1)), watch.fps, watch.names[:6])
+
+
+def replay_hours(hours: float, **options: float) -> None:
+    """Replay the same recordings for hours; compare the first part with the last one."""
+    parts: list[Piece] = []
+    for piece in pieces(needed("sets/hugadb")):
+        parts.append(piece)
+        if sum(each.recording.duration for each in parts) >= few(PART_S, 60.0):
+            break
+    part = joined([piece.recording for piece in parts])
+    n_parts = max(2, round(hours * 3600 / part.duration))
+    stream, memory = stream_of(part, **options), []
+    for _ in range(n_parts):
+        for start in range(0, part.n_frames, 15):
+            stream.push(part.values[start : start + 15])
+        memory.append(int(Path("/proc/self/statm").read_text().split()[1]) * 4096 / 1e6)
+    stream.finish()
+    clusters = clusters_of(stream.segmentation).reshape(n_parts, -1)
+    borders = np.cumsum([len(piece.truth) for piece in parts])[:-1]
+    for which, at in (("first", 0), ("last", -1)):
+        each = zip(parts, np.split(clusters[at], borders), strict=True)
+        mof = pool_scores(
+            judged_labels(Comparison(piece.truth[known], own[known], part.fps))["mof"]
+            for piece, own in each
+            if (known := piece.truth != UNLABELLED).any()
+        )
+        seconds = f"{part.duration:.0f} s of {n_parts} times that"
+        print(f"hours, {which} {seconds}: MoF {mof:.3f}, {memory[at]:.0f} MB", flush=True)
+        record(f"stream.hours.{which}.mof", round(mof, 3))
+        record(f"stream.hours.{which}.memory", round(memory[at]), unit="MB")
+
+
+def kill_takes(n_kills: int) -> None:
+    """Kill recordings at random moments; count those that lose more than the last second."""
+    watch, chance, lost_s = watch_channels(), random.Random(0), []
+    step = round(watch.fps / 10)
+    for _ in range(n_kills):
+        with TemporaryDirectory() as folder:
+            journal = Path(folder) / "take.journal.csv"
+            command = [sys.executable, "-m", "kineme", "live", "--quiet", "--fps", str(watch.fps)]
+            with subprocess.Popen(
+                [*command, "--record", str(Path(folder) / "take")], stdin=subprocess.PIPE, bufsize=0
+            ) as process:
+                process.stdin.write(f"{','.join(watch.names)}\n".encode())
+                while process.poll() is None and not journal.exists():
+                    time.sleep(0.01)
+                begun, sent, until = time.monotonic(), 0, chance.uniform(0.5, 6)
+                while time.monotonic() - begun < until:
+                    np.savetxt(process.stdin, watch.values[sent : sent + step], delimiter=",")
+                    sent += step
+                    time.sleep(max(0.0, begun + sent / watch.fps - time.monotonic()))
+                process.kill()
+            kept = kineme.read(recover_journal(journal), fps=watch.fps).n_frames
+            lost_s.append((sent - kept) / watch.fps)
+    n_lost = sum(each > MOST_LOST_S for each in lost_s)
+    print(
+        f"kills: {n_lost} of {n_kills} lose more than {MOST_LOST_S:g} s, most {max(lost_s):.2f} s"
+    )
+    record("stream.kills.lost", f"{n_lost} of {n_kills}")
+    record("stream.kills.most", round(max(lost_s), 2), unit="s")
+
+
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("sources", nargs="*", help=", ".join(SOURCES))
+    parser.add_argument("sources", nargs="*", help=", ".join([*SOURCES, "hours", "kills"]))
     parser.add_argument("--every", type=int, help="every n-th recording of a source")
     for name in ("delay", "interval", "memory"):
         parser.add_argument(f"--{name}", type=float, help="of the stream, in seconds")
+    parser.add_argument("--hours", type=float, default=few(1.0, 0.0), help="that are replayed")
+    parser.add_argument("--kills", type=int, default=few(100, 3), help="runs that are killed")
     add_option(parser)
     given = parser.parse_args()
     warnings.simplefilter("ignore")
@@ -87,7 +169,12 @@ def main() -> None:
     options = {name: getattr(given, name) for name in names if getattr(given, name) is not None}
     changes: list[float] = []
     counts: list[float] = []
-    for source in given.sources or few(list(EVERY), ["uiprmd"]):
+    chosen = given.sources or [*few(list(EVERY), ["uiprmd"]), "hours", "kills"]
+    if "hours" in chosen:
+        replay_hours(given.hours, **options)
+    if "kills" in chosen:
+        kill_takes(given.kills)
+    for source in [each for each in chosen if each in SOURCES]:
         every = given.every or few(EVERY.get(source, 10), 1000)
         judged = []
         for sample in SOURCES[source](every):
@@ -112,11 +199,14 @@ def main() -> None:
             print(f"delay of a {name}: {middle:.2f}, 95 % {late:.2f}, of {len(values)}")
             record(f"stream.delay.{name}.median", round(float(middle), 2))
             record(f"stream.delay.{name}.most", round(float(late), 2))
+    if not given.sources:
+        measure_costs(**options)
+
+
+def measure_costs(**options: float) -> None:
+    """Milliseconds a row of a body and of six channels."""
     body = subject_86()[few(2, 0)].motion
-    path = min((needed("sets/gym_watch") / "recordings").glob("*"))
-    watch = kineme.read(path)
-    six = Signals(np.tile(watch.values[:, :6], (3, 1)), watch.fps, watch.names[:6])
-    for name, recording in (("body", body), ("watch", six)):
+    for name, recording in (("body", body), ("watch", watch_channels())):
         each = cost(recording, **options)
         print(f"cost, {name} at {recording.fps:g} Hz: {each:.2f} ms a row", flush=True)
         record(f"stream.cost.{name}", round(each, 2), unit="ms")

@@ -10,29 +10,14 @@ import numpy as np
 import pytest
 
 import kineme
+from axe import AXE, load_axe, violations
 from screen import Screen, box_of
 
-AXE = Path(kineme.__file__).parent / "web/pages/node_modules/axe-core/axe.min.js"
-RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
 FAULTS = Path(__file__).with_name("faults.js").read_text(encoding="utf-8")
 TABS = ("segment", "table", "review", "clusters", "compare", "about")
 DIALOGS = "htce?"
 SIZES = {390: 844, 768: 1024, 1024: 768, 1440: 900, 2560: 1000}
 WALKED = (390, 768, 1024, 1440)  # widths at which every view is looked at
-
-
-def violations(page: Any, part: str = "body", *, colors_only: bool = False) -> list[str]:
-    """What axe-core objects to in a part of the page, level A or AA."""
-    rules = {"type": "rule", "values": ["color-contrast"]} if colors_only else RULES
-    found = page.evaluate(
-        "([part, only]) => axe.run(part, { runOnly: only, resultTypes: ['violations'] })",
-        [part, rules],
-    )
-    return [
-        f"{each['id']}: {node['target']}, {node['failureSummary']}"
-        for each in found["violations"]
-        for node in each["nodes"]
-    ]
 
 
 def views(page: Any, screen: Screen) -> Iterator[tuple[str, str]]:
@@ -90,10 +75,7 @@ def test_nobody_is_kept_out_of_any_view(page, server, sensors, report):
         said = violations(page, part, colors_only=colors_only)
         found.extend(f"{view}, {each}" for each in said)
 
-    def load() -> None:
-        page.evaluate(f"{AXE.read_text(encoding='utf-8')}; 0")
-
-    load()
+    load_axe(page)
     for scheme in ("dark", "light"):
         # Colours on their way from one theme to the other have any contrast.
         page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
@@ -101,11 +83,11 @@ def test_nobody_is_kept_out_of_any_view(page, server, sensors, report):
             look(f"{scheme}, {view}", part, colors_only=scheme == "light")
     page.goto(server.address_of(sensors))
     screen.wait("k?.segments?.length")
-    load()
+    load_axe(page)
     look("sensors")
     page.goto(report.as_uri())
     screen.opened()
-    load()
+    load_axe(page)
     for i, tab in enumerate(page.get_by_role("tab").all()):
         tab.click()
         look(f"report, {tab.inner_text()}", ".place-side" if i else "body")

@@ -75,6 +75,7 @@ def test_a_killed_run_is_recovered(lines, tmp_path):
         (["--fps", "0"], "x\n1\n", 2, "above 0"),
         (["--recover", "nowhere.journal.csv"], "", 1, "nowhere"),
         (["--replay", "a.csv", "--osc", "9000"], "", 2, "one source"),
+        (["--fps", "50", "--osc-out", "9000"], "x\n1\n", 1, "HOST:PORT"),
     ],
 )
 def test_what_makes_no_sense_is_said_in_a_sentence(options, text, code, advice):

@@ -6,13 +6,15 @@ import os
 import signal
 import subprocess
 import sys
+from time import monotonic, sleep
 
 import numpy as np
 import pytest
 
 import kineme
-from kineme.errors import ReadError, WriteError
+from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.live.journal import Journal, recover_journal
+from kineme.live.sources import Rows
 
 CODE = """
 import sys, time
@@ -54,6 +56,24 @@ def test_a_journal_becomes_a_parquet_file_with_the_rows_as_they_came(tmp_path):
 
     table = pq.read_table(path).to_pydict()
     assert table == {"time_s": [7.0, 7.02, 7.04], "x": [1, 2, 3], "y": [None, None, 4]}
+
+
+def test_rows_are_written_before_they_are_taken(tmp_path):
+    def source():
+        for i in range(20):
+            yield Rows(np.full((1, 1), float(i)))
+        raise ParameterError("the source fails")
+
+    journal = Journal(tmp_path / "take", ["x"], 50.0)
+    ahead = journal.write_ahead(source())
+    assert next(ahead).values == 0
+    latest = monotonic() + 10
+    while len(journal.path.read_text().splitlines()) < 21:
+        assert monotonic() < latest
+        sleep(0.01)
+    with pytest.raises(ParameterError, match="source fails"):
+        list(ahead)
+    journal.close()
 
 
 def test_what_is_there_is_not_replaced(tmp_path):

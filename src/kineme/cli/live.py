@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from json import dumps
 from pathlib import Path
+from time import sleep
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -23,22 +24,29 @@ from kineme.errors import KinemeError
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
 from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
+from kineme.live.outputs import OUTPUTS, Send
 from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from kineme.live.journal import Journal
     from kineme.live.sources import Source
+    from kineme.live.stream import Stream
 
-Tell = Callable[[list[Event]], None]
+SENDING = {
+    name: Annotated[output.type | None, option(OUTPUT, output.help, metavar=output.metavar)]
+    for name, output in OUTPUTS.items()
+}
 SHOWN = 6
 """Activities that are over, of which the terminal shows the last."""
 
 
-@add_options(READING | SEGMENTING)
+@add_options(READING | SEGMENTING, outputs=SENDING)
 def live(
     read_options: ReadOptions,
     segment_options: SegmentOptions,
+    outputs: dict[str, Any],
     replay: Annotated[
         Path | None, option(INPUT, "Replay this recording in place of standard input.")
     ] = None,
@@ -74,10 +82,9 @@ def live(
         Path | None,
         option(OUTPUT, "Make a Parquet file of a journal that a killed run left, and end."),
     ] = None,
-    lsl_out: Annotated[
-        str | None,
-        option(OUTPUT, "Send events as markers of an LSL stream, as JSON.", metavar="NAME"),
-    ] = None,
+    page: Annotated[
+        bool, option(OUTPUT, "Show it in the browser, until Ctrl+C.", "--page")
+    ] = False,
     json: Annotated[bool, option(OUTPUT, "Print JSON, one line per event.", "--json")] = False,
     quiet: Quiet = False,
 ) -> None:
@@ -102,30 +109,74 @@ def live(
         source = _open(replay, speed, lsl, (osc, osc_host), read_options)
         stream = _stream_of(source, segment_options, delay, interval)
         kept = None if record is None else Journal(record, source.channels, source.fps)
-        with _printer(json=json, quiet=quiet) as show:
-            tell = show if lsl_out is None else _also_to_lsl(show, lsl_out)
-            try:
-                for rows in source.rows:
-                    for remark in rows.remarks:
-                        say_skipped(remark)
-                    if kept is not None:
-                        kept.write(rows.values, rows.seconds)
-                    tell(stream.push(rows.values, rows.seconds))
-            except KeyboardInterrupt:
-                pass
-            finally:
-                tell(stream.finish())
-                written = None if kept is None else kept.close()
-        if output is not None:
-            from kineme.labels import write_segments
-
-            write_segments(stream.segmentation, output)
-        if not (json or quiet):
-            for path in filter(None, (written, output)):
-                typer.echo(f"wrote {path}")
+        with ExitStack() as opened:
+            opening = [OUTPUTS[name].open(value) for name, value in outputs.items()]
+            opening += [_open_page(stream)] if page else []
+            sends = [opened.enter_context(each) for each in opening]
+            with (
+                nullcontext() if kept is None else closing(kept),
+                _printer(json=json, quiet=quiet) as show,
+            ):
+                is_stopped = _push_all(source, stream, kept, [*sends, show])
+            _write(stream, output, kept, quiet=json or quiet)
+            if page and not is_stopped:
+                _wait_for_interrupt()
     except KinemeError as error:
         say_error(one_line(error))
         raise typer.Exit(1) from error
+
+
+def _push_all(source: Source, stream: Stream, kept: Journal | None, sends: Sequence[Send]) -> bool:
+    """Send the events of all rows until the source ends; return whether Ctrl+C ended it."""
+
+    def tell(events: Sequence[Event]) -> None:
+        for send in sends:
+            send(events)
+
+    try:
+        for rows in source.rows if kept is None else kept.write_ahead(source.rows):
+            for remark in rows.remarks:
+                say_skipped(remark)
+            tell(stream.push(rows.values, rows.seconds))
+    except KeyboardInterrupt:
+        return True
+    finally:
+        tell(stream.finish())
+    return False
+
+
+def _write(stream: Stream, output: Path | None, kept: Journal | None, *, quiet: bool) -> None:
+    """Write the segments, and say which files are there now."""
+    if output is not None:
+        from kineme.labels import write_segments
+
+        write_segments(stream.segmentation, output)
+    if not quiet:
+        for path in filter(None, (kept and kept.target, output)):
+            typer.echo(f"wrote {path}")
+
+
+@contextmanager
+def _open_page(stream: Stream) -> Iterator[Send]:
+    """Open a page in the browser; yield what brings it up to date."""
+    from kineme.studio.live_page import LivePage, serve_page
+
+    skeleton = stream.layout.skeleton
+    page = LivePage(stream.fps, stream.layout.channels, skeleton.parents if skeleton else ())
+
+    def send(events: Sequence[Event]) -> None:
+        page.add([event.to_json() for event in events], *stream.frames(page.n_frames))
+        page.has_ended = stream.is_finished
+
+    with serve_page(page, lambda address: typer.echo(f"kineme live: {address}", err=True)):
+        yield send
+
+
+def _wait_for_interrupt() -> None:
+    typer.echo("the page stays until Ctrl+C", err=True)
+    with suppress(KeyboardInterrupt):
+        while True:
+            sleep(1)
 
 
 def _open(
@@ -151,7 +202,7 @@ def _open(
     return source if source.fps else sources.measure_rate(source)
 
 
-def _stream_of(source: Source, options: SegmentOptions, delay: float, interval: float) -> Any:
+def _stream_of(source: Source, options: SegmentOptions, delay: float, interval: float) -> Stream:
     from kineme.live.stream import Stream, as_keywords
 
     return Stream(
@@ -164,21 +215,8 @@ def _stream_of(source: Source, options: SegmentOptions, delay: float, interval: 
     )
 
 
-def _also_to_lsl(show: Tell, name: str) -> Tell:
-    from kineme.live.sources import open_lsl_outlet
-
-    send = open_lsl_outlet(name)
-
-    def tell(events: list[Event]) -> None:
-        for event in events:
-            send(dumps(event.to_json()))
-        show(events)
-
-    return tell
-
-
 @contextmanager
-def _printer(*, json: bool, quiet: bool) -> Iterator[Tell]:
+def _printer(*, json: bool, quiet: bool) -> Iterator[Send]:
     """Show events as lines of JSON, as a view that changes in a terminal, or as lines of text."""
     if json or quiet or not sys.stdout.isatty():
         yield _print_json if json else partial(_print_lines, quiet=quiet)
@@ -190,7 +228,7 @@ def _printer(*, json: bool, quiet: bool) -> Iterator[Tell]:
     view = View()
     with Live(view.table(), console=Console(), refresh_per_second=8) as screen:
 
-        def update(events: list[Event]) -> None:
+        def update(events: Sequence[Event]) -> None:
             for event in events:
                 view.add(event)
                 if isinstance(event, Notice):
@@ -201,13 +239,13 @@ def _printer(*, json: bool, quiet: bool) -> Iterator[Tell]:
         yield update
 
 
-def _print_json(events: list[Event]) -> None:
+def _print_json(events: Sequence[Event]) -> None:
     for event in events:
         sys.stdout.write(dumps(event.to_json()) + "\n")
     sys.stdout.flush()
 
 
-def _print_lines(events: list[Event], *, quiet: bool) -> None:
+def _print_lines(events: Sequence[Event], *, quiet: bool) -> None:
     for event in events:
         if isinstance(event, Notice):
             say_skipped(event.text)

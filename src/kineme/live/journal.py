@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import isnan
 from pathlib import Path
+from queue import Queue
+from threading import Thread
 from time import monotonic
 
 import numpy as np
@@ -20,9 +22,12 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write, refuse_link, translate_read_errors
 from kineme.errors import ReadError, WriteError
+from kineme.live.sources import Rows
 
 SUFFIX = ".journal.csv"
 TIME = "time_s"
+AHEAD = 100
+"""Pieces of a source that are written before they are taken, at most."""
 SYNCHRONISED_S = 0.5
 """Seconds after which rows are on the disk, should the machine go down."""
 
@@ -80,6 +85,25 @@ class Journal:
                 self._synchronised = monotonic()
         except OSError as error:
             raise WriteError(self.path, f"cannot be written: {error.strerror}") from error
+
+    def write_ahead(self, source: Iterable[Rows]) -> Iterator[Rows]:
+        """Append the rows of a source as soon as they come, however late they are taken."""
+        queue: Queue[Rows | BaseException | None] = Queue(AHEAD)
+
+        def write() -> None:
+            try:
+                for rows in source:
+                    self.write(rows.values, rows.seconds)
+                    queue.put(rows)
+                queue.put(None)
+            except BaseException as error:  # noqa: BLE001 (raised where rows are taken)
+                queue.put(error)
+
+        Thread(target=write, daemon=True).start()
+        while (taken := queue.get()) is not None:
+            if isinstance(taken, BaseException):
+                raise taken
+            yield taken
 
     def close(self) -> Path:
         """End the journal; return the Parquet file that it became."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from queue import Empty, Queue
@@ -248,15 +248,6 @@ def receive_lsl(name: str) -> Source:
 
     channels = tuple(unique(names, allow_empty=True))
     return Source(float(info.nominal_srate()), channels, rows())
-
-
-def open_lsl_outlet(name: str) -> Callable[[str], None]:
-    """Return what sends texts as markers of a stream of the Lab Streaming Layer."""
-    with require_extra("pylsl", "lsl"):
-        import pylsl
-    info = pylsl.StreamInfo(name, "Markers", 1, 0, "string", f"kineme-{name}")
-    outlet = pylsl.StreamOutlet(info)
-    return lambda text: outlet.push_sample([text])
 
 
 def receive_osc(port: int, host: str = "127.0.0.1") -> Source:

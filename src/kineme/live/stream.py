@@ -182,6 +182,46 @@ class Stream:
         return events + self._settle()
 
     @property
+    def is_finished(self) -> bool:
+        """Return whether the stream has ended.
+
+        Examples
+        --------
+        >>> Stream(fps=50, channels=["x"]).is_finished
+        False
+        """
+        return self._state.is_finished
+
+    def frames(self, first: int = 0) -> tuple[int, Floats]:
+        """Return the frames of the recent past from one on.
+
+        Parameters
+        ----------
+        first : int
+            Number of a frame of the stream.
+
+        Returns
+        -------
+        first : int
+            A later one where frames before it are forgotten.
+        frames : (frames, values) array
+            NaN where nothing was recorded.
+
+        Examples
+        --------
+        >>> stream = Stream(fps=50, channels=["x"])
+        >>> events = stream.push(np.zeros((50, 1)))
+        >>> start, frames = stream.frames(40)
+        >>> start + len(frames) <= 50
+        True
+        """
+        past = self._state.past
+        past.collect()
+        first = min(max(first, past.start), past.start + len(past.values))
+        chosen = slice(first - past.start, None)
+        return first, np.where(past.missing[chosen, None], np.nan, past.values[chosen])
+
+    @property
     def segmentation(self) -> Segmentation:
         """Return the table of what is final; the activity that goes on ends where it does.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import mimetypes
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,12 +22,12 @@ from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.poses import PosesNeededError
 from kineme.studio.routes import Api
+from kineme.web import STATIC
 from kineme.web.messages import Failure
 
 if TYPE_CHECKING:
     from kineme.studio.library import ShownLibrary
 
-STATIC = Path(__file__).parents[1] / "web" / "static"
 PAGE, LIBRARY_PAGE = "studio.html", "library.html"
 Handler = Callable[[Request, Exception], Response]
 STATUS: dict[type[Exception], int] = {
@@ -41,8 +40,6 @@ STATUS: dict[type[Exception], int] = {
     SupersededError: 409,
     ConflictError: 409,
 }
-
-mimetypes.add_type("text/javascript", ".js")  # the registry of Windows may say something else
 
 
 def create_app(

@@ -17,7 +17,7 @@ import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.http.events import Hub
-from kineme.studio.http.security import DEVELOPMENT, HeadersInTime, new_token
+from kineme.studio.http.security import DEVELOPMENT, Guard, HeadersInTime, new_token
 
 if TYPE_CHECKING:
     from kineme.formats import ReadOptions
@@ -87,7 +87,7 @@ def serve(
         folder = Folder(root, files) if library is None else library.as_folder()
         recordings = OpenRecordings(folder, hub.tell, read_options, segment_options)
         forget_drafts(folder.root)
-        config = uvicorn.Config(
+        config = configure(
             create_app(
                 recordings,
                 token=token,
@@ -95,14 +95,7 @@ def serve(
                 hub=hub,
                 library=library,
                 development=development,
-            ),
-            log_level=logging.ERROR,
-            access_log=False,  # addresses hold the token
-            server_header=False,
-            ws="none",
-            proxy_headers=False,
-            timeout_graceful_shutdown=PATIENCE,
-            http=HeadersInTime,
+            )
         )
         ended = threading.Event()
         threading.Thread(
@@ -112,6 +105,20 @@ def serve(
             Server(config, hub).run(sockets=[opened])
         finally:
             ended.set()
+
+
+def configure(app: Guard) -> uvicorn.Config:
+    """Return how an application is served: plain HTTP, and nothing said of it."""
+    return uvicorn.Config(
+        app,
+        log_level=logging.ERROR,
+        access_log=False,  # addresses hold the token
+        server_header=False,
+        ws="none",
+        proxy_headers=False,
+        timeout_graceful_shutdown=PATIENCE,
+        http=HeadersInTime,
+    )
 
 
 def listening(port: int | None) -> socket.socket:

@@ -7,3 +7,8 @@ repetitions of a cluster, as `kineme.cycles` measures them. The types of what pa
 told are in ``messages``, of what they send in ``requests``; ``encoding`` turns both
 into JSON and back.
 """
+
+from pathlib import Path
+
+STATIC = Path(__file__).parent / "static"
+"""Folder of the built pages."""

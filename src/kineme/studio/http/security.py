@@ -103,7 +103,7 @@ class Guard:
         if headers.get("sec-fetch-site") == "cross-site" and scope["path"] != "/":
             return "pages of other sites may not ask this server"
         if scope["path"].startswith("/api") and not scope[TRUSTED]:
-            return "the token is missing or wrong: use the address that kineme studio printed"
+            return "the token is missing or wrong: use the address that kineme printed"
         return None
 
     def _knows(self, scope: MutableMapping[str, Any], headers: Headers) -> bool:

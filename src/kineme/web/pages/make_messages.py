@@ -3,8 +3,8 @@
     python src/kineme/web/pages/make_messages.py
 
 writes ``src/messages.ts`` beside this file from `kineme.web.messages`,
-`kineme.web.requests`, `kineme.web.annotator_messages` and
-`kineme.web.library_messages`: the same names, with
+`kineme.web.requests`, `kineme.web.annotator_messages`, `kineme.web.library_messages` and
+`kineme.web.live_messages`: the same names, with
 what their docstrings begin with. Generators that start from JSON Schema lose the names of
 ``Level`` and ``Edit`` and need a node package more; this one reads
 ``msgspec.inspect``. ``src/studio/server/paths.ts`` has the paths of
@@ -27,7 +27,7 @@ from kineme._util.files import atomic_write
 from kineme.segments.table import COLUMNS, Kind, Level
 from kineme.studio.library_routes import LibraryApi
 from kineme.studio.routes import Api
-from kineme.web import annotator_messages, library_messages, messages, requests
+from kineme.web import annotator_messages, library_messages, live_messages, messages, requests
 
 SOURCES = Path(__file__).parent / "src"
 HEAD = "// Made from kineme/web (messages, requests) by make_messages.py; change them there.\n"
@@ -171,7 +171,7 @@ def _comment(text: str) -> str:
 def messages_typescript() -> str:
     """Return what ``messages.ts`` holds."""
     of_table = {"Level": Level, "Kind": Kind, "Segment": messages.Segment}
-    types = types_of(messages, requests, annotator_messages, library_messages)
+    types = types_of(messages, requests, annotator_messages, library_messages, live_messages)
     return f"{typescript(of_table | types)}\n{_bare()}"
 
 

@@ -17,7 +17,7 @@ const names = {
 };
 
 export default defineConfig(({ mode }) => {
-  const page = mode === "report" || mode === "library" ? mode : "studio";
+  const page = ["report", "library", "live"].includes(mode) ? mode : "studio";
   return {
     base: "./",
     plugins: [page === "report" && oneFile(), generated(), pageOfStudio()],

@@ -771,6 +771,39 @@ export interface TablesChanged {
   left: string[];
 }
 
+/** An event of a stream; 0 or empty is what its kind does not have. */
+export interface LiveEvent {
+  event: "ActivityEnded" | "ActivityStarted" | "Gap" | "Notice" | "Repetition";
+  at_s: number;
+  state: "final" | "provisional";
+  start_s: number;
+  stop_s: number;
+  cluster: number;
+  label: string;
+  number: number;
+  repetitions: number;
+  text: string;
+}
+
+/** What does not change in a stream: names of the curves, and joints that are connected. */
+export interface LiveHead {
+  channels: string[];
+  sample_fps: number;
+  bones: [number, number][];
+}
+
+/** What is new since the update before; the first one has a head. */
+export interface LiveUpdate {
+  head: LiveHead | null;
+  now_s: number;
+  silent_s: number;
+  has_ended: boolean;
+  events: LiveEvent[];
+  first_s: number;
+  samples: ((number | null)[])[];
+  pose: (number | null)[];
+}
+
 /** A row of which nothing is known. */
 export const bareSegment: Segment = {
   level: "activity",

@@ -259,10 +259,10 @@ export class Api {
     });
   }
 
-  /** Calls back for every change, and when the line drops or returns; it is set up again by itself. */
-  listen(changed: (change: Changed) => void, line: (up: boolean) => void, up = true): void {
+  /** Calls back for all news, and when the line drops or returns; it is set up again by itself. */
+  listen<T = Changed>(told: (news: T) => void, line: (up: boolean) => void, up = true): void {
     const source = new EventSource(addressOf("/api/events", {}, { token: this.token }));
-    source.onmessage = (event) => changed(JSON.parse(event.data as string) as Changed);
+    source.onmessage = (event) => told(JSON.parse(event.data as string) as T);
     source.onopen = () => {
       if (!up) line(true);
       up = true;
@@ -270,7 +270,7 @@ export class Api {
     source.onerror = () => {
       source.close();
       if (up) line(false);
-      setTimeout(() => this.listen(changed, line, false), RETRY);
+      setTimeout(() => this.listen(told, line, false), RETRY);
     };
   }
 

@@ -1,0 +1,152 @@
+"""Page of a stream: what goes on while it is recorded, on this machine alone."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+import webbrowser
+from collections import deque
+from collections.abc import AsyncIterator, Callable, Iterator, Sequence
+from contextlib import contextmanager
+from itertools import islice
+from time import monotonic, sleep
+from typing import Any
+
+import numpy as np
+import uvicorn
+from numpy.typing import NDArray
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import FileResponse, StreamingResponse
+from starlette.routing import Mount, Route
+from starlette.staticfiles import StaticFiles
+
+from kineme.studio.http.security import Guard, new_token
+from kineme.studio.server import HOST, PATIENCE, configure, listening
+from kineme.web import STATIC
+from kineme.web.encoding import to_json
+from kineme.web.live_messages import LiveEvent, LiveHead, LiveUpdate
+
+UPDATE_S = 0.2
+"""Seconds from one update of a page to the next."""
+CURVE_FPS = 25.0
+CURVES = 6
+"""Channels that are drawn, the first ones."""
+CURVES_S = 20.0
+MOST_EVENTS = 5000
+"""Events that a page is told which is opened late, of an hour at the most."""
+BLANK = {
+    "start_s": 0.0, "stop_s": 0.0, "cluster": -1, "label": "",
+    "number": 0, "repetitions": 0, "text": "",
+}  # fmt: skip
+
+
+class LivePage:
+    """What open pages are told of a stream: its last events and frames.
+
+    Parameters
+    ----------
+    fps : float
+    channels : sequence of str
+        Empty for a body.
+    parents : sequence of int
+        Of the joints of a body.
+    """
+
+    def __init__(self, fps: float, channels: Sequence[str], parents: Sequence[int] = ()) -> None:
+        self._fps, self._step = fps, max(1, round(fps / CURVE_FPS))
+        self._head = LiveHead(
+            channels=list(channels[:CURVES]),
+            sample_fps=fps / self._step,
+            bones=[(parent, joint) for joint, parent in enumerate(parents) if parent >= 0],
+        )
+        self.n_frames = 0
+        self.has_ended = self.is_closed = False
+        self._n_events = self._n_samples = 0
+        self._events: deque[LiveEvent] = deque(maxlen=MOST_EVENTS)
+        self._samples: deque[list[float | None]] = deque(maxlen=round(CURVES_S * CURVE_FPS))
+        self._pose: list[float | None] = []
+        self._heard, self._silent_s = monotonic(), 0.0
+        self._lock = threading.Lock()
+
+    def add(self, events: Sequence[dict[str, Any]], first: int, frames: NDArray[Any]) -> None:
+        """Take events as JSON has them, and the frames from ``n_frames`` or a later one on."""
+        with self._lock:
+            self._events += [LiveEvent(**{**BLANK, **event}) for event in events]
+            self._n_events += len(events)
+            self._heard = monotonic() if len(frames) else self._heard
+            self._silent_s = monotonic() - self._heard
+            if not len(frames):
+                return
+            if first > self.n_frames:
+                self._samples.clear()
+            self.n_frames = first + len(frames)
+            sampled = frames[-first % self._step :: self._step]
+            self._n_samples = -(-self.n_frames // self._step)
+            if not self._head.bones:
+                self._samples += sampled[:, :CURVES].tolist()
+            elif np.isfinite(frames[-1]).any():
+                self._pose = _flatten(frames[-1].reshape(-1, 3)).ravel().tolist()
+
+    async def stream(self) -> AsyncIterator[str]:
+        """Yield updates as ``text/event-stream``."""
+        n_events, n_samples = 0, -1
+        while not self.is_closed:
+            update, n_events, n_samples = self._update(n_events, n_samples)
+            yield f"data: {to_json(update).decode()}\n\n"
+            await asyncio.sleep(UPDATE_S)
+
+    def _update(self, n_events: int, n_samples: int) -> tuple[LiveUpdate, int, int]:
+        """Return what is new since so many events and samples, and how many there are now."""
+        with self._lock:
+            kept = len(self._samples)
+            n_new = min(self._n_samples - max(n_samples, 0), kept)
+            update = LiveUpdate(
+                head=self._head if n_samples < 0 else None,
+                now_s=self.n_frames / self._fps,
+                silent_s=self._silent_s,
+                has_ended=self.has_ended,
+                events=_last(self._events, self._n_events - n_events),
+                first_s=(self._n_samples - n_new) * self._step / self._fps,
+                samples=_last(self._samples, n_new),
+                pose=self._pose,
+            )
+            return update, self._n_events, self._n_samples
+
+
+def _last(items: deque[Any], n: int) -> list[Any]:
+    return list(islice(items, max(len(items) - n, 0), None))
+
+
+def _flatten(pose: NDArray[Any]) -> NDArray[Any]:
+    """Return a pose as it is seen from half left: right and up, the body in the middle."""
+    right = (pose[:, 0] - pose[:, 2]) / np.sqrt(2)
+    return np.round(np.column_stack([right - np.nanmean(right), pose[:, 1]]), 3)
+
+
+@contextmanager
+def serve_page(page: LivePage, announce: Callable[[str], None]) -> Iterator[None]:
+    """Serve a page from a thread of its own, and open it in the browser."""
+
+    async def show(_: Request) -> FileResponse:
+        return FileResponse(STATIC / "live.html")
+
+    async def tell(_: Request) -> StreamingResponse:
+        return StreamingResponse(page.stream(), media_type="text/event-stream")
+
+    with listening(0) as opened:
+        token, port = new_token(), opened.getsockname()[1]
+        assets = StaticFiles(directory=STATIC / "assets")
+        routes = [Route("/", show), Route("/api/events", tell), Mount("/assets", assets)]
+        server = uvicorn.Server(configure(Guard(Starlette(routes=routes), token=token, port=port)))
+        thread = threading.Thread(target=server.run, args=[[opened]], daemon=True)
+        thread.start()
+        address = f"http://{HOST}:{port}/?token={token}"
+        announce(address)
+        threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
+        try:
+            yield
+        finally:
+            sleep(2 * UPDATE_S)  # pages are told the end
+            page.is_closed = server.should_exit = True
+            thread.join(PATIENCE + 1)
