@@ -171,19 +171,20 @@ class Intake:
             odd = (steps * self.fps <= UNEVEN) | (steps > SUDDEN_S)
             count = int(odd.argmax()) if odd.any() else len(seconds)
             if not count:
-                count = self._place_odd(seconds, rows[start], pieces)
-                if count < 0:
+                placed = self._place_odd(seconds, rows[start], pieces)
+                if placed is None:
                     self.held_rows, self.held_times = rows[start:], times[start:]
                     return
+                count = placed
             else:
                 self._append(seconds[:count] * self.fps, rows[start : start + count])
                 self.last_s = float(seconds[count - 1])
             start += count
 
-    def _place_odd(self, seconds: Floats, row: Floats, pieces: list[Piece]) -> int:
-        """Place a row whose clock stands still, goes back or leaps.
+    def _place_odd(self, seconds: Floats, row: Floats, pieces: list[Piece]) -> int | None:
+        """Place a row whose clock stands still, goes back or leaps; return how many rows are placed.
 
-        Returns 1 if that is done, 0 if the clock was corrected first, -1 if the next row is needed.
+        None where the next row has to be known; 0 where the clock was corrected instead.
         """
         step = float(seconds[0]) - self.last_s
         if abs(step) * self.fps <= UNEVEN:
@@ -193,7 +194,7 @@ class Intake:
             self._say(pieces, "rows that are older than the one before are left out")
             return 1
         if len(seconds) == 1:
-            return -1
+            return None
         if abs(seconds[1] - seconds[0]) >= abs(seconds[1] - self.last_s):
             self._say(pieces, "single rows with a time that nothing else has are left out")
             return 1
