@@ -182,7 +182,7 @@ class Intake:
             start += count
 
     def _place_odd(self, seconds: Floats, row: Floats, pieces: list[Piece]) -> int | None:
-        """Place a row whose clock stands still, goes back or leaps; return how many rows are placed.
+        """Place a row whose clock stands still, goes back or leaps; return how many are placed.
 
         None where the next row has to be known; 0 where the clock was corrected instead.
         """
