@@ -17,8 +17,8 @@ from kineme.evaluation.score import scores
 @pytest.fixture
 def in_one_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """To start the others takes longer than what these tests want of them."""
-    answers_to = folder.work_off
-    monkeypatch.setattr(folder, "answers_to", lambda jobs, _: answers_to(jobs, 1))
+    work_off = folder.work_off
+    monkeypatch.setattr(folder, "work_off", lambda jobs, _: work_off(jobs, 1))
 
 
 def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> None:

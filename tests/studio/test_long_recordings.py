@@ -353,10 +353,10 @@ def test_a_segmentation_that_is_cancelled_ends_within_its_stage(studio, monkeypa
     def waiting(*args: object) -> object:
         there.set()
         wanted.wait(60)
-        return repetitions(*args)
+        return find_repetitions(*args)
 
-    repetitions = primitives.repetitions  # of one segment
-    monkeypatch.setattr(primitives, "repetitions", waiting)
+    find_repetitions = primitives.find_repetitions  # of one segment
+    monkeypatch.setattr(primitives, "find_repetitions", waiting)
     again = {"preset": "kineme", "parameters": {"segment_cost": 0.9 * COST}}
     stages: list[str] = []
     stage = Run.stage

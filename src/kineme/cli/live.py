@@ -47,23 +47,17 @@ def live(
     read_options: ReadOptions,
     segment_options: SegmentOptions,
     outputs: dict[str, Any],
-    replay: Annotated[
-        Path | None, option(INPUT, "Replay this recording in place of standard input.")
-    ] = None,
-    speed: Annotated[
-        float, option(INPUT, "So many times as fast as it was; 0: without any wait.")
-    ] = 1.0,
+    replay: Annotated[Path | None, option(INPUT, "Replay this recording.")] = None,
+    speed: Annotated[float, option(INPUT, "So many times as fast; 0: without a wait.")] = 1.0,
     lsl: Annotated[
         str | None,
-        option(INPUT, "Take a stream of the Lab Streaming Layer, by name or type.", metavar="NAME"),
+        option(INPUT, "Take an LSL stream, by name or type.", metavar="NAME"),
     ] = None,
     osc: Annotated[
         int | None,
-        option(INPUT, "Take OSC messages, such as VMC, at this UDP port.", metavar="PORT"),
+        option(INPUT, "Take OSC, such as VMC, at this UDP port.", metavar="PORT"),
     ] = None,
-    osc_host: Annotated[
-        str, option(INPUT, "The address at which they are taken, 0.0.0.0 for any.")
-    ] = "127.0.0.1",
+    osc_host: Annotated[str, option(INPUT, "The address for that, 0.0.0.0 for any.")] = "127.0.0.1",
     delay: Annotated[
         float, option(METHOD, "Seconds after which what was found is final.", min=0.1)
     ] = 5.0,

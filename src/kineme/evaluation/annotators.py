@@ -437,9 +437,9 @@ def name_annotators(paths: Sequence[Path]) -> list[str]:
 
     Examples
     --------
-    >>> annotator_names([Path("labels/anna"), Path("labels/ben.csv")])
+    >>> name_annotators([Path("labels/anna"), Path("labels/ben.csv")])
     ['anna', 'ben']
-    >>> annotator_names([Path("anna/labels.csv"), Path("ben/labels.csv")])
+    >>> name_annotators([Path("anna/labels.csv"), Path("ben/labels.csv")])
     ['anna/labels', 'ben/labels']
     """
     whole = [path.absolute() for path in paths]

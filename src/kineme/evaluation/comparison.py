@@ -353,7 +353,7 @@ def map_clusters(comparisons: Sequence[Comparison]) -> dict[int, int]:
 
     Examples
     --------
-    >>> best_mapping([Comparison([0, 0, 1], [4, 4, 4], fps=1), Comparison([1], [9], fps=1)])
+    >>> map_clusters([Comparison([0, 0, 1], [4, 4, 4], fps=1), Comparison([1], [9], fps=1)])
     {4: 0, 9: 1}
     """
     truth, found = (
@@ -386,7 +386,7 @@ def find_runs(labels: ArrayLike) -> list[Run]:
 
     Examples
     --------
-    >>> runs([3, 3, 5])
+    >>> find_runs([3, 3, 5])
     [Run(label=3, start=0, stop=2), Run(label=5, start=2, stop=3)]
     """
     per_frame = np.asarray(labels, np.int64)

@@ -113,7 +113,7 @@ def make_labelling(rows: SegmentTable, *, fps: float) -> Labelling:
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
     >>> found = kineme.read_segments(bundled_truth())
-    >>> labelling_of(found.activities, fps=found.fps).labels[:4]
+    >>> make_labelling(found.activities, fps=found.fps).labels[:4]
     ('0', 'transition', '1', 'transition')
     """
     # A class of its own for a row without cluster and label.

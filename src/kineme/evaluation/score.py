@@ -85,7 +85,7 @@ class Score:
     ('MoF', 'frames')
     >>> walk, run, other = 0, 1, 7
     >>> compared = Comparison(np.array([walk, walk, run]), np.array([other, other, other]), fps=1)
-    >>> round(value_of(score.function(compared)), 3)
+    >>> round(get_value(score.function(compared)), 3)
     0.667
     """
 
@@ -146,7 +146,7 @@ def register(new: Score, *, replace: bool = False) -> None:
     ...     return 60 * (len(compared.found_runs) - 1) * compared.fps / len(compared.found)
     >>> title, help = "cuts a minute", "how often the result changes"
     >>> register(Score("cuts", title, help, "borders", cuts_per_minute))
-    >>> value_of(scores()["cuts"].function(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=2)))
+    >>> get_value(scores()["cuts"].function(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=2)))
     30.0
     >>> SCORES.remove("cuts")
     """
@@ -238,9 +238,9 @@ def evaluate_segmentation(
     --------
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
-    >>> from kineme.evaluation.label_truth import truth_of
+    >>> from kineme.evaluation.label_truth import make_truth
     >>> labels = kineme.read_segments(bundled_truth())
-    >>> truth = truth_of(labels, n_frames=labels.n_frames, fps=labels.fps)
+    >>> truth = make_truth(labels, n_frames=labels.n_frames, fps=labels.fps)
     >>> evaluate_segmentation(truth, labels)["one_to_one"]
     1.0
     """

@@ -147,7 +147,7 @@ def compute_channel_statistics(
     --------
     >>> import numpy as np
     >>> still = np.zeros((500, 2))
-    >>> channel_statistics(still, 50.0, rate=5.0, window=1.0, bands=(1.0, 4.0, 16.0)).shape
+    >>> compute_channel_statistics(still, 50.0, rate=5.0, window=1.0, bands=(1.0, 4.0, 16.0)).shape
     (50, 6)
     """
     every = Mixture(np.arange(channels.shape[1]))

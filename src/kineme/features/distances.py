@@ -69,9 +69,9 @@ def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     Examples
     --------
     >>> import kineme
-    >>> from kineme.features import distance_features
+    >>> from kineme.features import compute_distance_features
     >>> motion = kineme.read(kineme.bundled_recording())
-    >>> features, points = distance_features(motion.positions)
+    >>> features, points = compute_distance_features(motion.positions)
     >>> features.shape
     (2898, 15)
     """

@@ -108,8 +108,8 @@ def round_offsets(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]:
 
     Examples
     --------
-    >>> from kineme.features import offsets_in_frames
-    >>> offsets_in_frames([-0.1, 0.0, 0.1], 30.0)
+    >>> from kineme.features import round_offsets
+    >>> round_offsets([-0.1, 0.0, 0.1], 30.0)
     (-3, 0, 3)
     """
     if not (fps > 0 and np.isfinite(fps)):

@@ -172,7 +172,7 @@ def list_written_suffixes() -> tuple[str, ...]:
 
     Examples
     --------
-    >>> written_suffixes()[:3]
+    >>> list_written_suffixes()[:3]
     ('.csv', '.json', '.parquet')
     """
     writers = [candidate for candidate in label_formats().values() if candidate.write]

@@ -136,5 +136,5 @@ OUTPUTS = {
         int,
     ),
     "osc_out": Output(open_osc, "Send events as OSC messages to this address.", "HOST:PORT"),
-    "lsl_out": Output(open_lsl, "Send events as markers of an LSL stream, as JSON.", "NAME"),
+    "lsl_out": Output(open_lsl, "Send events as markers of JSON by LSL.", "NAME"),
 }

@@ -204,9 +204,9 @@ def suggest_names(name: str, names: Collection[str]) -> str:
 
     Examples
     --------
-    >>> unknown("min_acton", ["radius", "min_action"])
+    >>> suggest_names("min_acton", ["radius", "min_action"])
     'did you mean min_action?'
-    >>> unknown("width", ["radius", "min_action"])
+    >>> suggest_names("width", ["radius", "min_action"])
     'there are radius, min_action'
     """
     near = get_close_matches(name, names, n=1)

@@ -61,7 +61,7 @@ def find_spans(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
 
     Examples
     --------
-    >>> spans_of(np.array([True, False, True, True])).tolist()
+    >>> find_spans(np.array([True, False, True, True])).tolist()
     [[0, 1], [2, 4]]
     """
     # False at both ends closes every span; changes then come in pairs of start and stop.

@@ -27,7 +27,7 @@ def group_axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
 
     Examples
     --------
-    >>> axes_by_point(["time", "hip_x", "hip_y", "knee_x"])
+    >>> group_axes(["time", "hip_x", "hip_y", "knee_x"])
     {'hip': {'x': 'hip_x', 'y': 'hip_y'}}
     """
     found: dict[str, dict[str, str]] = {}
@@ -60,7 +60,7 @@ def list_beginnings(name: str) -> Iterator[str]:
 
     Examples
     --------
-    >>> list(beginnings("hip_angular_vel"))
+    >>> list(list_beginnings("hip_angular_vel"))
     ['hip', 'hip_angular']
     """
     for word in islice(_WORD.finditer(name), 1, _MOST_WORDS):

@@ -101,9 +101,9 @@ def name_clock(name: str) -> str | None:
 
     Examples
     --------
-    >>> clock_name("accelerometerTimestamp_sinceReboot(s)"), clock_name("SampleTimeFine")
+    >>> name_clock("accelerometerTimestamp_sinceReboot(s)"), name_clock("SampleTimeFine")
     ('time (s)', 'time')
-    >>> clock_name("PacketCounter")
+    >>> name_clock("PacketCounter")
     """
     match = _CLOCK.fullmatch(name.strip())
     return match and (f"time ({match[1]})" if match[1] else "time")
@@ -203,9 +203,9 @@ def is_day_first(texts: Sequence[str]) -> bool | None:
 
     Examples
     --------
-    >>> day_comes_first(["5/6/2026 23:59:59", "13/6/2026 0:00:00"])
+    >>> is_day_first(["5/6/2026 23:59:59", "13/6/2026 0:00:00"])
     True
-    >>> day_comes_first(["5/6/2026 1:00"])
+    >>> is_day_first(["5/6/2026 1:00"])
     """
     for text in texts:
         match = _WRITTEN.fullmatch(text)

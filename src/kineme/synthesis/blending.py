@@ -288,8 +288,8 @@ def find_foot_contacts(path: Floats, fps: float) -> Spans:
     Examples
     --------
     >>> import numpy as np
-    >>> from kineme.synthesis import foot_contacts
-    >>> foot_contacts(np.zeros((30, 3)), 30.0)
+    >>> from kineme.synthesis import find_foot_contacts
+    >>> find_foot_contacts(np.zeros((30, 3)), 30.0)
     [(0, 30)]
     """
     if len(path) < 2:

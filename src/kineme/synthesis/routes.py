@@ -178,11 +178,11 @@ def find_following(graph: MotionGraph, name: str) -> list[str]:
 
     Examples
     --------
-    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, following
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, find_following
     >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
     >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
     >>> graph = MotionGraph((Source("walk.bvh", None, 60),), nodes, edges, 30.0, 0.08, 1 / 3)
-    >>> following(graph, "walk")
+    >>> find_following(graph, "walk")
     ['jump']
     """
     return _format_names(

@@ -41,7 +41,7 @@ def compute_channel_samples(signals: Signals) -> ChannelSamples:
     Examples
     --------
     >>> from kineme import Signals
-    >>> channel_samples(Signals([[0.0], [2.0]] * 20, fps=20)).rows[4].tolist()
+    >>> compute_channel_samples(Signals([[0.0], [2.0]] * 20, fps=20)).rows[4].tolist()
     [0.8, 1.0, 1.0]
     """
     half = max(1, round(WINDOW / 2 * signals.fps))

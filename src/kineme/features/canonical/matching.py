@@ -146,9 +146,9 @@ def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
     Examples
     --------
     >>> import kineme, numpy as np
-    >>> from kineme.features.canonical import matching_features, mirrored_features
+    >>> from kineme.features.canonical import matching_features, mirror_features
     >>> motion = kineme.read(kineme.bundled_recording())
-    >>> mirrored = mirrored_features(matching_features(motion))
+    >>> mirrored = mirror_features(matching_features(motion))
     >>> errors = np.linalg.norm(mirrored - matching_features(kineme.mirror(motion)), axis=1)
     >>> bool(np.median(errors) < 0.15)
     True

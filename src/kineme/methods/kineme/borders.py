@@ -132,7 +132,7 @@ def carry_over(fine: Frames, before: Frames, after: Frames) -> Frames:
 
     Examples
     --------
-    >>> carried_over(np.array([0, 2, 5, 6, 9]), np.array([0, 5, 9]), np.array([0, 7, 9])).tolist()
+    >>> carry_over(np.array([0, 2, 5, 6, 9]), np.array([0, 5, 9]), np.array([0, 7, 9])).tolist()
     [0, 2, 7, 9]
     """
     # Fine borders between the old and the new place of a border are passed over: they go.

@@ -202,7 +202,7 @@ def compute_probability(statistic: Floats, weights: tuple[float, float]) -> Floa
 
     Examples
     --------
-    >>> probability(np.array([0.0, 2.0]), (0.0, 1.0)).round(2).tolist()
+    >>> compute_probability(np.array([0.0, 2.0]), (0.0, 1.0)).round(2).tolist()
     [0.5, 0.88]
     """
     # The logistic function as a hyperbolic tangent, which does not overflow.

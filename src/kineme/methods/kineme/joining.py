@@ -183,7 +183,7 @@ def compare_at_border(repeated: Floats, border: int, centering: float) -> tuple[
     Examples
     --------
     >>> swing = np.array([[0.0], [1.0], [0.0], [-1.0]])
-    >>> beside, across = similarities_at(np.stack([swing, swing + 5, -swing]), 2, 1.0)
+    >>> beside, across = compare_at_border(np.stack([swing, swing + 5, -swing]), 2, 1.0)
     >>> round(beside, 2), round(across, 2)
     (1.0, -1.0)
     """

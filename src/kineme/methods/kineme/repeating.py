@@ -154,7 +154,7 @@ def measure_channel_energies(centered: NDArray[np.float64]) -> NDArray[np.float6
 
     Examples
     --------
-    >>> channel_energies(np.array([[[3.0, 4.0], [-3.0, -4.0]]])).tolist()
+    >>> measure_channel_energies(np.array([[[3.0, 4.0], [-3.0, -4.0]]])).tolist()
     [[[0.6, 0.8]]]
     """
     energies = np.sqrt((centered**2).mean(axis=1, keepdims=True))

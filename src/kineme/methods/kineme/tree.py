@@ -408,7 +408,7 @@ def spread_samples(start: int, stop: int, most: int) -> Samples:
 
     Examples
     --------
-    >>> spread(0, 10, 2)
+    >>> spread_samples(0, 10, 2)
     array([2, 7])
     """
     n = min(stop - start, most)
@@ -431,7 +431,7 @@ def choose_part_ends(rows: Rows | Floats, longest: int, side: int) -> list[int]:
 
     Examples
     --------
-    >>> part_ends(np.repeat([0.0, 1.0, 0.0], [85, 40, 75])[:, None], 100, 10)
+    >>> choose_part_ends(np.repeat([0.0, 1.0, 0.0], [85, 40, 75])[:, None], 100, 10)
     [0, 85, 200]
     """
     n = len(rows)

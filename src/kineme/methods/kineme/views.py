@@ -113,7 +113,7 @@ def split_by_speed(scaled: Floats) -> list[Ints]:
     Examples
     --------
     >>> frames = np.arange(100)[:, None]
-    >>> [half.tolist() for half in slow_and_fast(np.sin(frames * [0.1, 2, 0.2, 1]))]
+    >>> [half.tolist() for half in split_by_speed(np.sin(frames * [0.1, 2, 0.2, 1]))]
     [[0, 2], [1, 3]]
     """
     if scaled.shape[1] < 2:
@@ -270,9 +270,9 @@ def measure_mutual_information(first: Labels, second: Labels) -> float:
 
     Examples
     --------
-    >>> mutual_information(np.array([0, 0, 1, 1]), np.array([5, 5, 3, 3]))
+    >>> measure_mutual_information(np.array([0, 0, 1, 1]), np.array([5, 5, 3, 3]))
     1.0
-    >>> mutual_information(np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1]))
+    >>> measure_mutual_information(np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1]))
     0.0
     """
     # Two labels as one number, so that one count gives the table of both.

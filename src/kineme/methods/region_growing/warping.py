@@ -183,9 +183,9 @@ def label_components(
     Examples
     --------
     >>> import kineme
-    >>> from kineme.methods.region_growing.warping import component_labels
+    >>> from kineme.methods.region_growing.warping import label_components
     >>> graph = kineme.neighbor_graph([[0.0], [1.0], [0.0], [1.0]], radius=0.1)
-    >>> component_labels(graph).tolist()
+    >>> label_components(graph).tolist()
     [0, 1, 0, 1, 4, 0, 4, 0]
     """
     indptr = graph.indptr
