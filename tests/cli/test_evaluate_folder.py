@@ -17,8 +17,8 @@ from kineme.evaluation.score import scores
 @pytest.fixture
 def in_one_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """To start the others takes longer than what these tests want of them."""
-    work_off = folder.work_off
-    monkeypatch.setattr(folder, "work_off", lambda jobs, _: work_off(jobs, 1))
+    run_jobs = folder.run_jobs
+    monkeypatch.setattr(folder, "run_jobs", lambda jobs, _: run_jobs(jobs, 1))
 
 
 def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> None:

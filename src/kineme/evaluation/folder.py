@@ -182,7 +182,7 @@ def evaluate_folder(
         for name in methods
     ]
     answers: dict[Job, Answer] = {}
-    for done, (job, answer) in enumerate(work_off(jobs, processes), 1):
+    for done, (job, answer) in enumerate(run_jobs(jobs, processes), 1):
         answers[job] = answer
         if progress is not None:
             progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
@@ -368,7 +368,7 @@ class Answer:
     error: str = ""
 
 
-def work_off(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
+def run_jobs(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
     """Yield each job and its answer, as they come."""
     if processes == 1:
         for job in jobs:

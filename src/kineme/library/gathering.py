@@ -115,7 +115,7 @@ def _make(
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
     done = watch(progress, len(tasks), sum(task.size for task in tasks))
     alone: list[Task] = []
-    for task, outcome in work_off(list(groups), executor):
+    for task, outcome in run_tasks(list(groups), executor):
         _note(plan, task, outcome, into)
         (_, *others), digest = groups[task]
         if outcome.digest == digest:
@@ -124,7 +124,7 @@ def _make(
             alone += others
             others = []
         done(1 + len(others), task.size * (1 + len(others)))
-    for task, outcome in work_off(alone, executor):
+    for task, outcome in run_tasks(alone, executor):
         _note(plan, task, outcome, into)
         done(1, task.size)
 
@@ -224,7 +224,7 @@ def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 
-def work_off(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
+def run_tasks(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
     """Yield each task and what came of it, as they come."""
     for task, outcome in executor.completed(
         analyze_recording, tasks, workers=choose_workers(tasks)

@@ -103,7 +103,7 @@ def explain_variance(poses, path, visits, centered):
 
 
 @njit("float64(float64[:, ::1], float64[::1], int64, int64)", **SUMS)
-def _measure_rest(rows, total, start, stop):
+def _measure_residual(rows, total, start, stop):
     """Squares that the best multiple of the mean of the others leaves of rows, summed over rows.
 
     ``total`` is the sum of the rows from start to stop.
@@ -140,12 +140,12 @@ def find_best_parting(centered):
     for k in range(count):
         for e in range(rows.shape[1]):
             rough += ROUGH * rows[k, e] * rows[k, e]
-    one_mean = _measure_rest(rows, sums[count], 0, count)
+    one_mean = _measure_residual(rows, sums[count], 0, count)
     best = 1.0
     for cut in range(LEAST, count - LEAST + 1):
         # Both parts have as many repetitions as a movement needs.
-        two_means = _measure_rest(rows, sums[cut], 0, cut)
-        two_means += _measure_rest(rows, sums[count] - sums[cut], cut, count)
+        two_means = _measure_residual(rows, sums[cut], 0, cut)
+        two_means += _measure_residual(rows, sums[count] - sums[cut], cut, count)
         best = min(best, (two_means + rough) / (one_mean + rough))
     return best
 

@@ -94,12 +94,13 @@ def analyze(
     ParameterError
         Features of another shape, empty, or not finite.
     """
-    with _thread_limiter().limit(limits=1):  # parts run side by side; sums do not depend on threads
+    # Parts run side by side, and sums must not depend on threads.
+    with _get_thread_limiter().limit(limits=1):
         return _analyze(as_features(features), preset, progress, joints=joints)
 
 
 @cache
-def _thread_limiter() -> ThreadpoolController:
+def _get_thread_limiter() -> ThreadpoolController:
     """Return what limits the threads of matrix products; to find their library takes 7 ms."""
     return ThreadpoolController()
 
