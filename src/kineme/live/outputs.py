@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import re
 from collections.abc import Callable, Iterator, Sequence
@@ -91,6 +90,8 @@ def open_osc(target: str) -> Iterator[Send]:
 @contextmanager
 def open_websocket(port: int) -> Iterator[Send]:
     """Send events as JSON to all who are connected to a port of this machine."""
+    import asyncio
+
     with require_extra("websockets", "websocket"):
         from websockets.asyncio.server import Server, ServerConnection, broadcast, serve
     loop = asyncio.new_event_loop()

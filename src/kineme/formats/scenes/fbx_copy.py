@@ -30,7 +30,7 @@ from kineme.formats.scenes.fbx_file import MAGIC, START, head_of, parse_fbx
 from kineme.formats.scenes.fbx_nodes import FBXNode
 from kineme.formats.scenes.fbx_scene import STILL, FBXScene, Pose, invert_transform
 from kineme.formats.scenes.fbx_writer import FOOTER, TakeWriter, encode_fbx, single, write_takes
-from kineme.formats.scenes.gltf_writer import check_copy
+from kineme.formats.scenes.gltf_writer import check_copy, refuse_uneven
 from kineme.recordings import Motion
 from kineme.recordings.posing import get_rig
 
@@ -82,9 +82,7 @@ class _Copy(TakeWriter):
             self._rest[root] = Transform(*still, below.inheritance)
         parts = stack_transforms(self._rest, rig.parents)
         if parts is None:
-            raise WriteError(
-                path, f"the bones of {source.name} are mirrored or scaled unevenly at rest"
-            )
+            raise refuse_uneven(source, path)
         rig = replace(rig, translations=parts[0], rotations=parts[1], scales=parts[2])
         numbers = (number for number in count(1_000_000) if number not in scene.objects)
         super().__init__(rig, motion.fps, numbers)
@@ -119,17 +117,16 @@ class _Copy(TakeWriter):
         kept = [node for number, node in objects.items() if number not in dropped]
         counts = dict.fromkeys(_ANIMATION, 0) | Counter(each.name for each in kept + self.objects)
         change = len(self.objects) - len(dropped)
+        above = {0, *self.models[: self.rig.above]}
         settings = {name: value for name, *_, value in self.time_settings()}
         for node in root.children:
             if node.name == "Objects":
                 kept = [each for each in node.children if each.name not in _ANIMATION]
                 kept = [self._extend_pose(each) for each in kept]
                 yield _with_children(node, [*kept, *self.objects])
-                self.objects = []
             elif node.name == "Connections":
-                kept = [each for each in node.children if self._is_kept(each, dropped)]
+                kept = [each for each in node.children if self._is_kept(each, dropped, above)]
                 yield _with_children(node, [*kept, *self.links])
-                self.links = []
             elif node.name == "Definitions":
                 yield _with_children(node, _count_objects(node, counts, change))
             elif node.name == "Takes":
@@ -137,12 +134,11 @@ class _Copy(TakeWriter):
             else:
                 yield _set_properties(node, {**settings, "ActiveAnimStackName": names[0]})
 
-    def _is_kept(self, link: FBXNode, dropped: set[int]) -> bool:
+    def _is_kept(self, link: FBXNode, dropped: set[int], above: set[int]) -> bool:
         part, parent = link.number(1, -1), link.number(2, -1)
         if part in dropped or parent in dropped:
             return False
         # What the new root carries hangs on no other model.
-        above = {0, *self.models[: self.rig.above]}
         return not (link.text(0) == "OO" and part in self.moved and parent in above)
 
     def _extend_pose(self, node: FBXNode) -> FBXNode:

@@ -91,10 +91,13 @@ def check_copy(motions: Mapping[str, Motion], source: Path, path: Path) -> Skele
     """
     skeleton = check_animations(motions, path, f"a copy of {source.name}").skeleton
     if skeleton.rig is None or not skeleton.rig.numbers:
-        raise WriteError(
-            path, f"the bones of {source.name} are mirrored or scaled unevenly at rest"
-        )
+        raise refuse_uneven(source, path)
     return skeleton
+
+
+def refuse_uneven(source: Path, path: Path) -> WriteError:
+    """Return the error for bones whose rest no rig can have."""
+    return WriteError(path, f"the bones of {source.name} are mirrored or scaled unevenly at rest")
 
 
 def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
