@@ -1,4 +1,4 @@
-"""The page of ``kineme live`` while rows come, stop and end."""
+"""Show ``kineme live`` in the browser while rows come, stop and end."""
 
 from __future__ import annotations
 

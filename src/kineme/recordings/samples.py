@@ -74,7 +74,7 @@ def read_samples(
     samples = _convert_samples(data)
     if times is not None:
         samples = replace(samples, times=times, unit=None)
-    timing, notes = _find_rate(samples, fps, times, assumed_fps)
+    timing, notes = _find_rate_and_frames(samples, fps, times, assumed_fps)
     values, gaps, filled = fill_gaps_in_channels(timing, samples.values, samples.names)
     notes = [*samples.notes, *notes, *timing.notes, *filled]
     provenance = Provenance().noted(*notes).timed(timing.clock, timing.row_seconds)
@@ -96,7 +96,7 @@ class _Samples:
     notes: list[Note | str] = field(default_factory=list)
 
 
-def _find_rate(
+def _find_rate_and_frames(
     samples: _Samples, fps: float | None, times: ArrayLike | None, assumed_fps: float
 ) -> tuple[Timing, list[Note | str]]:
     """Return the rate and the frames of rows, and notes."""

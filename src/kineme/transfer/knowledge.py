@@ -222,7 +222,7 @@ class KnowledgeBase:
             )
         rows = _select_labelled(segments)
         features = matching_features(motion, effectors=effectors)
-        starts, stops = convert_frames(rows, segments.fps, len(features))
+        starts, stops = find_working_frames(rows, segments.fps, len(features))
         source = motion.provenance
         path, digest = source.path, source.sha256
         if digest and len(source.people) > 1:
@@ -326,7 +326,7 @@ def _select_labelled(segments: Segmentation) -> SegmentTable:
     return rows
 
 
-def convert_frames(
+def find_working_frames(
     rows: SegmentTable, fps: float, n_features: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """First frame and end of each row in the features; at least one frame each."""

@@ -30,7 +30,7 @@ from kineme.errors import ParameterError
 from kineme.segments.editing.rows import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable, choose_kind
-from kineme.transfer.knowledge import FPS, KnowledgeBase, convert_frames
+from kineme.transfer.knowledge import FPS, KnowledgeBase, find_working_frames
 from kineme.transfer.matching import Primitives, label_costs, number_movements
 from kineme.transfer.subsequences import THRESHOLD, search
 
@@ -355,7 +355,7 @@ def _check_features(features: ArrayLike, segmentation: Segmentation) -> Floats:
 
 def _list_primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
     """Return the rows with their frames; those of a cluster that touch are a run."""
-    starts, stops = convert_frames(rows, fps, len(features))
+    starts, stops = find_working_frames(rows, fps, len(features))
     follows = (rows.start_frame[1:] == rows.stop_frame[:-1]) & (
         rows.cluster[1:] == rows.cluster[:-1]
     )

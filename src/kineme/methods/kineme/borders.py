@@ -120,7 +120,7 @@ def convert_to_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frame
     return borders
 
 
-def carry_over(fine: Frames, before: Frames, after: Frames) -> Frames:
+def move_fine_borders(fine: Frames, before: Frames, after: Frames) -> Frames:
     """Finest borders with those of a level where they have been moved to.
 
     Parameters
@@ -132,7 +132,8 @@ def carry_over(fine: Frames, before: Frames, after: Frames) -> Frames:
 
     Examples
     --------
-    >>> carry_over(np.array([0, 2, 5, 6, 9]), np.array([0, 5, 9]), np.array([0, 7, 9])).tolist()
+    >>> fine, level = np.array([0, 2, 5, 6, 9]), np.array([0, 5, 9])
+    >>> move_fine_borders(fine, level, np.array([0, 7, 9])).tolist()
     [0, 2, 7, 9]
     """
     # Fine borders between the old and the new place of a border are passed over: they go.

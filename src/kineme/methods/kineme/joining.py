@@ -62,7 +62,7 @@ class Sets(NamedTuple):
     cuts: list[Frames]
 
 
-class Union(NamedTuple):
+class Merger(NamedTuple):
     """Two neighbours as one: how like their repetitions are across the border, and its cuts."""
 
     likeness: float
@@ -85,7 +85,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
     starts, stops, labels, preference = (values.tolist() for values in found[:4])
     cuts = list(found.cuts)
 
-    def union(left: int) -> Union:
+    def union(left: int) -> Merger:
         right = left + 1
         counts = len(cuts[left]) + 1, len(cuts[right]) + 1
         start, stop = starts[left], stops[right]
@@ -93,11 +93,11 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         # enough of them to be sure, as walking and running have, stay apart.
         is_sure = min(counts) >= SURE * preset.chance_count
         if max(counts) < 3 or is_sure or stop - start > preset.frames(SPAN[1]):
-            return Union(0.0, np.empty(0, np.int64))
+            return Merger(0.0, np.empty(0, np.int64))
         together = find_repetitions(rows, start, stop, preset)
         border = (stops[left] + starts[right]) // 2 - start
         likeness = measure_likeness(rows[start:stop], together - start, border, counts, preset)
-        return Union(likeness, together)
+        return Merger(likeness, together)
 
     unions = map_threads(union, range(len(starts) - 1))
     while unions:

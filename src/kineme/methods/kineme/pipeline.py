@@ -28,7 +28,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_features
 from kineme._util.parallel import map_threads
 from kineme.features.channels import choose_frames
-from kineme.methods.kineme.borders import carry_over, refine_borders
+from kineme.methods.kineme.borders import move_fine_borders, refine_borders
 from kineme.methods.kineme.confidence import collect_evidence
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.kineme.primitives import (
@@ -135,7 +135,7 @@ def _analyze(
         level = link_parts(features, at, [part.level for part in parts], unit=unit, price=price)
     with stage("borders"):
         starts, stops = refine_borders(rows, level.borders, preset)
-        fine = carry_over(level.fine, level.borders, np.append(starts, n))
+        fine = move_fine_borders(level.fine, level.borders, np.append(starts, n))
     with stage("repetitions"):
         segments = divide_into_repetitions(
             poses, starts, stops, level.labels, level.preference, preset
