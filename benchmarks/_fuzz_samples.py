@@ -23,7 +23,7 @@ from kineme._util.files import CORRECTED
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import MissingDependencyError
 from kineme.evaluation.inputs import is_annotations, read_trials
-from kineme.formats.listing import recordings_in
+from kineme.formats.listing import scan_folder
 from kineme.labels.collections import find_labels
 from kineme.library import Library, build
 from kineme.library.storage.layout import STATES
@@ -90,7 +90,7 @@ def doors_of(path: Path) -> tuple[Door, ...]:
             lambda root: kineme.read(root / path, fps=60),
             lambda root: kineme.read(root / path, columns=[]),
             lambda root: formats.sketch(root / path, formats.ReadOptions(), 5),
-            lambda root: recordings_in((root / path).parent),
+            lambda root: scan_folder((root / path).parent),
         ),
         "labels": (
             lambda root: kineme.read_segments(root / path, format=path.stem, fps=60),

@@ -25,5 +25,5 @@ def test_each_take_has_its_table_and_its_clips(kineme, tmp_path: Path) -> None:
         "clips.manifest.csv",
         "clips.manifest.json",
     ]
-    takes = {name.split("_")[0] for name in package.formats.takes_in(tmp_path / "clips.glb")}
+    takes = {name.split("_")[0] for name in package.formats.list_takes(tmp_path / "clips.glb")}
     assert takes == {"walk", "jump"}

@@ -14,7 +14,7 @@ import kineme
 from kineme.clips.motion_matching import LAYOUT
 from kineme.clips.split import split, split_all
 from kineme.errors import ParameterError, WriteError
-from kineme.formats import takes_in
+from kineme.formats import list_takes
 from kineme.recordings.operations import cut
 
 pytestmark = pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
@@ -77,13 +77,13 @@ def test_targets_set_format_root_bone_and_names(
 def test_all_takes_of_a_character_are_animations_of_one_copy(data_dir, tmp_path) -> None:
     source, target = data_dir / "rigs" / "Xbot.glb", tmp_path / "clips.glb"
     found = []
-    for take in takes_in(source)[:3]:
+    for take in list_takes(source)[:3]:
         motion = kineme.read(source, take=take)
         found.append((motion, kineme.segment(motion)))
     split_all(found, target)
     clips = clips_of(tmp_path, "clips.manifest.json")
     assert {clip["take"].split("_")[0] for clip in clips} == {"agree", "headShake", "idle"}
-    assert {*takes_in(target)} == {clip["take"] for clip in clips}
+    assert {*list_takes(target)} == {clip["take"] for clip in clips}
     split_all(found, target)  # its own file is replaced
     (tmp_path / "mine.glb").write_bytes(b"mine")
     with pytest.raises(WriteError, match="is there already, without a manifest"):

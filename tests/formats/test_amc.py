@@ -10,7 +10,7 @@ from format_samples import AMC, ASF
 import naive
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read
-from kineme.formats.skeletons.amc import _compiled_rows
+from kineme.formats.skeletons.amc import _parse_rows_compiled
 from kineme.recordings import Motion
 
 CMU_UNIT = 0.0254 / 0.45
@@ -104,7 +104,7 @@ def test_values_may_come_in_any_order_and_layout(tmp_path: Path) -> None:
 )
 def test_compiled_reading_of_frames(text: str) -> None:
     counts = {"root": 3, "hip": 0, "leg": 1}
-    found = _compiled_rows(text.encode(), counts)
+    found = _parse_rows_compiled(text.encode(), counts)
     assert (None if found is None else found.tolist()) == naive.amc_rows(text, counts)
     if found is not None:  # a minus before nothing is kept, too
         assert np.array_equal(np.signbit(found), np.signbit(naive.amc_rows(text, counts)))
@@ -112,7 +112,7 @@ def test_compiled_reading_of_frames(text: str) -> None:
 
 @pytest.mark.parametrize("number", ["1e-3", "9007199254740993", "0.12345678901234567890123", "nan"])
 def test_numbers_that_compiled_reading_leaves_to_another(number: str) -> None:
-    assert _compiled_rows(f"1\nleg {number}\n".encode(), {"leg": 1}) is None
+    assert _parse_rows_compiled(f"1\nleg {number}\n".encode(), {"leg": 1}) is None
 
 
 def test_order_of_root_channels(tmp_path: Path) -> None:

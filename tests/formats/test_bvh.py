@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 import naive
 from kineme.errors import KinemeWarning
 from kineme.formats import read, write
-from kineme.formats.units import UNITS, rate_from_period
+from kineme.formats.units import UNITS, infer_rate
 from kineme.recordings import Motion, Skeleton
 
 REAL = [
@@ -192,9 +192,9 @@ def test_frame_times() -> None:
         (".0083333", 120), ("0.008333", 120), ("8.3333e-3", 120), ("0.0333333", 30),
         ("0.033", 30), ("0.025000", 40), ("0.04", 25), ("0.016667", 60), ("1", 1),
     ]:  # fmt: skip
-        assert rate_from_period(word)[0] == rate
+        assert infer_rate(word)[0] == rate
     for word in ("0.033926", "0.0333667"):
-        assert rate_from_period(word) == (pytest.approx(1 / float(word)), None)
+        assert infer_rate(word) == (pytest.approx(1 / float(word)), None)
 
 
 def test_fps_overrides(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ import kineme
 from kineme.errors import KinemeWarning
 from kineme.formats.dialects import DIALECTS, Dialect
 from kineme.formats.files import FileContent
-from kineme.formats.listing import recordings_in
+from kineme.formats.listing import scan_folder
 from kineme.formats.sniffing import sniff
 
 ROWS = [(i / 50, i * 0.25, 1.5 - i * 0.125, i * 0.5) for i in range(12)]
@@ -118,4 +118,4 @@ def test_a_folder_passes_over_tables_of_spans_in_any_layout(tmp_path: Path, head
     row = separator.join(["0.5", "1.5", "walk", "3"][: names.count(separator) + 1])
     (tmp_path / "labels.csv").write_text(f"{head}\n{row}\n{row}\n{row}\n")
     (tmp_path / "take.csv").write_text(text("time,acc_x,acc_y,acc_z"))
-    assert [path.name for path in recordings_in(tmp_path).recordings] == ["take.csv"]
+    assert [path.name for path in scan_folder(tmp_path).recordings] == ["take.csv"]

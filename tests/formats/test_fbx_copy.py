@@ -14,7 +14,7 @@ from _fbx import Keys, Name, node, walker
 from kineme.errors import KinemeWarning, WriteError
 from kineme.formats.files import load
 from kineme.formats.scenes.fbx_copy import copy_takes
-from kineme.formats.scenes.fbx_file import head_of, parse_fbx
+from kineme.formats.scenes.fbx_file import get_head_struct, parse_fbx
 from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.posing import add_root
 
@@ -25,7 +25,7 @@ def stored(path: Path) -> dict[int, bytes]:
     """Return the bytes of each object that is no animation, with ends counted from its start."""
     content = load(path)
     version, root = parse_fbx(content)
-    head, objects = head_of(version), {}
+    head, objects = get_head_struct(version), {}
     group = root.child("Objects")
     assert group is not None
     for each in group.children:

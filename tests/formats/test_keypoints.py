@@ -30,7 +30,7 @@ from typer.testing import CliRunner
 import kineme
 from kineme.cli.app import app
 from kineme.errors import KinemeWarning, ReadError
-from kineme.formats import ReadOptions, people_in
+from kineme.formats import ReadOptions, list_people
 from kineme.formats.keypoints.coco import LAYOUTS as MMPOSE
 
 
@@ -137,7 +137,7 @@ def test_all_people_get_a_table_each(tmp_path: Path) -> None:
     one, other = (pixels(standing(OPENPOSE[25], 200), x) for x in (300, 1200))
     frames = [openpose_frame(*both) for both in zip(one, other, strict=True)]
     (tmp_path / "a.json").write_text(json.dumps(frames))
-    assert people_in(tmp_path / "a.json", ReadOptions(fps=25)) == ("0", "1")
+    assert list_people(tmp_path / "a.json", ReadOptions(fps=25)) == ("0", "1")
     asked = ["segment", f"{tmp_path / 'a.json'}", "--fps", "25", "--preset", "uniform"]
     done = CliRunner().invoke(app, [*asked, "--person", "all", "-o", f"{tmp_path / 'a.csv'}"])
     assert done.exit_code == 0, done.output

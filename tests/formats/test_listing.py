@@ -14,7 +14,7 @@ from pyarrow import parquet
 
 import kineme
 from kineme.formats import listing
-from kineme.formats.listing import holds_recording, recordings_in
+from kineme.formats.listing import holds_recording, scan_folder
 from kineme.transfer.knowledge import holds_knowledge
 
 BVH = kineme.bundled_recording().read_text(encoding="utf-8")
@@ -49,7 +49,7 @@ def archive(path: Path, *names: str) -> Path:
 def test_texts(tmp_path: Path, name: str, text: str, expected: bool) -> None:
     (tmp_path / name).write_text(text, encoding="utf-8")
     assert holds_recording(tmp_path / name) is expected
-    assert recordings_in(tmp_path).recordings == [tmp_path / name] * expected
+    assert scan_folder(tmp_path).recordings == [tmp_path / name] * expected
 
 
 @pytest.mark.parametrize("known", [True, False])
@@ -81,7 +81,7 @@ def test_archives(tmp_path: Path, names: tuple[str, ...], expected: bool) -> Non
 def test_parquet_of_labels_is_told_by_its_last_bytes(tmp_path: Path) -> None:
     parquet.write_table(pa.table({"start_s": [0.0], "label": ["a"]}), tmp_path / "a.parquet")
     parquet.write_table(pa.table({"time": [0.0], "acc_x": [1.0]}), tmp_path / "b.parquet")
-    assert recordings_in(tmp_path).recordings == [tmp_path / "b.parquet"]
+    assert scan_folder(tmp_path).recordings == [tmp_path / "b.parquet"]
 
 
 def test_one_bad_file_never_ends_a_listing(tmp_path: Path, monkeypatch) -> None:
@@ -105,7 +105,7 @@ def test_one_bad_file_never_ends_a_listing(tmp_path: Path, monkeypatch) -> None:
         return first_bytes(path)
 
     monkeypatch.setattr(listing, "read_head", failing)
-    found = recordings_in(tmp_path)
+    found = scan_folder(tmp_path)
     assert found.recordings == [tmp_path / "walk.bvh"]
     reasons = {path.name: reason for path, reason in found.passed_over}
     assert reasons.keys() == {*faults, "newer.npz", "torn.npz"}
@@ -124,8 +124,8 @@ def test_names_that_are_no_utf8_and_links_to_nowhere(tmp_path: Path) -> None:
     except OSError:
         pytest.skip("the file system takes no such names")
     (tmp_path / "link.csv").symlink_to(tmp_path / "nowhere.csv")
-    assert [os.fsencode(p) for p in recordings_in(tmp_path).recordings] == [odd]
-    assert kineme.read(recordings_in(tmp_path).recordings[0]).n_frames > 0
+    assert [os.fsencode(p) for p in scan_folder(tmp_path).recordings] == [odd]
+    assert kineme.read(scan_folder(tmp_path).recordings[0]).n_frames > 0
 
 
 def test_folders_within_folders(tmp_path: Path) -> None:
@@ -133,22 +133,22 @@ def test_folders_within_folders(tmp_path: Path) -> None:
         (tmp_path / place).mkdir(parents=True)
         (tmp_path / place / "x.bvh").write_text("", encoding="utf-8")
     (tmp_path / "top.bvh").write_text("", encoding="utf-8")
-    flat = recordings_in(tmp_path)
+    flat = scan_folder(tmp_path)
     assert flat.recordings == [tmp_path / "top.bvh"]
     assert flat.folders == [tmp_path / "a", tmp_path / "b"]
-    deep = recordings_in(tmp_path, recursive=True)
+    deep = scan_folder(tmp_path, recursive=True)
     assert [str(p.relative_to(tmp_path)) for p in deep.recordings] == [
         "top.bvh",
         "a/x.bvh",
         "b/c/x.bvh",
     ]
-    assert recordings_in(tmp_path / "nowhere").passed_over[0][1].startswith("cannot be opened")
+    assert scan_folder(tmp_path / "nowhere").passed_over[0][1].startswith("cannot be opened")
 
 
 def test_a_numbered_json_beside_recordings_is_no_frame(tmp_path: Path) -> None:
     (tmp_path / "walk.bvh").write_text(BVH, encoding="utf-8")
     (tmp_path / "notes_1.json").write_text('{"who": "me"}', encoding="utf-8")
-    found = recordings_in(tmp_path)
+    found = scan_folder(tmp_path)
     assert (found.recordings, found.passed_over) == ([tmp_path / "walk.bvh"], [])
 
 
@@ -160,7 +160,7 @@ def test_files_known_by_their_suffix_are_not_opened(tmp_path: Path, monkeypatch)
         raise AssertionError("opened")
 
     monkeypatch.setattr(Path, "open", never)
-    assert len(recordings_in(tmp_path).recordings) == 5
+    assert len(scan_folder(tmp_path).recordings) == 5
 
 
 def test_archives_that_are_none_are_not_listed_as_zip(tmp_path: Path) -> None:

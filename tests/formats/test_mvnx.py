@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 import kineme
 from kineme.errors import ReadError, SeveralPeopleError
-from kineme.formats import people_in
+from kineme.formats import list_people
 from kineme.formats.skeletons.mvnx import PARENTS
 from kineme.recordings import Motion, Skeleton
 
@@ -124,7 +124,7 @@ def test_one_of_several_subjects(tmp_path: Path) -> None:
     bob = read(tmp_path, text, person="Bob")
     assert bob.positions[0, 0, 0] > 0.5
     assert (bob.provenance.person, bob.provenance.people) == ("Bob", ("Anna", "Bob"))
-    assert people_in(tmp_path / "a.mvnx") == ("Anna", "Bob")
+    assert list_people(tmp_path / "a.mvnx") == ("Anna", "Bob")
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 
 import kineme
 from kineme.errors import ReadError
-from kineme.formats.listing import recordings_in
+from kineme.formats.listing import scan_folder
 from kineme.recordings.times import parse_date
 
 
@@ -21,7 +21,7 @@ def test_a_pipe_is_not_waited_for(tmp_path: Path, suffix: str) -> None:
     for reader in (kineme.read, kineme.read_segments, kineme.KnowledgeBase.load):
         with pytest.raises(ReadError, match="is a pipe|are stored as"):
             reader(path)
-    assert recordings_in(tmp_path).recordings == []
+    assert scan_folder(tmp_path).recordings == []
 
 
 def test_a_leap_second(tmp_path: Path) -> None:
@@ -42,7 +42,7 @@ def test_a_table_of_labels_is_no_recording(tmp_path: Path, mark: str) -> None:
     head = mark.join(("label", "start_s", "stop_s"))
     (tmp_path / f"labels.{suffix}").write_text(f"{head}\nwalk{mark}0{mark}1\n")
     (tmp_path / f"data.{suffix}").write_text(f"time{mark}acc_x\n0{mark}1\n")
-    assert [path.stem for path in recordings_in(tmp_path).recordings] == ["data"]
+    assert [path.stem for path in scan_folder(tmp_path).recordings] == ["data"]
 
 
 def test_what_kineme_wrote_keeps_its_unit_whatever_is_said_of_its_axis(tmp_path: Path) -> None:

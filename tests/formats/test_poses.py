@@ -12,7 +12,7 @@ import kineme
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats.keypoints.mediapipe import NAMES
 from kineme.formats.keypoints.poses import KEY
-from kineme.formats.listing import recordings_in
+from kineme.formats.listing import scan_folder
 from kineme.pose import Pose
 from squats import squat, write_squats
 
@@ -140,7 +140,7 @@ def test_a_folder_of_videos(tmp_path: Path) -> None:
     write_squats(tmp_path / "b.parquet", AT_30_HZ)
     for name in ("a.mp4", "b.mp4", "c.MOV"):
         (tmp_path / name).write_bytes(b"\0\0\0\0ftyp")
-    found = [path.name for path in recordings_in(tmp_path).recordings]
+    found = [path.name for path in scan_folder(tmp_path).recordings]
     assert found == ["a.mp4", "b.parquet", "c.MOV"]
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import kineme
 from kineme.errors import MotionError
-from kineme.formats.read_write import read_motion, takes_in
+from kineme.formats.read_write import list_takes, read_motion
 from kineme.formats.scenes.fbx_writer import write_takes
 from kineme.recordings import Motion
 from kineme.recordings.operations import scale
@@ -138,7 +138,7 @@ def test_an_fbx_has_a_take_for_each_motion(tmp_path: Path) -> None:
     with pytest.warns(kineme.errors.KinemeWarning, match="2 takes are in it and 'walk' is read"):
         assert read_motion(path).n_frames == 60
     jump = read_motion(path, take="jump")
-    assert takes_in(path) == ("walk", "jump")
+    assert list_takes(path) == ("walk", "jump")
     there = [jump.joint(each) for each in motion.skeleton.names]
     np.testing.assert_allclose(jump.positions[:, there], motion.positions[300:420], atol=NEAR)
     assert jump.fps == motion.fps

@@ -17,7 +17,7 @@ from marker_samples import PLUG_IN_GAIT, walking
 import kineme
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read_motion
-from kineme.formats.arrays.amass import smpl_skeleton
+from kineme.formats.arrays.amass import make_smpl_skeleton
 
 JOINTS = ["pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head", "left_wrist"]
 JOINTS += ["right_wrist", "nose"]
@@ -301,7 +301,7 @@ def test_bad_trc(tmp_path: Path, old: str, new: str, line: int, reason: str) -> 
 
 
 def test_npz_of_poses(tmp_path: Path) -> None:
-    frames, skeleton = 10, smpl_skeleton()
+    frames, skeleton = 10, make_smpl_skeleton()
     poses = np.zeros((frames, 156))
     poses[:, :3] = (np.pi / 2, 0, 0)  # upright where z is up
     knee = skeleton.joint("left_knee")

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from kineme.formats.keypoints.mediapipe import NAMES
-from kineme.formats.keypoints.poses import NOBODY, row_type, write_poses
+from kineme.formats.keypoints.poses import NOBODY, make_row_type, write_poses
 from kineme.pose import Pose, PoseEstimator
 
 PERIOD_S = 2.0
@@ -51,7 +51,7 @@ def write_squats(
     rows = []
     for time in times:
         poses = people(time)
-        frame = np.zeros(max(1, len(poses)), row_type(len(NAMES)))
+        frame = np.zeros(max(1, len(poses)), make_row_type(len(NAMES)))
         frame["time"], frame["person"], frame["metres"] = time, NOBODY, np.nan
         for i, pose in enumerate(poses):
             frame[i]["person"], frame[i]["image"] = i, pose.image

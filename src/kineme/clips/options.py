@@ -12,7 +12,7 @@ from kineme.clips import RootMotionMode, TargetName
 from kineme.clips.names import check_template
 from kineme.clips.shaping import Shape
 from kineme.errors import ParameterError
-from kineme.formats.registry import Format, supported_formats, writer_of
+from kineme.formats.registry import Format, find_writer, supported_formats
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ def _format(suffix: str | None) -> Format | None:
     """Return the format of a suffix; ParameterError where no motions are written in it."""
     if suffix is None:
         return None
-    found = writer_of(f".{suffix}")
+    found = find_writer(f".{suffix}")
     if found is None:
         suffixes = sorted(s for each in supported_formats() if each.write for s in each.suffixes)
         names = ", ".join(name.removeprefix(".") for name in suffixes)

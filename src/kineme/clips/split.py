@@ -52,8 +52,8 @@ from kineme.clips.shaping import RankedLoop, ShapedClip, shape_clips
 from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.features import mirror as mirrored
 from kineme.formats import write
-from kineme.formats.channels.writing import rows_of
-from kineme.formats.registry import Format, writer_of
+from kineme.formats.channels.writing import make_rows
+from kineme.formats.registry import Format, find_writer
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
@@ -186,7 +186,7 @@ def write_clips(
     `split`. Loops are ranked among those of their recording, unless they are ranked ``together``.
     """
     target, chosen = Path(folder), choose(options)
-    one_file = writer_of(target.suffix.lower()) if target.suffix else None
+    one_file = find_writer(target.suffix.lower()) if target.suffix else None
     if one_file is not None and one_file.write_animations is not None and not target.is_dir():
         return _write_one_file(clips, target, one_file, chosen)
     entries: list[Clip] = []
@@ -389,7 +389,7 @@ class _Run:
 def _write_rows(run: _Run, signals: Signals, rows: Sequence[Segment]) -> Iterator[Clip]:
     """Leave each clip in a file of its own: rows of the recording's."""
     shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
-    file_rows = rows_of(signals, shortest=shortest)
+    file_rows = make_rows(signals, shortest=shortest)
     for index, row in enumerate(rows):
         n_frames = row.stop_frame - row.start_frame
         clip = run.clip(index, row, file_rows.suffix, n_frames=n_frames, fps=signals.fps)

@@ -295,9 +295,9 @@ def _fits(name: str, *patterns: str) -> bool:
 
 def recordings_below(folder: Path) -> list[Path]:
     """Return the recordings in a folder and in the folders in it, one at least, by name."""
-    from kineme.formats.listing import recordings_in
+    from kineme.formats.listing import scan_folder
 
-    found = recordings_in(folder, recursive=True).recordings
+    found = scan_folder(folder, recursive=True).recordings
     if not found:
         raise ReadError(folder, "there is no recording in this folder")
     return found

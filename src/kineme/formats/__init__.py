@@ -9,13 +9,13 @@ One module per format; `register` adds more.
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.read_write import (
-    people_in,
+    list_people,
+    list_takes,
     read,
     read_analog,
     read_motion,
     read_quietly,
     sketch,
-    takes_in,
     write,
 )
 from kineme.formats.registry import Format, register, supported_formats
@@ -24,7 +24,8 @@ __all__ = [
     "FileContent",
     "Format",
     "ReadOptions",
-    "people_in",
+    "list_people",
+    "list_takes",
     "read",
     "read_analog",
     "read_motion",
@@ -32,6 +33,5 @@ __all__ = [
     "register",
     "sketch",
     "supported_formats",
-    "takes_in",
     "write",
 ]

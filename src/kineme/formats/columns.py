@@ -30,8 +30,8 @@ from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
-from kineme.formats.timing import numbers_in, place_points, table_timing
-from kineme.formats.units import METRIC, metres
+from kineme.formats.timing import find_table_timing, place_points, read_column
+from kineme.formats.units import METRIC, to_metres
 from kineme.recordings import Motion, Note
 from kineme.recordings.coordinates import COORDINATE, group_axes, is_body, list_beginnings
 from kineme.recordings.times import is_timing
@@ -63,14 +63,14 @@ def columns_to_motion(
     ``name`` is that of the format, ``limit`` the confidence from which a keypoint counts as seen.
     ReadError where no joints are found, columns differ in length, or nothing tells the rate.
     """
-    joints = _joints(content, columns)
+    joints = _find_joints(content, columns)
     is_asked = options.confidence is not None
-    names, positions, confidence = _positions(content, columns, joints, visibility=is_asked)
+    names, positions, confidence = _read_positions(content, columns, joints, visibility=is_asked)
     limit = limit if options.confidence is None else options.confidence
     positions[confidence < limit] = np.nan
     flat = all(len(axes) == 2 for axes in joints.values())
     unsure = int((confidence < limit).sum())
-    timing = table_timing(content, columns, options.fps, positions.reshape(len(positions), -1))
+    timing = find_table_timing(content, columns, options.fps, positions.reshape(len(positions), -1))
     positions, gaps = place_points(timing, positions)
     notes = list(timing.notes)
     if unsure:
@@ -96,12 +96,12 @@ def is_used(column: str) -> bool:
     )
 
 
-def joint_names(columns: Iterable[str]) -> list[str]:
+def list_joints(columns: Iterable[str]) -> list[str]:
     """Return the joints that columns of these names are the coordinates of, in order."""
     return list(group_axes(columns))
 
 
-def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
+def _find_joints(content: FileContent, columns: Iterable[str]) -> Joints:
     """For each joint the columns of its axes; without those of its velocity, rotation and such."""
     points = group_axes(columns)
     if not points:
@@ -129,18 +129,18 @@ def _find_common_unit(
 
     Where they tell several, ``positions`` are brought to metres in place, and the unit is that.
     """
-    by_joint = {joint: _units_of(axes) for joint, axes in joints.items()}
+    by_joint = {joint: _parse_units(axes) for joint, axes in joints.items()}
     units = sorted({unit for axes in by_joint.values() for unit in axes.values() if unit})
     silent = [joint for joint, axes in by_joint.items() if None in axes.values()]
     if len(units) < 2:
         if not (units and silent):
             return (units[0] if units else None), []
-        unit = _unit_like(positions, [joint in silent for joint in joints], units[0])
+        unit = _match_unit(positions, [joint in silent for joint in joints], units[0])
         remark = f"columns of {format_count(len(silent), 'point')} tell no unit, and are taken in"
         if unit == units[0]:
             return unit, [Note(f"{remark} that of the others, {unit}", "warning")]
         told = [j for j, joint in enumerate(joints) if joint not in silent]
-        positions[:, told] *= metres(units[0]) / metres(unit)
+        positions[:, told] *= to_metres(units[0]) / to_metres(unit)
         return unit, [
             Note(f"{remark} {unit}, as large as they are; others in {units[0]}", "warning")
         ]
@@ -155,11 +155,11 @@ def _find_common_unit(
         )
     for j, axes in enumerate(by_joint.values()):
         for axis, stated in axes.items():
-            positions[:, j, "xyz".index(axis)] *= metres(stated or "m")
+            positions[:, j, "xyz".index(axis)] *= to_metres(stated or "m")
     return "m", [f"columns are in {listed}, each taken in its own"]
 
 
-def _unit_like(positions: Floats, is_silent: list[bool], told: str) -> str:
+def _match_unit(positions: Floats, is_silent: list[bool], told: str) -> str:
     """Return the unit that makes silent points about as far from the origin as the others."""
     if told not in METRIC:
         return told
@@ -169,11 +169,14 @@ def _unit_like(positions: Floats, is_silent: list[bool], told: str) -> str:
     if not (known > 0 and unknown > 0):
         return told
     # a step from one metric unit to the next is a factor of 10 at least
-    off = {unit: abs(np.log10(unknown * metres(unit) / (known * metres(told)))) for unit in METRIC}
+    off = {
+        unit: abs(np.log10(unknown * to_metres(unit) / (known * to_metres(told))))
+        for unit in METRIC
+    }
     return told if off[told] < 0.7 else min(off, key=lambda unit: off[unit])
 
 
-def _units_of(axes: Mapping[str, str]) -> dict[str, str | None]:
+def _parse_units(axes: Mapping[str, str]) -> dict[str, str | None]:
     """Return the unit of each axis of a point.
 
     Where one tells none, that of the others if it is one.
@@ -186,7 +189,7 @@ def _units_of(axes: Mapping[str, str]) -> dict[str, str | None]:
     return {axis: unit or other for axis, unit in by_axis.items()}
 
 
-def _positions(
+def _read_positions(
     content: FileContent, columns: Mapping[str, ArrayLike], joints: Joints, *, visibility: bool
 ) -> tuple[list[str], Floats, Floats]:
     """Return names, positions (rows, joints, 3) and confidences (rows, joints).
@@ -199,13 +202,13 @@ def _positions(
         for column, match in matches.items()
         if match and (visibility or match[2].lower() != "visibility")
     }
-    rows = len(numbers_in(content, columns, next(iter(next(iter(joints.values())).values()))))
+    rows = len(read_column(content, columns, next(iter(next(iter(joints.values())).values()))))
     positions = np.zeros((rows, len(joints), 3))
     confidence = np.ones((rows, len(joints)))
     for j, (joint, axes) in enumerate(joints.items()):
         for axis, column in axes.items():
-            positions[:, j, "xyz".index(axis)] = numbers_in(content, columns, column, rows)
+            positions[:, j, "xyz".index(axis)] = read_column(content, columns, column, rows)
         if joint in confidence_columns:
-            confidence[:, j] = numbers_in(content, columns, confidence_columns[joint], rows)
+            confidence[:, j] = read_column(content, columns, confidence_columns[joint], rows)
     positions[np.isinf(positions)] = np.nan
     return list(joints), positions, confidence

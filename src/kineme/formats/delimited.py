@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.checks import unique
-from kineme.formats.files import FileContent, numbers
+from kineme.formats.files import FileContent, parse_numbers
 from kineme.recordings.times import (
     append_unit,
     find_date_columns,
@@ -119,7 +119,7 @@ class DelimitedText:
     def first_cells(self) -> list[str]:
         """Return the cells of the first row that is not blank."""
         row = next(filter(str.strip, self.rows), "")
-        return cells_of(row, self.separator) if row else []
+        return split_cells(row, self.separator) if row else []
 
     @cached_property
     def comma(self) -> bool:
@@ -127,7 +127,7 @@ class DelimitedText:
         if self.separator == ",":
             return False
         rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
-        cells = [cell for row in rows for cell in cells_of(row, self.separator)]
+        cells = [cell for row in rows for cell in split_cells(row, self.separator)]
         return any(map(has_comma, cells)) and not any("." in c for c in cells if is_number(c))
 
     @cached_property
@@ -140,7 +140,7 @@ class DelimitedText:
 
     @cached_property
     def times(self) -> dict[str, str]:
-        """Columns that tell times or a rate, and their names as `table_timing` knows them."""
+        """Columns that tell times or a rate, and their names as `find_table_timing` knows them."""
         if self.clocks is not None:
             told = {
                 name: f"time ({unit})" if unit else "time" for name, unit in self.clocks.items()
@@ -193,7 +193,7 @@ class DelimitedText:
         ]
 
     def texts(self, column: int) -> list[str]:
-        """Return cells of one column, for the rows that `numbers` gives and perhaps one more."""
+        """Return the cells of one column; a truncated last row is included."""
         rows = csv.reader(self.rows, delimiter=self.separator)
         full = (row for row in rows if any(map(str.strip, row)))
         return [row[column].strip() if column < len(row) else "" for row in full]
@@ -221,10 +221,10 @@ class DelimitedText:
                     content.warn(f"{reason}: the last row breaks off, left out", line)
                     break
                 for i in dates:
-                    cells[i] = _seconds(content, cells[i].strip(), line, self.day_first)
+                    cells[i] = _convert_date(content, cells[i].strip(), line, self.day_first)
                 row = [cells[i] for i in chosen]
                 values.extend(
-                    _numbers(
+                    _parse_cells(
                         content, [*map(replace_decimal_comma, row)] if self.comma else row, line
                     )
                 )
@@ -242,7 +242,7 @@ class DelimitedText:
         if not (times and owners):
             return
         rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
-        cells = [cells_of(row, self.separator) for row in rows]
+        cells = [split_cells(row, self.separator) for row in rows]
         for one, other in pairwise(row for row in cells if len(row) == len(names)):
             differing = [i for i in owners if one[i] != other[i]]
             if differing and all(one[i] == other[i] for i in times):
@@ -258,12 +258,12 @@ def make_unique_names(names: Iterable[str]) -> list[str]:
     return unique(name.strip() or NAMELESS for name in names)
 
 
-def separator_of(line: str) -> str:
+def find_separator(line: str) -> str:
     """Tab, semicolon or comma, whichever cuts the line into most cells."""
     return max("\t;,", key=line.count)
 
 
-def cells_of(line: str, separator: str) -> list[str]:
+def split_cells(line: str, separator: str) -> list[str]:
     """Return the cells of a line, without blanks and quotes around them."""
     return [cell.strip().strip('"').strip() for cell in line.split(separator)]
 
@@ -308,13 +308,13 @@ def from_text(cell: str) -> str:
 def is_finite(cell: str) -> bool:
     """Return whether a cell is a finite number."""
     try:
-        numbers([cell])
+        parse_numbers([cell])
     except ValueError:
         return False
     return True
 
 
-def _seconds(content: FileContent, cell: str, line: int, day_first: bool | None) -> str:
+def _convert_date(content: FileContent, cell: str, line: int, day_first: bool | None) -> str:
     """Return a date as a number in text; what is empty stays so."""
     try:
         return cell if cell.lower() in EMPTY else repr(parse_date(cell, day_first=day_first))
@@ -322,13 +322,15 @@ def _seconds(content: FileContent, cell: str, line: int, day_first: bool | None)
         raise content.error(str(error), line) from None
 
 
-def _numbers(content: FileContent, cells: list[str], line: int) -> list[float]:
+def _parse_cells(content: FileContent, cells: list[str], line: int) -> list[float]:
     try:
-        return numbers(cells)
+        return parse_numbers(cells)
     except ValueError:
         empty = [cell.strip().lower() in EMPTY for cell in cells]
     try:
-        rest = iter(numbers([cell for cell, hole in zip(cells, empty, strict=True) if not hole]))
+        rest = iter(
+            parse_numbers([cell for cell, hole in zip(cells, empty, strict=True) if not hole])
+        )
     except ValueError as error:
         raise content.error(str(error), line) from None
     return [nan if hole else next(rest) for hole in empty]

@@ -14,11 +14,11 @@ from pkgutil import iter_modules
 
 from kineme._util.checks import Registry
 from kineme.formats import devices
-from kineme.formats.columns import joint_names
+from kineme.formats.columns import list_joints
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
-from kineme.formats.registry import speaks
+from kineme.formats.registry import recognises_safely
 from kineme.formats.sniffing import sniff
 from kineme.recordings import Motion, Signals
 from kineme.recordings.coordinates import is_body
@@ -80,7 +80,7 @@ DIALECTS: Registry[Dialect] = Registry(
 def recognise_table(content: FileContent) -> tuple[DelimitedText, Dialect | None]:
     """Return the table in a file of text, laid out as its dialect says, and the dialect if any."""
     table = sniff(content)
-    dialect = dialect_of(table.names, table.lines)
+    dialect = find_dialect(table.names, table.lines)
     if dialect and dialect.layout:
         table = dialect.layout(table)
         table = replace(table, notes=(f"read as {dialect.name} writes it", *table.notes))
@@ -92,10 +92,12 @@ def find_table(content: FileContent) -> DelimitedText:
     return recognise_table(content)[0]
 
 
-def dialect_of(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | None:
+def find_dialect(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | None:
     """Return the dialect of a table, by its columns and its lines if it is text; or None."""
     dialects = DIALECTS.values()
-    return next((d for d in dialects if speaks(d.name, d.recognises, names, lines)), None)
+    return next(
+        (d for d in dialects if recognises_safely(d.name, d.recognises, names, lines)), None
+    )
 
 
 def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
@@ -109,6 +111,6 @@ def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
     >>> hold_channels(["time", "acc_x", "acc_y"]), hold_channels(["time", "hip_x", "hip_y"])
     (True, False)
     """
-    dialect = dialect_of(names, lines)
+    dialect = find_dialect(names, lines)
     has_reader = dialect is not None and dialect.read is not None
-    return not has_reader and not any(map(is_body, joint_names(names)))
+    return not has_reader and not any(map(is_body, list_joints(names)))

@@ -21,10 +21,10 @@ from kineme._util.files import atomic_write, read_head, refuse_pipe
 from kineme.errors import ReadError, WriteError
 from kineme.recordings import Motion, Note, Provenance
 
-MOST_EXPANSION = 100
+MAX_EXPANSION = 100
 """Times its own size that a file may take in memory; honest ones take one to forty times it."""
 
-LEAST_ROOM = 1 << 20
+MIN_MEMORY = 1 << 20
 """Bytes that any file may take in memory, however small it is."""
 
 
@@ -83,21 +83,21 @@ class FileContent:
         """Where a recording in this file comes from, with the remarks so far and these notes."""
         return Provenance(str(self.path), name, self.digest).noted(*self.remarks, *notes)
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """Give up the bytes, for readers that have all and now make as much again of it."""
         object.__setattr__(self, "data", b"")
 
     @property
-    def room(self) -> int:
+    def memory_limit(self) -> int:
         """Bytes of memory that what a file of this size holds can honestly take."""
-        return max(LEAST_ROOM, MOST_EXPANSION * len(self.data))
+        return max(MIN_MEMORY, MAX_EXPANSION * len(self.data))
 
-    def claim(self, size: int, what: str) -> None:
-        """ReadError where ``what`` the file describes would take more memory than its `room`.
+    def require_memory(self, size: int, what: str) -> None:
+        """Raise ReadError if ``what`` the file describes needs more bytes than `memory_limit`.
 
         Every reader calls this before it allocates more than a few times the bytes it has seen.
         """
-        if size > self.room:
+        if size > self.memory_limit:
             raise self.error(
                 f"claims {what}: {size / 1e6:.0f} MB of memory, too much for a file of "
                 f"{len(self.data) / 1e6:.2g} MB, so it is damaged"
@@ -121,24 +121,24 @@ class FileHead(FileContent):
             return file_digest(file, "sha256").hexdigest()
 
     @property
-    def room(self) -> int:
-        return max(LEAST_ROOM, MOST_EXPANSION * self.path.stat().st_size)
+    def memory_limit(self) -> int:
+        return max(MIN_MEMORY, MAX_EXPANSION * self.path.stat().st_size)
 
 
 def load_head(path: str | PathLike[str]) -> FileHead:
     """Return the first bytes of a file; ReadError as `load`."""
-    with _opening(path):
+    with _translate_open_errors(path):
         return FileHead(Path(path), read_head(Path(path)))
 
 
 def load(path: str | PathLike[str]) -> FileContent:
     """Return the file as it is on disk; ReadError if there is none or it may not be read."""
-    with _opening(path):
+    with _translate_open_errors(path):
         return FileContent(Path(path), Path(path).read_bytes())
 
 
 @contextmanager
-def _opening(path: str | PathLike[str]) -> Iterator[None]:
+def _translate_open_errors(path: str | PathLike[str]) -> Iterator[None]:
     try:
         refuse_pipe(path)
         yield
@@ -148,7 +148,7 @@ def _opening(path: str | PathLike[str]) -> Iterator[None]:
         raise ReadError(path, f"cannot be opened: {error}") from error
 
 
-def find_beside(content: FileContent, place: str | PathLike[str]) -> Path:
+def find_sibling(content: FileContent, place: str | PathLike[str]) -> Path:
     """Return the path of a file that ``content`` names; ReadError where others chose the place.
 
     It lies in the folder of ``content``, also once links are followed, and is no pipe.
@@ -163,7 +163,7 @@ def find_beside(content: FileContent, place: str | PathLike[str]) -> Path:
     return path
 
 
-def numbers(words: Sequence[str | bytes]) -> list[float]:
+def parse_numbers(words: Sequence[str | bytes]) -> list[float]:
     """Return the words as finite numbers; ValueError names the first that is not one."""
     try:
         values = list(map(float, words))
@@ -182,13 +182,13 @@ def save(path: Path, text: Iterable[str]) -> None:
         file.writelines(text)
 
 
-def table(values: NDArray[np.float64]) -> list[str]:
+def format_table(values: NDArray[np.float64]) -> list[str]:
     """One line per row: nine decimals, below a nanometre in any of the units."""
     row = " ".join(["%.9f"] * values.shape[1]) + "\n"
     return [row % tuple(line) for line in values.tolist()]
 
 
-def spell_names(path: Path, names: Sequence[str], spelling: Callable[[str], str]) -> list[str]:
+def clean_names(path: Path, names: Sequence[str], spelling: Callable[[str], str]) -> list[str]:
     """Return the names as a format can hold them, each once; a warning says what that changes.
 
     WriteError for a name that is no text: half of a pair of UTF-16.
@@ -205,7 +205,7 @@ def spell_names(path: Path, names: Sequence[str], spelling: Callable[[str], str]
     return spellings
 
 
-def rotations_of(motion: Motion, path: Path, what: str) -> NDArray[np.float64]:
+def require_rotations(motion: Motion, path: Path, what: str) -> NDArray[np.float64]:
     """Return the rotations of a motion that is to be written; WriteError where it has none."""
     if motion.rotations is None:
         raise WriteError(

@@ -3,7 +3,7 @@
 Gaps of up to 0.2 s are filled along a monotone cubic (PCHIP) through the frames
 in which the point was seen; at either end of the recording its nearest position
 is held. Longer ones are listed; where the body cannot be told without the point
-they split the recording, and `bridge` joins the positions around them so that
+they split the recording, and `bridge_gaps` joins the positions around them so that
 every frame has some: nobody is to look at those.
 """
 
@@ -59,7 +59,7 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
     return gaps
 
 
-def bridge(
+def bridge_gaps(
     points: Floats, gaps: Gaps, chosen: Iterable[int], fps: float
 ) -> tuple[tuple[int, int], ...]:
     """Return the frames [start, stop) in which any of these points has an open gap.
@@ -98,7 +98,7 @@ def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
     return replace(motion, gaps=tuple((a, b) for a, b in find_spans(joined).tolist()))
 
 
-def unseen(motion: Motion) -> list[bool]:
+def mark_gaps(motion: Motion) -> list[bool]:
     """Return for each frame whether it lies in a gap of the motion."""
     return list(map(bool, mark_spans(motion.gaps, motion.n_frames)))
 

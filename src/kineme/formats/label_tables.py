@@ -31,14 +31,14 @@ def is_boris_table(head: str) -> bool:
     return "Behavior" in cells and ("Time" in cells or {"Start (s)", "Stop (s)"} <= cells)
 
 
-def program_of_labels(head: str) -> str | None:
+def find_label_program(head: str) -> str | None:
     """Return whose table of labels a text begins, or None."""
     return "ELAN" if is_elan_table(head) else "BORIS" if is_boris_table(head) else None
 
 
 def refuse_labels(content: FileContent) -> None:
     """Raise ReadError where a file of text holds labels."""
-    if program := program_of_labels(content.text[:HEAD]):
+    if program := find_label_program(content.text[:HEAD]):
         raise content.error(
             f"holds labels as {program} exports them, not a recording: read it with "
             "kineme.read_segments, or kineme convert it to a table of labels with --fps"

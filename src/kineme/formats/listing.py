@@ -28,12 +28,12 @@ from pathlib import Path
 from kineme._util.checks import format_count
 from kineme._util.files import POSES, read_head, read_tail
 from kineme.errors import ReadError
-from kineme.formats.columns import joint_names
+from kineme.formats.columns import list_joints
 from kineme.formats.dialects import find_table, recognise_table
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.openpose import frame_files
-from kineme.formats.label_tables import program_of_labels
-from kineme.formats.registry import is_video, speaks, supported_formats
+from kineme.formats.keypoints.openpose import list_frame_files
+from kineme.formats.label_tables import find_label_program
+from kineme.formats.registry import is_video, recognises_safely, supported_formats
 from kineme.recordings.times import is_timing
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
@@ -59,7 +59,7 @@ class Listing:
     passed_over: list[tuple[Path, str]]
 
 
-def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
+def scan_folder(folder: Path, *, recursive: bool = False) -> Listing:
     """Return the recordings in a folder, and where ``recursive`` in its folders.
 
     A folder with nothing but the frames of a video, a file each, is one recording.
@@ -67,20 +67,20 @@ def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
     Examples
     --------
     >>> from kineme import bundled_recording
-    >>> [path.name for path in recordings_in(bundled_recording().parent).recordings]
+    >>> [path.name for path in scan_folder(bundled_recording().parent).recordings]
     ['exercises.bvh']
     """
     found = Listing([], [], [])
 
     def closed(error: OSError) -> None:
-        found.passed_over.append((Path(error.filename), _reason(error)))
+        found.passed_over.append((Path(error.filename), _describe_error(error)))
 
     for place, names, files in os.walk(folder, onerror=closed):
         names[:] = sorted(name for name in names if not name.startswith("."))
         here = Path(place)
-        recordings = drop_shown(list(_recordings_among(here, files, found)))
+        recordings = drop_duplicates(list(_find_recordings(here, files, found)))
         try:
-            frames = frame_files(here)
+            frames = list_frame_files(here)
         except OSError as error:
             closed(error)
             frames = []
@@ -99,7 +99,7 @@ def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
     return found
 
 
-def files_in(folder: Path) -> list[Path]:
+def list_files(folder: Path) -> list[Path]:
     """Return the files of a folder in the order of their names, without hidden ones."""
     found = [path for path in folder.iterdir() if not path.name.startswith(".")]
     return sorted((path for path in found if path.is_file()), key=lambda path: path.name)
@@ -113,7 +113,7 @@ def holds_recording(path: Path) -> bool:
         return False
 
 
-def _recordings_among(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
+def _find_recordings(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
     """Yield the recordings among files; what cannot be judged is noted in ``found``."""
     for name in sorted(names):
         path = folder / name
@@ -125,10 +125,10 @@ def _recordings_among(folder: Path, names: list[str], found: Listing) -> Iterato
             elif path.is_file() and _is_recording(path):
                 yield path
         except Exception as error:  # noqa: BLE001 (one file never ends a listing)
-            found.passed_over.append((path, _reason(error)))
+            found.passed_over.append((path, _describe_error(error)))
 
 
-def drop_shown(recordings: list[Path]) -> list[Path]:
+def drop_duplicates(recordings: list[Path]) -> list[Path]:
     """Return the recordings without what another one of them shows or holds already.
 
     These are videos that lie beside a recording of the same name, and poses of a video in the list.
@@ -150,19 +150,19 @@ def _is_recording(path: Path) -> bool:
         return False
     if suffix in _ANYTHING:
         ends = read_head(path) + (read_tail(path) if suffix == ".json" else b"")
-        is_known = any(speaks(each.name, each.recognises, ends) for each in formats)
+        is_known = any(recognises_safely(each.name, each.recognises, ends) for each in formats)
         return is_known or (suffix != ".json" and _is_text_table(path))
     if suffix in (".csv", ".tsv"):
-        return not _names_spans(path)
+        return not _has_span_columns(path)
     if suffix == ".parquet":
         tail = read_tail(path)
         return not any(name in tail for name in SPANS[:2])
-    return suffix != ".npz" or _names_motion(path)
+    return suffix != ".npz" or _has_motion_arrays(path)
 
 
 def _is_text_table(path: Path) -> bool:
     """Return whether a text has named columns of numbers, and is no list of labels."""
-    if _names_spans(path):
+    if _has_span_columns(path):
         return False
     head = read_head(path)
     try:
@@ -176,8 +176,8 @@ def _is_text_table(path: Path) -> bool:
     return is_named and rows >= ROWS and columns >= COLUMNS
 
 
-def _names_spans(path: Path) -> bool:
-    if program_of_labels(read_head(path).decode(errors="replace")):
+def _has_span_columns(path: Path) -> bool:
+    if find_label_program(read_head(path).decode(errors="replace")):
         return True
     try:
         names = find_table(FileContent(path, read_head(path))).names
@@ -186,17 +186,17 @@ def _names_spans(path: Path) -> bool:
     return any(name.lower().encode() in SPANS for name in names)
 
 
-def _names_motion(path: Path) -> bool:
+def _has_motion_arrays(path: Path) -> bool:
     with path.open("rb") as file, zipfile.ZipFile(file) as archive:
         names = [name.removesuffix(".npy") for name in archive.namelist()]
     return (
         not {"poses", "positions"}.isdisjoint(names)
         or any(map(is_timing, names))
-        or bool(joint_names(names))
+        or bool(list_joints(names))
     )
 
 
-def _reason(error: Exception) -> str:
+def _describe_error(error: Exception) -> str:
     if isinstance(error, OSError):
         return f"cannot be opened: {error.strerror or error}"
     return f"is damaged: {' '.join(str(error).split()) or type(error).__name__}"

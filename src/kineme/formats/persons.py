@@ -9,7 +9,7 @@ from kineme._util.checks import join_names
 from kineme.errors import SeveralPeopleError
 
 
-def chosen_person(
+def choose_person(
     path: str | Path,
     people: Collection[str],
     person: str | None,

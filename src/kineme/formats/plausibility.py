@@ -1,8 +1,8 @@
-"""Doubt what no body does: points that jump or sit at the origin, and bodies that lie.
+"""Check motions for implausible data: points that jump or sit at the origin, bodies that lie down.
 
-`drop_implausible` looks at points before gaps are filled, `doubt_lengths` and `doubt_posture` at
-every motion. What is dropped becomes a gap. Each finding is a warning that says what was assumed.
-Units and up axes are doubted in `kineme.formats.units`.
+`drop_implausible` checks points before gaps are filled; `check_bone_lengths` and `check_posture`
+check every motion. Dropped points become gaps. Each finding is a warning that states what was
+assumed. `kineme.formats.units` checks units and up axes.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count, join_names
-from kineme.formats.units import blocks, lying_axis
+from kineme.formats.units import find_lying_axis, iterate_blocks
 from kineme.recordings import Motion, Note
 from kineme.recordings.regular import LONGEST_S
 
@@ -75,7 +75,7 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
     return notes
 
 
-def doubt_rigid(points: Floats, names: Sequence[str], made_of: Sequence[int]) -> list[Note]:
+def check_rigid_points(points: Floats, names: Sequence[str], made_of: Sequence[int]) -> list[Note]:
     """Warn of points on one bone whose distance changes: they were exchanged or slipped."""
     moved = []
     if len(made_of) < CLUSTER:
@@ -90,7 +90,7 @@ def doubt_rigid(points: Floats, names: Sequence[str], made_of: Sequence[int]) ->
     return [Note(f"points on one bone change their distance: {join_names(moved)}", "warning")]
 
 
-def doubt_lengths(motion: Motion) -> Motion:
+def check_bone_lengths(motion: Motion) -> Motion:
     """Warn if most bones of a skeleton have no length: its rest pose was left out."""
     parents = motion.skeleton.parents
     # Some bones of no length are usual: the file lists more joints than its body has.
@@ -107,9 +107,9 @@ def doubt_lengths(motion: Motion) -> Motion:
     return motion.noted(Note(remark, "warning"))
 
 
-def doubt_posture(motion: Motion) -> Motion:
+def check_posture(motion: Motion) -> Motion:
     """Warn if the body of a motion with y up lies throughout: its up axis may be another."""
-    axis = lying_axis(motion.skeleton, motion.positions)
+    axis = find_lying_axis(motion.skeleton, motion.positions)
     if axis is None:
         return motion
     remark = f"the body lies along {axis} most of the time; give up= (--up) if it stands there"
@@ -123,7 +123,7 @@ def _find_jumps(
 
     A short jump is over within the time for which gaps are filled.
     """
-    size = _size(points)
+    size = _measure_size(points)
     if not size > 0 or len(points) < 3:
         return [], []
     step = FASTEST * size / fps
@@ -151,7 +151,7 @@ def _find_fast_steps(points: Floats, step: float) -> NDArray[np.bool_]:
     How all points move, as when the origin is moved, is not counted.
     """
     fast = np.zeros((len(points) - 1, points.shape[1]), np.bool_)
-    for span in blocks(len(points) - 1):
+    for span in iterate_blocks(len(points) - 1):
         moves = points[span.start + 1 : span.stop + 1] - points[span]
         fast[span] = np.einsum("tpi,tpi->tp", moves, moves) > step**2  # NaN is not above it
         for frame in np.flatnonzero(fast[span].any(axis=1)).tolist():
@@ -161,7 +161,7 @@ def _find_fast_steps(points: Floats, step: float) -> NDArray[np.bool_]:
     return fast
 
 
-def _size(points: Floats) -> float:
+def _measure_size(points: Floats) -> float:
     """Return the largest extent of the points, in the middle of some frames."""
     some = points[:: max(1, len(points) // SAMPLED)]
     seen = np.asarray(~np.isnan(some).any(axis=2))

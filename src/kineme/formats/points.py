@@ -22,10 +22,10 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count, join_names, unique
 from kineme.errors import ReadError
-from kineme.formats.gaps import Gaps, bridge, fill_gaps, mark_spans
-from kineme.formats.persons import chosen_person
-from kineme.formats.plausibility import doubt_rigid, drop_implausible
-from kineme.formats.units import scale_of, up_axis, upright
+from kineme.formats.gaps import Gaps, bridge_gaps, fill_gaps, mark_spans
+from kineme.formats.persons import choose_person
+from kineme.formats.plausibility import check_rigid_points, drop_implausible
+from kineme.formats.units import infer_scale, infer_up_axis, turn_upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 from kineme.recordings.joint_names import PARENTS, find_body
 from kineme.recordings.regular import LONGEST_S
@@ -86,39 +86,41 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     names, subjects = split_subjects(given, points.person)
     names = unique(names)
     if len(subjects) > 1:
-        subject = _subjects_note(path, subjects, points.person)
+        subject = _describe_subject(path, subjects, points.person)
         provenance = provenance.noted(subject).of_person(points.person or subjects[0], subjects)
     positions = np.array(points.positions, np.float64)
     doubts = drop_implausible(positions, names, points.fps)
     gaps = fill_gaps(positions, points.fps)
-    body = _least_broken(names, gaps, len(positions))
-    used = _list_used(body)
+    body = _choose_body(names, gaps, len(positions))
+    used = _list_body_points(body)
     kept = [i for i in range(len(names)) if i not in gaps.open or i in used]
-    missing = bridge(positions, gaps, used, points.fps)
+    missing = bridge_gaps(positions, gaps, used, points.fps)
     is_visible = ~mark_spans(missing, len(positions))
     if not kept:
         raise ReadError(path, f"no marker is seen throughout: each has a gap above {LONGEST_S} s")
     if not is_visible.any():
         hidden = join_names([names[i] for i in sorted(used & gaps.open.keys())])
         raise ReadError(path, f"the body is whole in no frame: {hidden} are never seen together")
-    kept = sorted([*kept, *_missing_with_the_body(positions, gaps, used, is_visible, points.fps)])
-    notes = [*doubts, *_gaps_notes(names, gaps, kept, len(positions))]
-    notes += _splits_note(names, gaps, used, missing, points.fps)
+    kept = sorted([*kept, *_find_missing_with_body(positions, gaps, used, is_visible, points.fps)])
+    notes = [*doubts, *_describe_gaps(names, gaps, kept, len(positions))]
+    notes += _describe_splits(names, gaps, used, missing, points.fps)
     visible = positions if is_visible.all() else positions[is_visible]
     seen = visible if len(kept) == len(names) else visible[:, kept]
     is_body = {"pelvis", "head", "left_ankle"} <= body.keys()
-    scale, note = scale_of(points.unit, seen, stated=points.stated_unit, is_body=is_body)
+    scale, note = infer_scale(points.unit, seen, stated=points.stated_unit, is_body=is_body)
     notes += note
     del seen
     up = points.up
     if up is None:
-        up, note = up_axis(points.usual_up, visible, body, is_stated=points.is_up_stated)
+        up, note = infer_up_axis(points.usual_up, visible, body, is_stated=points.is_up_stated)
         notes += note
     for joint in RIGID:
-        notes += doubt_rigid(visible, names, body.get(joint, ()))
+        notes += check_rigid_points(visible, names, body.get(joint, ()))
     del visible
     positions *= scale
-    skeleton, positions = _tree(names, upright(positions, up), body, kept, is_visible)
+    skeleton, positions = _build_skeleton(
+        names, turn_upright(positions, up), body, kept, is_visible
+    )
     if "pelvis" in body:
         notes.append(f"{BODY}: {describe_body(body, names)}")
     return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)
@@ -150,15 +152,15 @@ def describe_body(body: Body, names: Sequence[str]) -> str:
     )
 
 
-def _subjects_note(path: str, subjects: list[str], person: str | None) -> Note:
+def _describe_subject(path: str, subjects: list[str], person: str | None) -> Note:
     """Whose body it is; SeveralPeopleError for somebody who is not there."""
     if person is None:
         sentence = f"{len(subjects)} subjects: the body is that of {subjects[0]!r}"
         return Note(f"{sentence}; person= (--person) takes another", "warning")
-    return Note(f"person {chosen_person(path, subjects, person)} of {len(subjects)}")
+    return Note(f"person {choose_person(path, subjects, person)} of {len(subjects)}")
 
 
-def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:
+def _choose_body(names: list[str], gaps: Gaps, n_frames: int) -> Body:
     """Return the joints that the points make up, from those that leave the shortest gaps.
 
     Points with open gaps are taken where a joint cannot be made without.
@@ -169,16 +171,18 @@ def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:
     if "pelvis" not in body:
         return find_body(names, usable - hidden.keys())
     tried: set[int] = set()
-    while broken := (_list_used(body) & hidden.keys()) - tried:
+    while broken := (_list_body_points(body) & hidden.keys()) - tried:
         worst = max(broken, key=lambda point: (hidden[point].sum(), -point))
         without = find_body(names, usable - {worst})
         tried.add(worst)
-        if without.keys() == body.keys() and _missing(without, hidden) < _missing(body, hidden):
+        if without.keys() == body.keys() and _count_missing(without, hidden) < _count_missing(
+            body, hidden
+        ):
             usable, body = usable - {worst}, without
     return body
 
 
-def _missing_with_the_body(
+def _find_missing_with_body(
     positions: Floats, gaps: Gaps, used: set[int], is_visible: NDArray[np.bool_], fps: float
 ) -> list[int]:
     """Points that are missing where the body is, for long, and not elsewhere; they are bridged."""
@@ -188,21 +192,21 @@ def _missing_with_the_body(
         for point, spans in gaps.open.items()
         if point not in used and not (is_visible & mark_spans(spans.tolist(), n)).any()
     ]
-    bridge(positions, gaps, found, fps)
+    bridge_gaps(positions, gaps, found, fps)
     return found
 
 
-def _list_used(body: Body) -> set[int]:
+def _list_body_points(body: Body) -> set[int]:
     return {point for made_of in body.values() for point in made_of}
 
 
-def _missing(body: Body, hidden: dict[int, NDArray[np.bool_]]) -> int:
+def _count_missing(body: Body, hidden: dict[int, NDArray[np.bool_]]) -> int:
     """Frames in which one of the body's points was not seen."""
-    masks = [hidden[point] for point in _list_used(body) & hidden.keys()]
+    masks = [hidden[point] for point in _list_body_points(body) & hidden.keys()]
     return int(np.logical_or.reduce(masks).sum()) if masks else 0
 
 
-def _splits_note(
+def _describe_splits(
     names: list[str], gaps: Gaps, used: set[int], missing: Spans, fps: float
 ) -> list[str]:
     if not missing:
@@ -216,7 +220,7 @@ def _splits_note(
     return [Note(note, "warning")]
 
 
-def _gaps_notes(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) -> list[str]:
+def _describe_gaps(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) -> list[str]:
     notes: list[str] = []
     if gaps.filled:
         most = max(gaps.filled, key=lambda point: gaps.filled[point])
@@ -238,7 +242,7 @@ def _gaps_notes(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) ->
     return notes
 
 
-def _tree(
+def _build_skeleton(
     names: list[str],
     positions: Floats,
     body: Body,

@@ -13,7 +13,7 @@ from kineme._util.files import AnyPath, translate_read_errors
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
 from kineme.formats.files import FileContent, load, load_head
 from kineme.formats.options import ReadOptions
-from kineme.formats.plausibility import doubt_lengths, doubt_posture
+from kineme.formats.plausibility import check_bone_lengths, check_posture
 from kineme.formats.registry import Sketch, is_video, recognise, supported_formats
 from kineme.recordings import Motion, Signals
 
@@ -122,7 +122,7 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
         return _read_file(_load(path), options)
 
 
-def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
+def list_people(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
     """Return the people in a file, where there are several.
 
     Those seen only in passing are left out.
@@ -132,7 +132,7 @@ def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, .
     Examples
     --------
     >>> import kineme
-    >>> people_in(kineme.bundled_recording())
+    >>> list_people(kineme.bundled_recording())
     ()
     """
     try:
@@ -143,7 +143,7 @@ def people_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, .
     return people if len(people) > 1 else ()
 
 
-def takes_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
+def list_takes(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
     """Return the takes in a scene that move a skeleton, where there are several.
 
     It is read for it. ReadError where it cannot be.
@@ -151,7 +151,7 @@ def takes_in(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ..
     Examples
     --------
     >>> import kineme
-    >>> takes_in(kineme.bundled_recording())
+    >>> list_takes(kineme.bundled_recording())
     ()
     """
     try:
@@ -318,8 +318,8 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
         kind = type(recording).__name__
         raise content.error(f"the reader of {candidate.name} gave no Motion or Signals, but {kind}")
     if isinstance(recording, Motion):
-        recording = doubt_lengths(recording)
-        return doubt_posture(recording) if options.up is None else recording
+        recording = check_bone_lengths(recording)
+        return check_posture(recording) if options.up is None else recording
     return recording
 
 

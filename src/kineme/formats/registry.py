@@ -180,7 +180,7 @@ def supported_formats() -> tuple[Format, ...]:
     return tuple(FORMATS.values())
 
 
-def writer_of(suffix: str) -> Format | None:
+def find_writer(suffix: str) -> Format | None:
     """Return the format that writes motions to files of this suffix; None where there is none."""
     found = (each for each in supported_formats() if each.write and suffix in each.suffixes)
     return next(found, None)
@@ -198,7 +198,9 @@ def recognise(content: FileContent) -> Format:
     suffix = content.path.suffix.lower()
     formats = supported_formats()
     by_content = [
-        candidate for candidate in formats if speaks(candidate.name, candidate.recognises, head)
+        candidate
+        for candidate in formats
+        if recognises_safely(candidate.name, candidate.recognises, head)
     ]
     by_suffix = [candidate for candidate in formats if suffix in candidate.suffixes]
     if suffix in INSTEAD and not by_suffix:
@@ -213,7 +215,7 @@ def recognise(content: FileContent) -> Format:
     )
 
 
-def speaks(name: str, recognises: Callable[..., bool], *evidence: Any) -> bool:
+def recognises_safely(name: str, recognises: Callable[..., bool], *evidence: Any) -> bool:
     """Return whether a format or dialect knows a file; one that cannot tell costs itself only."""
     try:
         return recognises(*evidence)

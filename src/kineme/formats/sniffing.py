@@ -20,12 +20,12 @@ from kineme._util.checks import format_count
 from kineme.formats.delimited import (
     EMPTY,
     DelimitedText,
-    cells_of,
+    find_separator,
     from_text,
     is_finite,
     is_number,
     make_unique_names,
-    separator_of,
+    split_cells,
 )
 from kineme.formats.files import FileContent
 from kineme.recordings.times import is_date, is_timing
@@ -78,8 +78,8 @@ def sniff(content: FileContent) -> DelimitedText:
     places = range(min(HIGHEST, len(full)))
     first = next((k for k in places if _is_head(lines, full, k, separator)), 0)
     head = full[first]
-    separator = separator or separator_of(lines[head])
-    words = _lines_of_words(lines, full[first:], separator)
+    separator = separator or find_separator(lines[head])
+    words = _count_word_lines(lines, full[first:], separator)
     below = full[first + words] + 1
     blanks = ended is not None or separator not in lines[head]
     if blanks:
@@ -87,9 +87,9 @@ def sniff(content: FileContent) -> DelimitedText:
         cells = [cell.strip('"').strip() for cell in cells]
     else:
         row = next(filter(str.strip, islice(lines, below, None)), "")
-        cells = head_cells(content, lines[head], row, separator)
+        cells = split_head(content, lines[head], row, separator)
     passed = full[first + 1 : first + 1 + words]
-    if words and (both := _join_names(cells, cells_of(lines[passed[0]], separator))) != cells:
+    if words and (both := _join_names(cells, split_cells(lines[passed[0]], separator))) != cells:
         cells, passed = both, passed[1:]
     headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
     remark = "holds no numbers and is passed over"
@@ -103,9 +103,9 @@ def sniff(content: FileContent) -> DelimitedText:
         separator,
         headless,
         blanks,
-        cells_of(lines[below - 1], separator) if words else (),
-        _rate_in(lines[:head]),
-        (*passed_over(first, "rows" if headless else "names"), *notes),
+        split_cells(lines[below - 1], separator) if words else (),
+        _find_rate(lines[:head]),
+        (*note_skipped_lines(first, "rows" if headless else "names"), *notes),
     )
 
 
@@ -114,19 +114,19 @@ def is_text_line(line: str) -> bool:
     return bool(line.strip()) and line[0] != "#" and not SEPARATOR.fullmatch(line)
 
 
-def passed_over(count: int, what: str) -> tuple[str, ...]:
+def note_skipped_lines(count: int, what: str) -> tuple[str, ...]:
     """Return the note on lines above the names or rows of a table, if there are any."""
     return (f"{format_count(count, 'line')} above the {what} passed over",) if count else ()
 
 
-def head_cells(content: FileContent, line: str, row: str, separator: str) -> list[str]:
+def split_head(content: FileContent, line: str, row: str, separator: str) -> list[str]:
     """Return the cells of the line of names above a row.
 
     A separator between quotes is part of a name, but where the row has as many cells as there
     are without quotes.
     """
-    plain = cells_of(line, separator)
-    if '"' not in line or len(cells_of(row, separator)) == len(plain):
+    plain = split_cells(line, separator)
+    if '"' not in line or len(split_cells(row, separator)) == len(plain):
         return plain
     try:
         cells = next(csv.reader([line], delimiter=separator))
@@ -137,11 +137,11 @@ def head_cells(content: FileContent, line: str, row: str, separator: str) -> lis
 
 def _is_head(lines: Sequence[str], full: Sequence[int], at: int, separator: str | None) -> bool:
     """Return whether a line has names: rows of as many cells below it, fewer cells above it."""
-    separator = separator or separator_of(lines[full[at]])
-    names, *below = (cells_of(lines[i], separator) for i in full[at : at + WORDS + 3])
+    separator = separator or find_separator(lines[full[at]])
+    names, *below = (split_cells(lines[i], separator) for i in full[at : at + WORDS + 3])
     rows = [*dropwhile(lambda cells: not any(map(is_number, cells)), below)][:2]
     # spreadsheets fill lines up with separators
-    above = (cells_of(lines[i].strip().rstrip(separator), separator) for i in full[:at])
+    above = (split_cells(lines[i].strip().rstrip(separator), separator) for i in full[:at])
     return (
         len(names) > 1
         and not any(map(is_number, names))
@@ -167,9 +167,9 @@ def _join_names(names: list[str], words: Sequence[str]) -> list[str]:
     return both if needed else names
 
 
-def _lines_of_words(lines: Sequence[str], full: Sequence[int], separator: str) -> int:
+def _count_word_lines(lines: Sequence[str], full: Sequence[int], separator: str) -> int:
     """Return how many lines hold words below the names, in the first line, and above numbers."""
-    names, *below = (cells_of(lines[i], separator) for i in full[: WORDS + 2])
+    names, *below = (split_cells(lines[i], separator) for i in full[: WORDS + 2])
     words = [*takewhile(lambda cells: not any(map(_has_value, cells)), below[:WORDS])]
     row = below[len(words)] if len(words) < len(below) else []
     if len(names) == 1 or any(map(is_number, names)) or not _fits(row, len(names)):
@@ -200,7 +200,7 @@ def _is_full(cells: Sequence[str]) -> bool:
     return 2 * sum(map(bool, cells)) > len(cells)
 
 
-def _rate_in(lines: Sequence[str]) -> float | None:
+def _find_rate(lines: Sequence[str]) -> float | None:
     """Return the frame rate that the lines above a table tell, if they tell one."""
     found = {
         float(match[1].replace(",", "."))

@@ -18,19 +18,23 @@ from pathlib import Path
 import numpy as np
 
 from kineme._util.checks import unique
-from kineme.formats.channels.parquet import parquet_channels, parquet_columns, parquet_file
+from kineme.formats.channels.parquet import (
+    open_parquet,
+    read_parquet_channels,
+    read_parquet_columns,
+)
 from kineme.formats.channels.reading import (
     choose_channels,
-    rate_above,
-    text_channels,
+    describe_header_rate,
+    read_text_channels,
     to_signals,
 )
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.columns import columns_to_motion, is_used
 from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, make_unique_names
 from kineme.formats.dialects import find_table, hold_channels, recognise_table
-from kineme.formats.files import FileContent, format_point_name, save, spell_names
-from kineme.formats.gaps import unseen
+from kineme.formats.files import FileContent, clean_names, format_point_name, save
+from kineme.formats.gaps import mark_gaps
 from kineme.formats.keypoints.poses import holds_poses, parse_poses, poses_to_motion
 from kineme.formats.label_tables import refuse_labels
 from kineme.formats.options import ReadOptions
@@ -53,26 +57,26 @@ def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
             return choose_channels(content, found, options.columns or None)
     elif not options.channels and not hold_channels(table.names):
         return _read_joints(table, options)
-    channels = text_channels(table, options.columns or None)
+    channels = read_text_channels(table, options.columns or None)
     return to_signals(content, TABLE.name, channels, options.fps)
 
 
 def read_mot(content: FileContent, options: ReadOptions) -> Signals:
     """Return the channels in a MOT or STO file."""
-    channels = text_channels(find_table(content), options.columns or None)
+    channels = read_text_channels(find_table(content), options.columns or None)
     return to_signals(content, OPENSIM.name, channels, options.fps)
 
 
 def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """Return the joint positions in a Parquet table, or its channels where there are none."""
-    file = parquet_file(content)
+    file = open_parquet(content)
     if holds_poses(file) and not options.channels:
         return poses_to_motion(content, parse_poses(content, file), options)
     stored = file.schema_arrow.names
     if options.channels or hold_channels(make_unique_names(stored)):
-        table = parquet_channels(content, file, options.columns or None)
+        table = read_parquet_channels(content, file, options.columns or None)
         return to_signals(content, PARQUET.name, table, options.fps)
-    used = parquet_columns(content, file, [name for name in stored if is_used(name)])
+    used = read_parquet_columns(content, file, [name for name in stored if is_used(name)])
     columns = dict.fromkeys(unique(stored), np.empty(0)) | {
         name: np.asarray(column.to_numpy())
         for name, column in zip(unique(used.column_names), used.columns, strict=True)
@@ -82,7 +86,7 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
 
 def write_csv(motion: Motion, path: Path) -> None:
     """Leave the joints' positions in a CSV file, in metres with y up."""
-    joints = spell_names(
+    joints = clean_names(
         path, motion.skeleton.names, lambda n: format_point_name(n.replace('"', "'"))
     )
     rate = [RATE] if motion.n_frames < 2 else []  # which the time of one row does not tell
@@ -93,7 +97,7 @@ def write_csv(motion: Motion, path: Path) -> None:
     row = f"{first}%.9f{',%.9f' * cells}\n"
     empty = f"{first}%.9f{',' * cells}\n"
     values = motion.positions.reshape(motion.n_frames, -1).tolist()
-    rows = zip(motion.times.tolist(), values, unseen(motion), strict=True)
+    rows = zip(motion.times.tolist(), values, mark_gaps(motion), strict=True)
     save(path, [head, *(empty % t if gap else row % (t, *line) for t, line, gap in rows)])
 
 
@@ -104,12 +108,12 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
     remarks = list(table.remarks)
     if options.fps is None and not table.times and table.rate:
         options = replace(options, fps=table.rate)
-        remarks.append(rate_above(table.rate))
+        remarks.append(describe_header_rate(table.rate))
     times = {} if options.fps else table.times
     used = [i for i, name in enumerate(names) if name in times or is_used(name)]
     used = [i for i in used if names[i] in times or not is_timing(names[i])]
     for i in used:
-        if i < len(table.first_cells) and _lacks_time(names[i], table.first_cells[i]):
+        if i < len(table.first_cells) and _is_missing_time(names[i], table.first_cells[i]):
             reason = f"column {names[i]!r} {NO_TIMES}: give fps= (--fps)"
             raise content.error(reason, table.below + 1)
     values = table.numbers(used)
@@ -119,7 +123,7 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
     return columns_to_motion(content, TABLE.name, columns, options).noted(*remarks)
 
 
-def _lacks_time(name: str, cell: str) -> bool:
+def _is_missing_time(name: str, cell: str) -> bool:
     """Return whether a column is called as times are, and its first cell is none."""
     return is_timing(name) and not (is_number(cell) or is_date(cell) or cell.lower() in EMPTY)
 

@@ -19,7 +19,7 @@ from kineme.recordings.times import UNITS_NAMED, as_seconds, find_time_unit, is_
 _SLOWEST = 1.0  # frames per second: at or below, times of no stated unit are hardly seconds
 
 
-def table_timing(
+def find_table_timing(
     content: FileContent,
     columns: Mapping[str, ArrayLike],
     fps: float | None = None,
@@ -34,7 +34,7 @@ def table_timing(
         return Timing(fps)
     for column in columns:
         if is_rate(column):
-            return Timing(_one_rate(content, numbers_in(content, columns, column)))
+            return Timing(_check_rate(content, read_column(content, columns, column)))
     clocks = [column for column in columns if is_time(column)]
     stopped = [column for column in clocks if len(clocks) > 1 and _is_stopped(columns[column])]
     # Of several clocks those count that run; a single one is refused with the reason.
@@ -44,8 +44,8 @@ def table_timing(
             times, guessed = as_seconds(columns[column], unit)
         except (ValueError, TypeError) as error:
             raise content.error(f"column {column!r} does not tell times: {error}") from None
-        times = numbers_in(content, {column: times}, column)
-        timing = timing_of(content, times, values)
+        times = read_column(content, {column: times}, column)
+        timing = find_timing(content, times, values)
         notes = list(timing.notes)
         if guessed:
             remark = f"{column} is taken in {UNITS_NAMED[guessed]}, by its steps"
@@ -62,7 +62,7 @@ def table_timing(
     raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
 
 
-def timing_of(content: FileContent, times: Floats, values: Floats | None = None) -> Timing:
+def find_timing(content: FileContent, times: Floats, values: Floats | None = None) -> Timing:
     """Return what `place_rows` finds; ReadError where times tell nothing."""
     try:
         return place_rows(times, values)
@@ -89,7 +89,7 @@ def place_points(timing: Timing, points: Floats) -> tuple[Floats, tuple[tuple[in
     return found.values.reshape(-1, *points.shape[1:]), gaps
 
 
-def numbers_in(
+def read_column(
     content: FileContent, columns: Mapping[str, ArrayLike], name: str, rows: int | None = None
 ) -> Floats:
     """(rows,): a column as numbers; ReadError where it holds others, or is of another length."""
@@ -108,7 +108,7 @@ def _is_stopped(cells: ArrayLike) -> bool:
     return texts <= {"", "nan", "None"} or (len(texts) == 1 and np.size(cells) > 1)
 
 
-def _one_rate(content: FileContent, rates: Floats) -> float:
+def _check_rate(content: FileContent, rates: Floats) -> float:
     rate = float(rates[0])
     if not (np.isfinite(rate) and rate > 0) or np.ptp(rates) > 0:
         raise content.error(

@@ -63,18 +63,18 @@ _METRES = re.compile("(centi|milli)?met(?:er|re)s?")
 _HEIGHT = 1.7  # metres, given to a body measured in pixels
 
 
-def blocks(n_frames: int) -> Iterator[slice]:
+def iterate_blocks(n_frames: int) -> Iterator[slice]:
     """Yield the frames in order, as many at a time as stay in the processor's cache."""
     for start in range(0, n_frames, BLOCK):
         yield slice(start, min(start + BLOCK, n_frames))
 
 
-def metres(unit: str | float) -> float:
+def to_metres(unit: str | float) -> float:
     """Return the metres in one ``unit``, a name in `UNITS` or already a length."""
     return UNITS[unit] if isinstance(unit, str) else float(unit)
 
 
-def unit_named(word: str) -> str | None:
+def parse_unit(word: str) -> str | None:
     """Return the unit that a file calls ``word`` ("mm", "Millimeters", "in"), or None."""
     word = word.strip().lower()
     if metric := _METRES.fullmatch(word):
@@ -82,15 +82,15 @@ def unit_named(word: str) -> str | None:
     return "inch" if word in ("in", "inch", "inches") else word if word in METRIC else None
 
 
-def upright(points: Floats, up: str) -> Floats:
+def turn_upright(points: Floats, up: str) -> Floats:
     """Return points (frames, points, 3), turned in place so that their axis ``up`` becomes y."""
     if up != "y":
-        for span in blocks(len(points)):
-            points[span] = rot.rotate(up_rotation(up), points[span])
+        for span in iterate_blocks(len(points)):
+            points[span] = rot.rotate(make_up_rotation(up), points[span])
     return points
 
 
-def up_rotation(up: str) -> Floats:
+def make_up_rotation(up: str) -> Floats:
     """Return the rotation that turns the axis ``up`` to y."""
     return np.array(_TO_Y[up])
 
@@ -103,7 +103,7 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
     within 7 % of the path along the bones from head to toes. If no unit fits the
     nearest is taken, and the note is a warning.
     """
-    height = height_of(skeleton, means)
+    height = estimate_height(skeleton, means)
     fits = {name: HEIGHTS[0] <= height * size <= HEIGHTS[1] for name, size in UNITS.items()}
     if any(fits.values()):
         unit = next(name for name, fit in fits.items() if fit)
@@ -118,24 +118,24 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
     return unit, Note(remark, "warning")
 
 
-def height_of(skeleton: Skeleton, means: Floats) -> float:
+def estimate_height(skeleton: Skeleton, means: Floats) -> float:
     """Three quarters of the longest path along the bones, in file units.
 
     ``means`` (joints, 3) is where each joint is in its parent's frame, on average.
     """
-    return 0.75 * _longest_path(skeleton, np.linalg.norm(means, axis=1))
+    return 0.75 * _measure_longest_path(skeleton, np.linalg.norm(means, axis=1))
 
 
 def infer_up(skeleton: Skeleton, positions: Floats) -> str:
     """Return the axis along which the body stands, both at rest and most of the time; else "y"."""
-    feet, head = ends_of_body(skeleton)
+    feet, head = find_feet_and_head(skeleton)
     if not head or not feet:
         return "y"
-    axis = _axis_of(place_at_rest(skeleton)[None], feet, head, 0.9)
-    return axis if axis and axis == _axis_of(positions, feet, head, 0.7) else "y"
+    axis = _find_body_axis(place_at_rest(skeleton)[None], feet, head, 0.9)
+    return axis if axis and axis == _find_body_axis(positions, feet, head, 0.7) else "y"
 
 
-def rate_from_period(word: str) -> tuple[float, str | None]:
+def infer_rate(word: str) -> tuple[float, str | None]:
     """Frames per second from a frame time as written, and a note if it was rounded.
 
     ``.0083333`` stands for anything from 0.00833325 to 0.00833335 s; where one
@@ -153,7 +153,7 @@ def rate_from_period(word: str) -> tuple[float, str | None]:
     return float(1 / period), None
 
 
-def _longest_path(skeleton: Skeleton, lengths: Floats) -> float:
+def _measure_longest_path(skeleton: Skeleton, lengths: Floats) -> float:
     """Return the longest path between two joints along the bones of the body.
 
     Bones above the hips are left out: their length is how far somebody walked.
@@ -170,7 +170,7 @@ def _longest_path(skeleton: Skeleton, lengths: Floats) -> float:
     return longest
 
 
-def scale_of(
+def infer_scale(
     unit: str | float | None,
     positions: Floats,
     *,
@@ -183,15 +183,15 @@ def scale_of(
     then above 50 m apart, or if a whole body is below 2 cm.
     """
     if unit is not None and unit != "pixel":
-        return metres(unit), []
+        return to_metres(unit), []
     spread = float(np.median(np.ptp(positions, axis=1).max(axis=1)))
     if unit == "pixel":
         return _HEIGHT / (spread or 1.0), [
             f"no unit: {spread:.3g}, the larger side of the body, taken as {_HEIGHT} m"
         ]
     if stated:
-        return _checked_scale(stated, spread, is_body=is_body)
-    unit = _human_unit(spread)
+        return _check_scale(stated, spread, is_body=is_body)
+    unit = _find_human_unit(spread)
     if unit is not None:
         note = f"unit {unit} inferred: the points then spread over {spread * UNITS[unit]:.2f} m"
         return UNITS[unit], [note]
@@ -203,11 +203,11 @@ def scale_of(
     return UNITS[name], [Note(remark, "warning")]
 
 
-def _checked_scale(stated: str, spread: float, *, is_body: bool) -> tuple[float, list[str]]:
+def _check_scale(stated: str, spread: float, *, is_body: bool) -> tuple[float, list[str]]:
     """Return the metres in the stated unit, or in one that makes the points human, and a note."""
-    size, other = spread * metres(stated), _human_unit(spread)
+    size, other = spread * to_metres(stated), _find_human_unit(spread)
     if other is None or (size <= SIZES[1] and (size >= SIZES[0] or not is_body)):
-        return metres(stated), []
+        return to_metres(stated), []
     remark = (
         f"the points spread over {size:.4g} m by the file's unit {stated}: {other} assumed "
         f"({spread * UNITS[other]:.2f} m); unit= (--unit) overrides"
@@ -215,13 +215,13 @@ def _checked_scale(stated: str, spread: float, *, is_body: bool) -> tuple[float,
     return UNITS[other], [Note(remark, "warning")]
 
 
-def _human_unit(spread: float) -> str | None:
+def _find_human_unit(spread: float) -> str | None:
     """Return the unit in which points spread as far as those on a person, or None."""
     fits = (name for name in METRIC if SPREADS[0] <= spread * UNITS[name] < SPREADS[1])
     return next(fits, None)
 
 
-def up_axis(
+def infer_up_axis(
     usual: str, positions: Floats, body: Body, *, is_stated: bool = False
 ) -> tuple[str, list[str]]:
     """Return the axis along which the body stands, else the usual one, and what was inferred.
@@ -230,7 +230,7 @@ def up_axis(
     """
     upper = list(body.get("head", ()) or body.get("pelvis", ()))
     feet = [i for joint in ("left_ankle", "right_ankle") for i in body.get(joint, ())]
-    up = _axis_of(positions, feet, upper, 0.7) if upper and feet else None
+    up = _find_body_axis(positions, feet, upper, 0.7) if upper and feet else None
     if is_stated and up in (None, usual):
         return usual, []
     if up is None:
@@ -242,14 +242,14 @@ def up_axis(
     return up, [Note(f"{note}, though the file names {usual}; up= (--up) overrides", "warning")]
 
 
-def lying_axis(skeleton: Skeleton, positions: Floats) -> str | None:
+def find_lying_axis(skeleton: Skeleton, positions: Floats) -> str | None:
     """Return the axis along which a body lies most of the time, or None if it does not."""
-    feet, head = ends_of_body(skeleton)
-    axis = _axis_of(positions, feet, head, 0.7) if head and feet else None
+    feet, head = find_feet_and_head(skeleton)
+    axis = _find_body_axis(positions, feet, head, 0.7) if head and feet else None
     return None if axis == "y" else axis
 
 
-def ends_of_body(skeleton: Skeleton) -> tuple[list[int], list[int]]:
+def find_feet_and_head(skeleton: Skeleton) -> tuple[list[int], list[int]]:
     """Return the joints of feet and head by their names."""
     feet, head = (
         [i for i, name in enumerate(skeleton.names) if mentions(name, *parts)]
@@ -258,7 +258,9 @@ def ends_of_body(skeleton: Skeleton) -> tuple[list[int], list[int]]:
     return feet, head
 
 
-def _axis_of(positions: Floats, feet: list[int], head: list[int], least: float) -> str | None:
+def _find_body_axis(
+    positions: Floats, feet: list[int], head: list[int], least: float
+) -> str | None:
     """Return the axis that points from feet to head, ``-z`` among them, for a share at least."""
     body = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
     length = np.linalg.norm(body, axis=1, keepdims=True)

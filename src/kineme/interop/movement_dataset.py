@@ -27,7 +27,7 @@ from kineme.formats.columns import LIMIT
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import mark_spans, split_at
 from kineme.formats.points import Points, to_motion
-from kineme.formats.timing import place_points, timing_of
+from kineme.formats.timing import find_timing, place_points
 from kineme.recordings import Motion, Provenance
 from kineme.recordings.regular import Timing
 
@@ -199,7 +199,7 @@ def _read_timing(source: FileContent, dataset: xr.Dataset, fps: float | None) ->
     if rate:
         return Timing(float(rate))
     if dataset.attrs.get("time_unit") == "seconds":
-        return timing_of(source, np.asarray(dataset["time"], np.float64))
+        return find_timing(source, np.asarray(dataset["time"], np.float64))
     raise ReadError(source.path, "the dataset counts frames and has no fps: give fps=")
 
 

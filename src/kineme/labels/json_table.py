@@ -50,7 +50,7 @@ from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
 from kineme._util.json import decode_json
 from kineme.errors import ReadError
-from kineme.formats.channels.parquet import parquet_columns, parquet_file
+from kineme.formats.channels.parquet import open_parquet, read_parquet_columns
 from kineme.formats.files import load
 from kineme.labels.delimited import read_first_bytes, read_last_bytes
 from kineme.labels.registry import LabelFormat
@@ -276,19 +276,19 @@ def write_parquet(_: Sequence[Segment], segmentation: Segmentation, path: Path) 
 def read_parquet(path: Path) -> Segmentation:
     """Return the segmentation at ``path``."""
     content = load(path)
-    file = parquet_file(content)
+    file = open_parquet(content)
     metadata = file.schema_arrow.metadata or {}
     names = file.schema_arrow.names
     if KEY not in metadata or find_lacking(names):
         raise ReadError(path, "is a Parquet file, but not a segment table written by kineme")
     head = parse(metadata[KEY].decode(errors="replace"), path)
     present = [name for name in COLUMNS if name in names]
-    table = parquet_columns(content, file, present)
+    table = read_parquet_columns(content, file, present)
     columns = {name: table.column(name).to_numpy() for name in present}
     found = join_head(columns, head, path)
     if COMMENT not in names:
         return found
-    comments = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
+    comments = read_parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
     return from_rows(found, [str(text or "") for text in comments])
 
 

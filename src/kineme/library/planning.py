@@ -19,8 +19,8 @@ from kineme._util.json import options_from_json, options_to_json
 from kineme._version import __version__
 from kineme.errors import FileError, ParameterError, ReadError, WriteError
 from kineme.formats import ReadOptions, read
-from kineme.formats.keypoints.openpose import frame_files
-from kineme.formats.listing import holds_recording, recordings_in
+from kineme.formats.keypoints.openpose import list_frame_files
+from kineme.formats.listing import holds_recording, scan_folder
 from kineme.formats.skeletons.amc import find_skeleton
 from kineme.library.storage.layout import ANALYSES, HEAD, TABLES, read_head, read_json
 from kineme.library.storage.places import is_remote, lies_in, place, reach
@@ -182,7 +182,7 @@ _AMC = ".amc"
 def list_files(path: Path, skeleton: AnyPath | None) -> list[Path]:
     """Return the files that a recording is read from, its own first."""
     if path.is_dir():
-        return [file for _, file in frame_files(path)]
+        return [file for _, file in list_frame_files(path)]
     if skeleton is not None:
         return [path, Path(skeleton)]
     if path.suffix.lower() != _AMC:
@@ -293,7 +293,7 @@ def _list_skeletons(folder: Path) -> str:
 def find_recordings(folder: Path, *, recursive: bool) -> list[Path]:
     """Return the recordings in a folder; elsewhere, only such as are one file."""
     if not is_remote(folder):
-        return recordings_in(folder, recursive=recursive).recordings
+        return scan_folder(folder, recursive=recursive).recordings
     remote: Any = folder
     inside = remote.fs.find(remote.path, maxdepth=None if recursive else 1)
     home = remote.path.rstrip("/") + "/"

@@ -1,7 +1,7 @@
 """Run an estimator over a video: poses are kept as they come, so that nothing is done twice.
 
 While it runs, poses go to a file of its own beside the table to be, called as that and ``.part``: a
-line of JSON, then rows of `kineme.formats.keypoints.poses.row_type`, those of each frame at once.
+line of JSON, then rows of the type `kineme.formats.keypoints.poses.make_row_type`, a frame at once.
 Whatever ends the run, the next one goes on after the last whole frame. When all frames are done,
 the table is written at once and the other file is removed.
 
@@ -28,15 +28,15 @@ from kineme._util.checks import check_path
 from kineme._util.files import POSES, AnyPath, atomic_write, hold, is_held, refuse_link
 from kineme._util.parallel import announce, check_cancelled
 from kineme.errors import KinemeError, ReadError, WriteError
-from kineme.formats.channels.parquet import parquet_file
+from kineme.formats.channels.parquet import open_parquet
 from kineme.formats.files import FileContent, load, load_head
 from kineme.formats.keypoints.poses import (
     NOBODY,
     Head,
     Rows,
     find_poses,
+    make_row_type,
     parse_head,
-    row_type,
     write_poses,
 )
 from kineme.pose.decoding import Frame, OpenVideo, open_video
@@ -172,7 +172,7 @@ def _is_made(place: Path, asked: Head) -> bool:
         return False
     try:
         content = load(place)
-        head = parse_head(content, parquet_file(content))
+        head = parse_head(content, open_parquet(content))
     except ReadError as error:
         reason = "is there, and holds no poses: move it away or name another file"
         raise WriteError(place, reason) from error
@@ -253,7 +253,7 @@ def _count_colors(picture: Picture) -> Floats:
 
 def _rows_of(frame: Frame, poses: Sequence[Pose], keypoints: int, change: float) -> Rows:
     """Return a row for each person in a frame; one of nobody where there is none."""
-    rows = np.zeros(max(1, len(poses)), row_type(keypoints))
+    rows = np.zeros(max(1, len(poses)), make_row_type(keypoints))
     rows["time"], rows["person"], rows["metres"] = frame.time, NOBODY, np.nan
     rows["change"] = change
     for i, pose in enumerate(poses):
@@ -286,5 +286,5 @@ def _parse_part(part: Path, keypoints: int) -> tuple[Head, Rows, int]:
         head = json.loads(line)
     except ValueError:
         head = {}
-    kind = row_type(keypoints)
+    kind = make_row_type(keypoints)
     return head, np.frombuffer(rest, kind, len(rest) // kind.itemsize), len(line) + 1

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kineme._util.files import CORRECTED
-from kineme.formats.listing import drop_shown, files_in, holds_recording
+from kineme.formats.listing import drop_duplicates, holds_recording, list_files
 from kineme.labels import holds_labels
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.overview import saved_brief
@@ -42,7 +42,7 @@ class Folder:
             files = [path for path in self._files if path.is_file()]
         else:
             present = (path for path in self._listed() if not path.name.endswith(CORRECTED))
-            files = drop_shown([path for path in present if holds_recording(path)])
+            files = drop_duplicates([path for path in present if holds_recording(path)])
         return {each.id: each for each in listed_in(files)}
 
     def knowledge_bases(self) -> dict[str, Path]:
@@ -78,7 +78,7 @@ class Folder:
 
     def _listed(self) -> list[Path]:
         try:
-            return files_in(self.root)
+            return list_files(self.root)
         except OSError:
             return []
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError
-from kineme.formats import ReadOptions, people_in, read_analog, read_quietly
+from kineme.formats import ReadOptions, list_people, read_analog, read_quietly
 from kineme.labels.collections import Extent
 from kineme.methods.segmenter import SegmentOptions
 from kineme.studio.poses import require_poses
@@ -76,7 +76,7 @@ class RecordingCache:
 
     def people(self, path: Path, choice: ReadOptions) -> tuple[str, ...]:
         """Those in a file that is read so, where there are several; it is read for it."""
-        return people_in(path, read_options(ListedRecording(path), self.read_options, choice))
+        return list_people(path, read_options(ListedRecording(path), self.read_options, choice))
 
     def analog(self, listed: ListedRecording) -> Signals | None:
         """Return the channels beside the motion in a file, read each time.

@@ -45,7 +45,7 @@ from kineme._version import __version__
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.features.canonical.matching import DIMS, MATCHING_FPS, OFFSETS_S, matching_features
 from kineme.features.effectors import Names
-from kineme.formats.arrays.numpy_files import members
+from kineme.formats.arrays.numpy_files import read_arrays
 from kineme.formats.files import load
 from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
@@ -83,7 +83,7 @@ def _read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDAr
         raise ReadError(path, "cannot be read: there is no such file")
     content = load(path)
     try:
-        found = members(content)
+        found = read_arrays(content)
         head = decode_json(str(found["head"]), path)
     except KeyError as error:
         raise ReadError(path, "is not a knowledge base: it has no head") from error

@@ -188,9 +188,9 @@ class Batch:
             raise typer.Exit(1)
 
     def _recordings_in(self, folder: Path, *, recursive: bool) -> list[Path]:
-        from kineme.formats.listing import recordings_in
+        from kineme.formats.listing import scan_folder
 
-        listing = recordings_in(folder, recursive=recursive)
+        listing = scan_folder(folder, recursive=recursive)
         self._messages += [
             (say_skipped, f"{path}: {reason}") for path, reason in listing.passed_over
         ]

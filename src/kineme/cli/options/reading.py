@@ -104,9 +104,9 @@ def options_by_name(path: Path, options: ReadOptions) -> list[tuple[str, ReadOpt
     A single one, or the one that was named, goes without a name.
     """
     if options.take == EVERYTHING:
-        from kineme.formats import takes_in
+        from kineme.formats import list_takes
 
-        takes = takes_in(path, replace(options, person=None, take=None)) or (None,)
+        takes = list_takes(path, replace(options, person=None, take=None)) or (None,)
         return [
             ("_".join(filter(None, (take, who))), each)
             for take in takes
@@ -114,7 +114,7 @@ def options_by_name(path: Path, options: ReadOptions) -> list[tuple[str, ReadOpt
         ]
     if options.person != EVERYTHING:
         return [("", options)]
-    from kineme.formats import people_in
+    from kineme.formats import list_people
 
-    people = people_in(path, options) or (None,)
+    people = list_people(path, options) or (None,)
     return [(who or "", replace(options, person=who)) for who in people]

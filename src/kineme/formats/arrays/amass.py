@@ -25,7 +25,7 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
-from kineme.formats.units import metres, up_rotation
+from kineme.formats.units import make_up_rotation, to_metres
 from kineme.recordings import Motion, Skeleton
 
 WIDTHS = {72: "SMPL", 156: "SMPL-H", 165: "SMPL-X"}
@@ -80,24 +80,24 @@ def poses_to_motion(
     # The crown has no rotation of its own.
     rotations[:, -1] = rot.IDENTITY
     rotations[:, :-1] = rot.exponential(vectors)
-    turn = up_rotation(options.up or "z")
+    turn = make_up_rotation(options.up or "z")
     # Only the root is turned, since all others are relative to their parents.
     rotations[:, 0] = rot.multiply(turn, rotations[:, 0])
-    path = rot.rotate(turn, path * metres(options.unit or "m"))
+    path = rot.rotate(turn, path * to_metres(options.unit or "m"))
     kind = WIDTHS[poses.shape[1]]
     notes = [f"{kind} poses on a skeleton of average lengths, 1.70 m tall; hands and face left out"]
     if options.up is None:
         notes.append("up axis z, as in AMASS, assumed")
     return Motion.from_rotations(
-        smpl_skeleton(),
+        make_smpl_skeleton(),
         rotations,
-        options.fps or rate_in(content, arrays, _RATES),
+        options.fps or find_rate(content, arrays, _RATES),
         path,
         provenance=content.provenance("AMASS", notes),
     )
 
 
-def smpl_skeleton() -> Skeleton:
+def make_smpl_skeleton() -> Skeleton:
     """Return the joints that SMPL, SMPL-H and SMPL-X share, at average lengths, and a crown."""
     names = tuple(name for name, _, _ in _JOINTS)
     parents = tuple(-1 if parent is None else names.index(parent) for _, parent, _ in _JOINTS)
@@ -117,7 +117,7 @@ def _check_arrays(content: FileContent, arrays: Mapping[str, Any], name: str) ->
     return values
 
 
-def rate_in(content: FileContent, arrays: Mapping[str, Any], names: Sequence[str]) -> float:
+def find_rate(content: FileContent, arrays: Mapping[str, Any], names: Sequence[str]) -> float:
     """Return the frame rate under the first of the names that has one."""
     for name in names:
         if name in arrays and arrays[name].size == 1 and arrays[name].dtype.kind in "iuf":

@@ -43,12 +43,12 @@ class _Reader:
 
     def __init__(self, content: FileContent, file: Any) -> None:
         self.content, self.file = content, file
-        self.claimed = 0
+        self.required = 0
         self.open: list[Any] = []  # the groups that the one being read is in
 
-    def claim(self, size: int) -> None:
-        self.claimed += size
-        self.content.claim(self.claimed, "to unpack to much more than it holds")
+    def require_memory(self, size: int) -> None:
+        self.required += size
+        self.content.require_memory(self.required, "to unpack to much more than it holds")
 
     def group(self, group: Any, depth: int) -> dict[str, Any]:
         """Return what lies in a group, each time that it is linked to."""
@@ -66,7 +66,7 @@ class _Reader:
             link = group.get(name, getlink=True)
             if not isinstance(link, h5py.HardLink):  # to other files, or in a circle
                 continue
-            self.claim(_BYTES_PER_LINK)
+            self.require_memory(_BYTES_PER_LINK)
             found[name] = self.value(group[name], depth)
         self.open.pop()
         return found
@@ -79,12 +79,12 @@ class _Reader:
         if not isinstance(item, h5py.Dataset) or item.shape is None:
             return None
         # Python integers, which do not overflow with absurd shapes.
-        self.claim(int(np.prod(item.shape, dtype=object)) * max(1, item.dtype.itemsize))
+        self.require_memory(int(np.prod(item.shape, dtype=object)) * max(1, item.dtype.itemsize))
         if item.attrs.get("MATLAB_empty", 0):
             return np.empty((0, 0))
         if h5py.check_ref_dtype(item.dtype) is not None:
             return self.cells(item, depth)
-        return _plain(item)
+        return _read_dataset(item)
 
     def cells(self, item: Any, depth: int) -> list[Any]:
         """Return what the references of a data set point to."""
@@ -94,7 +94,7 @@ class _Reader:
         return [self.value(self.file[ref], depth + 1) for ref in item[()].ravel() if ref]
 
 
-def _plain(item: Any) -> Any:
+def _read_dataset(item: Any) -> Any:
     """Return a data set of numbers or texts; None if of anything else."""
     import h5py
 
@@ -113,11 +113,11 @@ def _plain(item: Any) -> Any:
     return array.T if matlab else array
 
 
-def texts(value: Any) -> list[str]:
+def collect_texts(value: Any) -> list[str]:
     """Return the texts in a value, whether a list of them, one, or fixed-length bytes."""
     if isinstance(value, str):
         return [value]
     if isinstance(value, np.ndarray) and value.dtype.kind == "S":
         return [text.decode("utf-8", "replace") for text in value.ravel().tolist()]
     items = value if isinstance(value, list) else []
-    return [text for item in items for text in texts(item)]
+    return [text for item in items for text in collect_texts(item)]

@@ -18,14 +18,14 @@ from typing import Any
 import numpy as np
 
 from kineme._util.arrays import Array
-from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
+from kineme.formats.arrays.hdf5_file import SIGNATURE, collect_texts, parse_hdf5
 from kineme.formats.arrays.mat_file import parse_mat
 from kineme.formats.arrays.named_arrays import Arrays, arrays_to_motion
 from kineme.formats.channels.reading import (
     ChannelTable,
-    asked_for,
-    channel_table,
-    columns_read,
+    list_needed_columns,
+    make_channel_table,
+    select_columns,
     to_signals,
 )
 from kineme.formats.dialects import hold_channels
@@ -44,18 +44,18 @@ _RATES = (
 
 def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """Return the motion in a MAT file, or the channels where it holds no joints."""
-    variables = mat_variables(content)
+    variables = read_variables(content)
     labeled = _find_labeled(variables)
     if labeled is not None and not options.channels:
-        return _qtm_motion(content, *labeled, options)
-    arrays = arrays_of(variables)
+        return _read_qtm(content, *labeled, options)
+    arrays = to_arrays(variables)
     if options.channels or _hold_channels(arrays):
-        table = channels_of(content, arrays, options.columns or None)
+        table = arrays_to_channels(content, arrays, options.columns or None)
         return to_signals(content, "MAT", table, options.fps)
     return arrays_to_motion(content, "MAT", arrays, options)
 
 
-def mat_variables(content: FileContent) -> dict[str, Any]:
+def read_variables(content: FileContent) -> dict[str, Any]:
     """Return the variables of a MAT file of either kind, by name."""
     is_hdf5 = content.data.startswith(SIGNATURE) or content.data[512:520] == SIGNATURE
     variables = parse_hdf5(content) if is_hdf5 else parse_mat(content)
@@ -64,7 +64,7 @@ def mat_variables(content: FileContent) -> dict[str, Any]:
     return variables
 
 
-def arrays_of(variables: Mapping[str, Any]) -> dict[str, Array]:
+def to_arrays(variables: Mapping[str, Any]) -> dict[str, Array]:
     """Numbers and texts as arrays; vectors and single numbers without MATLAB's other dimension."""
     inner = [value for value in variables.values() if isinstance(value, Mapping)]
     # A structure that is alone holds the variables.
@@ -77,12 +77,12 @@ def arrays_of(variables: Mapping[str, Any]) -> dict[str, Array]:
             single = value.ndim == 2 and 1 in value.shape
             found[name] = value.ravel() if single and value.size > 1 else value
             found[name] = found[name].reshape(()) if value.size == 1 else found[name]
-        elif words := texts(value):
+        elif words := collect_texts(value):
             found[name] = np.array(words)
     return found
 
 
-def channels_of(
+def arrays_to_channels(
     content: FileContent, arrays: Arrays, columns: Sequence[str] | None
 ) -> ChannelTable:
     """Return the channels in a MAT file's arrays: those named, or those of the most usual length.
@@ -105,16 +105,16 @@ def channels_of(
     # The most usual length; of equally usual ones the longest.
     length = max(lengths, key=lambda n: (lengths[n], n), default=0)
     times = {name: name for name in channels if is_timing(name)}
-    columns = asked_for(content, list(channels), columns, list(channels), times)
+    columns = select_columns(content, list(channels), columns, list(channels), times)
     if columns:
         length = len(channels[columns[0]])
     as_long = [name for name, channel in channels.items() if len(channel) == length]
-    chosen = columns_read(columns, as_long, times)
+    chosen = list_needed_columns(columns, as_long, times)
     for name in chosen:
         if name not in as_long:
             raise content.error(f"column {name!r} is not as long as {chosen[0]!r}: choose one rate")
     values = {name: np.asarray(channels[name], np.float64) for name in chosen}
-    table = channel_table(content, as_long, values, columns, times)
+    table = make_channel_table(content, as_long, values, columns, times)
     others = [name for name in channels if name not in as_long]
     if columns is None and others:
         note = f"of another length, left out: {', '.join(others)}"
@@ -145,10 +145,10 @@ def _find_labeled(
     return None
 
 
-def _qtm_motion(
+def _read_qtm(
     content: FileContent, head: Mapping[str, Any], labeled: Mapping[str, Any], options: ReadOptions
 ) -> Motion:
-    names, data = texts(labeled["Labels"]), labeled["Data"]
+    names, data = collect_texts(labeled["Labels"]), labeled["Data"]
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 3:
         raise content.error("Trajectories.Labeled.Data are no numbers (markers, 4, frames)")
     if len(names) != data.shape[0] or data.shape[1] < 3 or 0 in data.shape:

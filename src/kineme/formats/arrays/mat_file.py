@@ -51,16 +51,16 @@ def parse_mat(content: FileContent) -> dict[str, Value]:
     order = {b"IM": "<", b"MI": ">"}.get(bytes(data[126:128]))
     if len(data) < _HEADER or order is None:
         raise content.error("is no MAT file of version 5: save it with -v7 or as CSV")
-    budget = content.room
+    budget = content.memory_limit
     variables: dict[str, Value] = {}
     try:
-        for kind, body in _elements(data[_HEADER:], order):
+        for kind, body in _split_elements(data[_HEADER:], order):
             if kind == _COMPRESSED:
                 unpacked = _unpack(body, budget)
                 budget -= len(unpacked)
-                kind, body = next(_elements(unpacked, order), (0, memoryview(b"")))  # noqa: PLW2901
+                kind, body = next(_split_elements(unpacked, order), (0, memoryview(b"")))  # noqa: PLW2901
             if kind == _MATRIX:
-                name, value = _matrix(body, order, 0)
+                name, value = _parse_array(body, order, 0)
                 if name and value is not None:
                     variables[name] = value
     except (_DamagedError, zlib.error) as error:
@@ -77,7 +77,7 @@ def _unpack(body: Bytes, budget: int) -> Bytes:
     return memoryview(unpacked)
 
 
-def _elements(data: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
+def _split_elements(data: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
     """Type and bytes of the elements, one after the other."""
     at = 0
     while at + 8 <= len(data):
@@ -98,46 +98,49 @@ def _elements(data: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
         at += step
 
 
-def _matrix(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
+def _parse_array(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
     """Name and value of an array; None for those that are passed over."""
     if not body:
         return "", np.empty((0, 0))
     if depth > _DEEPEST:
         raise _DamagedError("structures too deep in one another")
-    parts = _elements(body, order)
-    flags, shape = _counts(_next(parts), order), _counts(_next(parts), order)
-    name = bytes(_next(parts)[1]).decode("utf-8", "replace")
+    parts = _split_elements(body, order)
+    flags, shape = (
+        _parse_counts(_read_element(parts), order),
+        _parse_counts(_read_element(parts), order),
+    )
+    name = bytes(_read_element(parts)[1]).decode("utf-8", "replace")
     if not flags or not shape or min(shape) < 0 or len(shape) > _MOST_DIMENSIONS:
         raise _DamagedError("an array without flags or dimensions")
     # The class of the array is in the low byte of its flags.
     kind, is_complex = flags[0] & 0xFF, flags[0] >> 8 & _COMPLEX
     if kind in _NUMERIC and not is_complex:
-        return name, _reshape(_numbers(*_next(parts), order), shape)
+        return name, _reshape(_parse_numbers(*_read_element(parts), order), shape)
     if kind == _CHAR:
-        return name, _text(*_next(parts), shape, order)
+        return name, _parse_text(*_read_element(parts), shape, order)
     if kind == _CELL:
-        return name, [_matrix(part, order, depth + 1)[1] for _, part in parts]
+        return name, [_parse_array(part, order, depth + 1)[1] for _, part in parts]
     if kind == _STRUCT:
-        return name, _fields(parts, shape, order, depth)
+        return name, _parse_fields(parts, shape, order, depth)
     return name, None
 
 
-def _next(parts: Iterator[tuple[int, Bytes]]) -> tuple[int, Bytes]:
+def _read_element(parts: Iterator[tuple[int, Bytes]]) -> tuple[int, Bytes]:
     found = next(parts, None)
     if found is None:
         raise _DamagedError("an array breaks off")
     return found
 
 
-def _numbers(kind: int, data: Bytes, order: str) -> Array:
+def _parse_numbers(kind: int, data: Bytes, order: str) -> Array:
     if kind not in _NUMBERS:
         raise _DamagedError(f"numbers of the unknown type {kind}")
     number = np.dtype(order + _NUMBERS[kind])
     return np.frombuffer(data, number, len(data) // number.itemsize)
 
 
-def _counts(part: tuple[int, Bytes], order: str) -> list[int]:
-    values = _numbers(*part, order)
+def _parse_counts(part: tuple[int, Bytes], order: str) -> list[int]:
+    values = _parse_numbers(*part, order)
     if values.dtype.kind not in "iu":
         raise _DamagedError("flags or dimensions that are no whole numbers")
     return [int(value) for value in values.tolist()]
@@ -153,14 +156,15 @@ def _reshape(flat: Array, shape: list[int]) -> Array:
     return flat.reshape(shape, order="F")
 
 
-def _text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
+def _parse_text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
     """Return a text; of several rows, a list of them without the blanks at their ends."""
     if kind in _TEXTS:
         coding = _TEXTS[kind] + ("" if kind == 16 else "-le" if order == "<" else "-be")
         letters = list(bytes(data).decode(coding, "replace"))
     else:
         letters = [
-            chr(int(code)) if 0 < code < 0xD800 else " " for code in _numbers(kind, data, order)
+            chr(int(code)) if 0 < code < 0xD800 else " "
+            for code in _parse_numbers(kind, data, order)
         ]
     # Characters are stored column by column: every n-th is of one row.
     rows = shape[0]
@@ -169,10 +173,12 @@ def _text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
     return ["".join(letters[row::rows]).rstrip() for row in range(rows)]
 
 
-def _fields(parts: Iterator[tuple[int, Bytes]], shape: list[int], order: str, depth: int) -> Value:
+def _parse_fields(
+    parts: Iterator[tuple[int, Bytes]], shape: list[int], order: str, depth: int
+) -> Value:
     """Return the fields of a structure by name; of several structures, those of the first."""
-    width = _counts(_next(parts), order)
-    names = bytes(_next(parts)[1])
+    width = _parse_counts(_read_element(parts), order)
+    names = bytes(_read_element(parts)[1])
     if len(width) != 1 or width[0] < 1 or 0 in shape:
         return {}
     step = width[0]
@@ -181,4 +187,4 @@ def _fields(parts: Iterator[tuple[int, Bytes]], shape: list[int], order: str, de
         names[i : i + step].split(b"\0")[0].decode("utf-8", "replace")
         for i in range(0, len(names), step)
     ]
-    return {key: _matrix(_next(parts)[1], order, depth + 1)[1] for key in keys}
+    return {key: _parse_array(_read_element(parts)[1], order, depth + 1)[1] for key in keys}

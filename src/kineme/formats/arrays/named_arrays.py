@@ -19,7 +19,7 @@ import numpy as np
 
 from kineme._util.arrays import Array
 from kineme._util.checks import unique
-from kineme.formats.arrays.amass import poses_to_motion, rate_in
+from kineme.formats.arrays.amass import find_rate, poses_to_motion
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
@@ -42,7 +42,7 @@ def arrays_to_motion(
     columns = {key: array for key, array in arrays.items() if array.ndim == 1}
     # A single number becomes a column of length 1.
     columns |= {key: array[None] for key, array in arrays.items() if array.ndim == 0}
-    for joint, track in _tracks(arrays).items():
+    for joint, track in _find_tracks(arrays).items():
         columns |= {f"{joint}_{axis}": track[:, i] for i, axis in enumerate("xyz")}
     return columns_to_motion(content, name, columns, options)
 
@@ -51,13 +51,13 @@ def positions_to_motion(
     content: FileContent, name: str, arrays: Arrays, options: ReadOptions
 ) -> Motion:
     """Return the motion in ``positions``, and in what lies beside them."""
-    positions = _numbers(content, arrays, "positions")
+    positions = _read_numbers(content, arrays, "positions")
     if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
         raise content.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
-    fps = options.fps or rate_in(content, arrays, _RATES)
+    fps = options.fps or find_rate(content, arrays, _RATES)
     complete = "parents" in arrays and "names" in arrays  # written by kineme: metres, y up
     if complete and options.unit in (None, "m", 1) and options.up in (None, "y"):
-        return _as_written(content, name, arrays, positions, fps)
+        return _restore_motion(content, name, arrays, positions, fps)
     usual = [f"joint{i}" for i in range(positions.shape[1])]
     names = list(map(str, arrays["names"].ravel())) if "names" in arrays else usual
     if len(names) != len(usual):
@@ -69,7 +69,7 @@ def positions_to_motion(
     return to_motion(points, content.provenance(name, []))
 
 
-def _tracks(arrays: Arrays) -> Arrays:
+def _find_tracks(arrays: Arrays) -> Arrays:
     """Return the arrays (frames, 3), of the number of frames that most of them have."""
     tracks = {key: a for key, a in arrays.items() if a.ndim == 2 and a.shape[1] == 3}
     lengths = Counter(len(track) for track in tracks.values())
@@ -78,31 +78,31 @@ def _tracks(arrays: Arrays) -> Arrays:
     return {key: track for key, track in tracks.items() if len(track) == usual}
 
 
-def _as_written(
+def _restore_motion(
     content: FileContent, name: str, arrays: Arrays, positions: Array, fps: float
 ) -> Motion:
     """Return what kineme wrote, as it was."""
     n = positions.shape[1]
-    offsets = _numbers(content, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
-    parents = _integers(content, arrays, "parents")
-    ends = _integers(content, arrays, "end_sites") if "end_sites" in arrays else []
-    gaps = _integers(content, arrays, "gaps") if "gaps" in arrays else []
+    offsets = _read_numbers(content, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
+    parents = _read_integers(content, arrays, "parents")
+    ends = _read_integers(content, arrays, "end_sites") if "end_sites" in arrays else []
+    gaps = _read_integers(content, arrays, "gaps") if "gaps" in arrays else []
     names = tuple(unique(map(str, arrays["names"].ravel())))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
-    rotations = _numbers(content, arrays, "rotations") if "rotations" in arrays else None
+    rotations = _read_numbers(content, arrays, "rotations") if "rotations" in arrays else None
     # Start and stop alternate.
     spans = tuple(zip(gaps[::2], gaps[1::2], strict=False))
     return Motion(skeleton, positions, fps, rotations, content.provenance(name, []), spans)
 
 
-def _integers(content: FileContent, arrays: Arrays, name: str) -> list[int]:
-    values = _numbers(content, arrays, name).ravel()
+def _read_integers(content: FileContent, arrays: Arrays, name: str) -> list[int]:
+    values = _read_numbers(content, arrays, name).ravel()
     if not np.isfinite(values).all() or np.abs(values).max(initial=0) > 2**53:
         raise content.error(f"{name} are not whole numbers")
     return list(map(int, values.tolist()))
 
 
-def _numbers(content: FileContent, arrays: Arrays, name: str) -> Array:
+def _read_numbers(content: FileContent, arrays: Arrays, name: str) -> Array:
     if arrays[name].dtype.kind not in "iufb":
         raise content.error(f"{name} hold {arrays[name].dtype}, not numbers")
     return np.asarray(arrays[name], np.float64)

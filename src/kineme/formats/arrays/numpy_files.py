@@ -26,7 +26,7 @@ from kineme._util.arrays import Array
 from kineme._util.files import atomic_write, shorten_error
 from kineme.formats.arrays.named_arrays import arrays_to_motion, positions_to_motion
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import FileContent, spell_names
+from kineme.formats.files import FileContent, clean_names
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
@@ -41,12 +41,12 @@ _HEADER_DAMAGE = (
 
 def read_npz(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion in an npz archive."""
-    return arrays_to_motion(content, "npz", members(content), options)
+    return arrays_to_motion(content, "npz", read_arrays(content), options)
 
 
 def read_npy(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion in an npy array."""
-    array = _array(content, content.data, "the array")
+    array = _parse_array(content, content.data, "the array")
     if array.dtype.names:
         columns = {name: array[name] for name in array.dtype.names}
         return columns_to_motion(content, "npy", columns, options)
@@ -59,7 +59,7 @@ def write_npz(motion: Motion, path: Path) -> None:
     arrays: dict[str, Any] = {
         "positions": motion.positions,
         "fps": motion.fps,
-        "names": np.array(spell_names(path, skeleton.names, str)),
+        "names": np.array(clean_names(path, skeleton.names, str)),
         "parents": np.array(skeleton.parents),
         "offsets": skeleton.offsets,
         "end_sites": np.array(sorted(skeleton.end_sites), np.int64),
@@ -72,7 +72,7 @@ def write_npz(motion: Motion, path: Path) -> None:
         np.savez(file, **arrays)
 
 
-def members(content: FileContent) -> dict[str, Array]:
+def read_arrays(content: FileContent) -> dict[str, Array]:
     """Return the arrays of an npz by name.
 
     Those of another kind than numbers or text are passed over.
@@ -83,13 +83,13 @@ def members(content: FileContent) -> dict[str, Array]:
         with zipfile.ZipFile(io.BytesIO(content.data)) as archive:
             infos = archive.infolist()
             size = sum(info.file_size for info in infos)
-            content.claim(size, f"to unpack to {size / 1e6:.0f} MB")
+            content.require_memory(size, f"to unpack to {size / 1e6:.0f} MB")
             found = {}
             for info in infos:
                 data = archive.read(info)
                 if not _is_pickled(data):
                     name = info.filename.removesuffix(".npy")
-                    found[name] = _array(content, data, name)
+                    found[name] = _parse_array(content, data, name)
     except (zipfile.BadZipFile, zlib.error, LZMAError, OSError, EOFError, ValueError) as error:
         raise content.error(f"is no whole npz archive: {error}") from error
     except (NotImplementedError, RuntimeError) as error:  # other compressions, passwords
@@ -101,7 +101,7 @@ def _is_pickled(data: bytes) -> bool:
     return b"'descr': '|O'" in data[:256]
 
 
-def _array(content: FileContent, data: bytes, name: str) -> Array:
+def _parse_array(content: FileContent, data: bytes, name: str) -> Array:
     """Return the array that npy bytes hold, a view of them."""
     file = io.BytesIO(data)
     try:

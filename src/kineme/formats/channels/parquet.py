@@ -12,16 +12,16 @@ from kineme._util.files import shorten_error
 from kineme.errors import ReadError
 from kineme.formats.channels.reading import (
     ChannelTable,
-    asked_for,
-    channel_table,
-    columns_read,
+    list_needed_columns,
+    make_channel_table,
+    select_columns,
 )
 from kineme.formats.delimited import make_unique_names
 from kineme.formats.files import FileContent
 from kineme.recordings.times import is_timing
 
 
-def parquet_file(content: FileContent) -> Any:
+def open_parquet(content: FileContent) -> Any:
     """A `pyarrow.parquet.ParquetFile`, opened but not read; ReadError where it is damaged."""
     with require_extra("pyarrow", "tables"):
         import pyarrow as pa
@@ -31,11 +31,11 @@ def parquet_file(content: FileContent) -> Any:
     except (pa.ArrowException, OSError) as error:
         raise ReadError(content.path, "is not a Parquet file, or is damaged") from error
     rows, width = file.metadata.num_rows, file.metadata.num_columns
-    content.claim(8 * rows * width, f"{rows} rows of {width} columns")
+    content.require_memory(8 * rows * width, f"{rows} rows of {width} columns")
     return file
 
 
-def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> Any:
+def read_parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> Any:
     """Columns of a Parquet file as a table, none larger than the file can honestly hold.
 
     Texts are first read as the file keeps them, each different one once, and weighed:
@@ -50,7 +50,9 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
             file = parquet.ParquetFile(pa.BufferReader(content.data), read_dictionary=texts)
         # A thread that lets go of the bytes while Python ends would make it abort.
         table = file.read(columns=list(columns), use_threads=False)
-        content.claim(sum(map(_expanded_size, table.columns)), "texts that repeat")
+        content.require_memory(
+            sum(map(_estimate_expanded_size, table.columns)), "texts that repeat"
+        )
         plain = [
             pa.field(field.name, field.type.value_type)
             if pa.types.is_dictionary(field.type)
@@ -63,7 +65,7 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
         raise content.error(reason) from error
 
 
-def parquet_channels(
+def read_parquet_channels(
     content: FileContent, file: Any, columns: Sequence[str] | None
 ) -> ChannelTable:
     """Return channels of a Parquet file: those named, in this order, or all that hold numbers."""
@@ -79,11 +81,11 @@ def parquet_channels(
         if any(is_kind(types[name]) for is_kind in (dates if is_timing(name) else numbers))
     ]
     times = {name: name for name in numeric if is_timing(name)}
-    columns = asked_for(content, names, columns, numeric, times)
-    chosen = columns_read(columns, numeric, times)
+    columns = select_columns(content, names, columns, numeric, times)
+    chosen = list_needed_columns(columns, numeric, times)
     try:
         stored = [file.schema_arrow.names[names.index(name)] for name in chosen]
-        table = parquet_columns(content, file, stored)
+        table = read_parquet_columns(content, file, stored)
         values = {
             name: np.asarray(column.to_numpy(), None if is_timing(name) else np.float64)
             for name, column in zip(chosen, table.columns, strict=True)
@@ -91,7 +93,7 @@ def parquet_channels(
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
         reason = f"its columns cannot be read as numbers: {shorten_error(error)}"
         raise content.error(reason) from error
-    return channel_table(content, names, values, columns, times)
+    return make_channel_table(content, names, values, columns, times)
 
 
 def _is_text(kind: Any) -> bool:
@@ -101,7 +103,7 @@ def _is_text(kind: Any) -> bool:
     return any(is_text(kind) for is_text in (*kinds, types.is_dictionary))
 
 
-def _expanded_size(column: Any) -> int:
+def _estimate_expanded_size(column: Any) -> int:
     """Bytes of a column, with every row's text by itself."""
     import pyarrow.compute as pc
     from pyarrow import types

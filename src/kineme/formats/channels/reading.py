@@ -29,7 +29,7 @@ from kineme._util.arrays import Floats
 from kineme.errors import ParameterError
 from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import FileContent
-from kineme.formats.timing import table_timing
+from kineme.formats.timing import find_table_timing
 from kineme.recordings import Signals
 from kineme.recordings.channel_names import is_channel_name
 from kineme.recordings.regular import Timing, fill_gaps_in_channels
@@ -60,7 +60,7 @@ class ChannelTable:
             return Timing(fps or self.rate or 0.0)
         if not self.timing:
             raise content.error(f"nothing in it tells the frame rate: give fps (--fps){self.hint}")
-        timing = table_timing(content, self.timing, values=self.values)
+        timing = find_table_timing(content, self.timing, values=self.values)
         # times rounded to milliseconds miss the rate by a little
         nominal = self.nominal or 0.0
         near = abs(timing.fps - nominal) <= 0.005 * nominal
@@ -82,37 +82,37 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
     return Signals(values, timing.fps, table.names, gaps, provenance)
 
 
-def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
+def read_text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
     """Return the channels of a text table: those named, in this order, or all that hold numbers."""
     text = text.numbered()
     text.refuse_interleaved()
     names, numeric, times = list(text.names), text.numeric(), text.times
-    columns = asked_for(text.content, names, columns, numeric, times)
-    chosen = columns_read(columns, numeric, times or list(filter(name_clock, numeric)))
+    columns = select_columns(text.content, names, columns, numeric, times)
+    chosen = list_needed_columns(columns, numeric, times or list(filter(name_clock, numeric)))
     places = {name: i for i, name in enumerate(names)}  # each is there once
     values = text.numbers([places[name] for name in chosen])
     read = dict(zip(chosen, values.T, strict=True))
-    table = channel_table(text.content, names, read, columns, times)
+    table = make_channel_table(text.content, names, read, columns, times)
     notes = (*text.remarks, *table.notes)
     if times or text.rate is None:
         return replace(table, notes=notes, nominal=text.rate)
-    return replace(table, rate=text.rate, notes=(*notes, rate_above(text.rate)))
+    return replace(table, rate=text.rate, notes=(*notes, describe_header_rate(text.rate)))
 
 
 def choose_channels(
     content: FileContent, signals: Signals, columns: Sequence[str] | None
 ) -> Signals:
     """Return those of a file's signals that are asked for, in this order; None for all."""
-    names = asked_for(content, signals.names, columns, signals.names)
+    names = select_columns(content, signals.names, columns, signals.names)
     return signals if names is None else signals.select(names)
 
 
-def rate_above(rate: float) -> str:
+def describe_header_rate(rate: float) -> str:
     """Return the note on a rate that stands above the names of a table."""
     return f"{rate:g} Hz, as a line above the columns says"
 
 
-def asked_for(
+def select_columns(
     content: FileContent,
     names: Sequence[str],
     columns: Sequence[str] | None,
@@ -146,7 +146,7 @@ def asked_for(
     return list(found)
 
 
-def columns_read(
+def list_needed_columns(
     names: Sequence[str] | None, numeric: Iterable[str], times: Container[str] = ()
 ) -> list[str]:
     """Return the columns to read: those asked for, or all that hold numbers, and those of times."""
@@ -155,7 +155,7 @@ def columns_read(
     return [*dict.fromkeys([*chosen, *timing])]
 
 
-def channel_table(
+def make_channel_table(
     content: FileContent,
     names: list[str],
     values: Mapping[str, Floats],
@@ -164,12 +164,12 @@ def channel_table(
 ) -> ChannelTable:
     """Return the columns read, taken apart: channels, times, and a note of what is neither.
 
-    ``times`` are the columns that tell times or a rate, and how `table_timing` knows them.
+    ``times`` are the columns that tell times or a rate, and how `find_table_timing` knows them.
     """
     timing = {times[name]: column for name, column in values.items() if name in times}
     hints = [f"; {name!r} {NO_TIMES}" for name in times if name not in values]
     if not times:
-        clocks = (name for name in values if name_clock(name) and _mostly_rises(values[name]))
+        clocks = (name for name in values if name_clock(name) and _is_mostly_rising(values[name]))
         times = {name: name_clock(name) or "" for name in islice(clocks, 1)}
         timing = {called: values[name] for name, called in times.items()}
     if columns is not None:
@@ -180,7 +180,9 @@ def channel_table(
         rising = {name: None for name in chosen if _is_clock(values[name])}
         if len(rising) < len(chosen):
             chosen = [name for name in chosen if name not in rising]
-            hints += [f"; {name!r} rises by {_step(values[name]):g} a row" for name in rising]
+            hints += [
+                f"; {name!r} rises by {_measure_step(values[name]):g} a row" for name in rising
+            ]
         used = {*chosen, *times}
         left = [name for name in names if name not in used]
         notes = [f"columns that are no channels: {', '.join(left)}"] if left else []
@@ -201,14 +203,14 @@ def _is_clock(values: Floats) -> bool:
     """
     if len(values) < CLOCK_ROWS or not (np.diff(values) > 0).all():
         return False
-    line = values[0] + _step(values) * np.arange(len(values))
-    return bool(np.abs(values - line).max() <= _step(values))
+    line = values[0] + _measure_step(values) * np.arange(len(values))
+    return bool(np.abs(values - line).max() <= _measure_step(values))
 
 
-def _mostly_rises(values: Floats) -> bool:
+def _is_mostly_rising(values: Floats) -> bool:
     """Return whether a column rises as clocks do, be it with holes or set now and then."""
     return len(values) >= CLOCK_ROWS and bool((np.diff(values) > 0).mean() > 0.9)
 
 
-def _step(values: Floats) -> float:
+def _measure_step(values: Floats) -> float:
     return float((values[-1] - values[0]) / (len(values) - 1))

@@ -26,8 +26,8 @@ import numpy as np
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
-from kineme.formats.channels.parquet import parquet_channels, parquet_file
-from kineme.formats.channels.reading import ChannelTable, text_channels
+from kineme.formats.channels.parquet import open_parquet, read_parquet_channels
+from kineme.formats.channels.reading import ChannelTable, read_text_channels
 from kineme.formats.delimited import as_text, make_unique_names, replace_decimal_comma
 from kineme.formats.dialects import find_table
 from kineme.formats.files import FileContent, load
@@ -49,12 +49,12 @@ def write_signals(
 
     Of columns that are given, these alone and those of times.
     """
-    target, rows = Path(path), rows_of(signals)
+    target, rows = Path(path), make_rows(signals)
     suffix = target.suffix.lower()
     if columns is None and suffix == rows.suffix:
         rows.write(target)
     elif suffix in SEPARATORS:
-        _table(rows, suffix, columns).write(target)
+        _convert_rows(rows, suffix, columns).write(target)
     elif suffix == ".parquet":
         _ParquetRows.of_values(signals).write(target)
     else:
@@ -66,7 +66,7 @@ def write_signals(
         )
 
 
-def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
+def make_rows(signals: Signals, *, shortest: int | None = None) -> Rows:
     """Return the frames of signals as rows of their own file, or of a CSV where these are others.
 
     ``shortest`` is how many rows are written at once at least; all by default.
@@ -76,15 +76,15 @@ def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
     if path is not None and Path(path).is_file():
         content = load(path)
         same = content.digest == signals.provenance.sha256
-        table = _source_table(content, signals) if same else None
+        table = _find_source_table(content, signals) if same else None
         if table is not None:
             fps = None if not alone and _has_rate(table, content, signals.fps) else signals.fps
             if signals.provenance.format == PARQUET:
                 return _ParquetRows.of(content, fps)
             rows = _TextRows.of(content, signals.n_frames)
-            return rows if fps is None else _join_cells(rows, fps)
+            return rows if fps is None else _add_rate_column(rows, fps)
     rows = _format_values(signals)
-    return _join_cells(rows, signals.fps) if alone else rows
+    return _add_rate_column(rows, signals.fps) if alone else rows
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,7 @@ class _ParquetRows:
     @classmethod
     def of(cls, content: FileContent, fps: float | None) -> _ParquetRows:
         """Return all of a file, with a column of the rate where one is given."""
-        table = parquet_file(content).read()
+        table = open_parquet(content).read()
         if fps is not None:
             import pyarrow as pa
 
@@ -190,16 +190,16 @@ Rows = _TextRows | _ParquetRows
 """Frames of a recording as rows of a file; ``names`` is None where the file has none."""
 
 
-def _source_table(content: FileContent, signals: Signals) -> ChannelTable | None:
+def _find_source_table(content: FileContent, signals: Signals) -> ChannelTable | None:
     """Return the table on disk whose rows are the frames of signals, holes aside.
 
     None for another.
     """
     try:
         if signals.provenance.format == PARQUET:
-            table = parquet_channels(content, parquet_file(content), signals.names)
+            table = read_parquet_channels(content, open_parquet(content), signals.names)
         elif signals.provenance.format in TEXT:
-            table = text_channels(find_table(content), signals.names)
+            table = read_text_channels(find_table(content), signals.names)
         else:
             return None
     except ReadError:  # channels of other names
@@ -219,14 +219,14 @@ def _has_rate(table: ChannelTable, content: FileContent, fps: float) -> bool:
         return False
 
 
-def _join_cells(rows: _TextRows, fps: float) -> _TextRows:
+def _add_rate_column(rows: _TextRows, fps: float) -> _TextRows:
     """Return the cells of rows as a CSV or TSV, below a rate in place of any of their own."""
     numbered = (str(i) for i in range(1, len(next(rows.cells(), ())) + 1))
     names = list(rows.names or numbered)
     at = [i for i, name in enumerate(names) if not is_rate(name)]
     suffix = rows.suffix if rows.suffix in SEPARATORS else ".csv"
     cells = ([repr(float(fps)), *(row[i] for i in at)] for row in rows.cells())
-    return _text_rows(suffix, [RATE, *(names[i] for i in at)], cells)
+    return _format_rows(suffix, [RATE, *(names[i] for i in at)], cells)
 
 
 def _format_values(signals: Signals) -> _TextRows:
@@ -237,33 +237,33 @@ def _format_values(signals: Signals) -> _TextRows:
         [repr(i / signals.fps), *(empty if gap else map(repr, row))]
         for i, (row, gap) in enumerate(zip(signals.values.tolist(), missing, strict=True))
     )
-    return _text_rows(".csv", ["time", *signals.names], rows)
+    return _format_rows(".csv", ["time", *signals.names], rows)
 
 
-def _table(rows: Rows, suffix: str, columns: Sequence[str] | None) -> _TextRows:
+def _convert_rows(rows: Rows, suffix: str, columns: Sequence[str] | None) -> _TextRows:
     """Return same cells between commas or tabs: all of them, or some columns and those of times."""
     names = rows.names
     if columns is None:
-        return _text_rows(suffix, names, rows.cells())
+        return _format_rows(suffix, names, rows.cells())
     if names is None:
         at = [int(name) - 1 for name in columns]
     else:
         timing = [name for name in names if is_timing(name) and name not in columns]
         at = [names.index(name) for name in (*timing, *columns)]
         names = [names[i] for i in at]
-    return _text_rows(suffix, names, ([cells[i] for i in at] for cells in rows.cells()))
+    return _format_rows(suffix, names, ([cells[i] for i in at] for cells in rows.cells()))
 
 
-def _text_rows(
+def _format_rows(
     suffix: str, names: Sequence[str] | None, rows: Iterable[Sequence[str]]
 ) -> _TextRows:
     separator = SEPARATORS[suffix]
-    head = "" if names is None else _line([*map(as_text, names)], separator)
-    lines = [_line(row, separator) for row in rows]
+    head = "" if names is None else _format_line([*map(as_text, names)], separator)
+    lines = [_format_line(row, separator) for row in rows]
     return _TextRows(suffix, names, head, lines, lines, separator)
 
 
-def _line(cells: Sequence[str], separator: str) -> str:
+def _format_line(cells: Sequence[str], separator: str) -> str:
     line = StringIO()
     csv.writer(line, delimiter=separator, lineterminator="\n").writerow(cells)
     return line.getvalue()

@@ -11,14 +11,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 
-from kineme.formats.delimited import DelimitedText, make_unique_names, separator_of
+from kineme.formats.delimited import DelimitedText, find_separator, make_unique_names
 from kineme.formats.sniffing import (
     HIGHEST,
     SEPARATOR,
-    head_cells,
     is_row,
     is_text_line,
-    passed_over,
+    note_skipped_lines,
+    split_head,
 )
 
 Recognise = Callable[[Sequence[str], Sequence[str]], bool]
@@ -85,9 +85,9 @@ class Layout:
     def __call__(self, text: DelimitedText) -> DelimitedText:
         """Return the table in the lines of a file; ReadError where its head is not there."""
         lines, head = text.lines, self._head(text)
-        separator = separator_of(lines[head])
+        separator = find_separator(lines[head])
         # names and rows may end in one more separator
-        cells = head_cells(text.content, lines[head].rstrip(f"{separator} "), "", separator)
+        cells = split_head(text.content, lines[head].rstrip(f"{separator} "), "", separator)
         below = head + 1 + self.words
         if has_no_names := bool(self.names) and is_row(cells):
             numbered = map(str, range(len(self.names) + 1, len(cells) + 1))
@@ -104,7 +104,7 @@ class Layout:
             below,
             separator,
             rate=self._rate(lines[:head]),
-            notes=passed_over(passed, "rows" if has_no_names else "names"),
+            notes=note_skipped_lines(passed, "rows" if has_no_names else "names"),
             hidden=frozenset(hidden - clocks.keys()),
             clocks=clocks,
         )

@@ -16,7 +16,7 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
 from kineme.formats.channels.reading import ChannelTable, to_signals
-from kineme.formats.delimited import DelimitedText, cells_of, is_number, make_unique_names
+from kineme.formats.delimited import DelimitedText, is_number, make_unique_names, split_cells
 from kineme.formats.devices import Layout, begins_with
 from kineme.formats.dialects import Dialect
 from kineme.formats.options import ReadOptions
@@ -40,10 +40,10 @@ def read(text: DelimitedText, options: ReadOptions) -> Signals:
     if not chosen:
         raise content.error(f"none of its columns is a channel ({', '.join(names)})")
     # Discover writes the rates between names and rows
-    firsts = (cells_of(line, table.separator)[0] for line in table.rows)
+    firsts = (split_cells(line, table.separator)[0] for line in table.rows)
     words = next((i for i, first in enumerate(firsts) if is_number(first)), 0)
     columns = replace(table, below=table.below + words).numbers().T
-    lengths = [_length(columns[clock]) for clock in clocks]
+    lengths = [_count_times(columns[clock]) for clock in clocks]
     fastest = max(chosen, key=lengths.__getitem__)
     times = columns[clocks[fastest], : lengths[fastest]]
     values = []
@@ -62,16 +62,16 @@ def _prefix_sensors(table: DelimitedText) -> list[str]:
     above = [line for line in table.lines[: table.head] if line.strip(f"{table.separator} ")]
     if len(above) < 2 or not above[-1].startswith("sensor mode"):
         return [*table.names]
-    names = cells_of(table.lines[table.head], table.separator)[: len(table.names)]
+    names = split_cells(table.lines[table.head], table.separator)[: len(table.names)]
     # a sensor stands above the first of its columns
-    sensors = [_NUMBER.sub("", cell) for cell in cells_of(above[-2], table.separator)]
+    sensors = [_NUMBER.sub("", cell) for cell in split_cells(above[-2], table.separator)]
     filled: accumulate[str] = accumulate(
         chain(sensors, repeat("")), lambda sensor, cell: cell or sensor
     )
     return [f"{sensor} {name}" for name, sensor in zip(names, filled, strict=False)]
 
 
-def _length(times: Floats) -> int:
+def _count_times(times: Floats) -> int:
     """Return how many times there are before those that are empty or do not rise."""
     ends = np.flatnonzero(~(np.diff(times) > 0))
     return int(ends[0]) + 1 if len(ends) else len(times)

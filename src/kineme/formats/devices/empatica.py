@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import islice
 
-from kineme.formats.delimited import DelimitedText, cells_of, is_finite
+from kineme.formats.delimited import DelimitedText, is_finite, split_cells
 from kineme.formats.dialects import Dialect
 from kineme.formats.sniffing import is_row
 
@@ -19,7 +19,7 @@ SINCE_2001 = 1e9
 
 def recognises(_: Sequence[str], lines: Sequence[str]) -> bool:
     """Return whether the first row repeats a date since 1970 and the second a lower rate."""
-    rows = [cells_of(lines[i], ",") for i in _first_rows(lines)]
+    rows = [split_cells(lines[i], ",") for i in _find_first_rows(lines)]
     if len(rows) < 3 or len({len(row) for row in rows}) > 1 or not all(map(is_row, rows)):
         return False
     if any(len(set(row)) > 1 or not is_finite(row[0]) for row in rows[:2]):
@@ -30,15 +30,15 @@ def recognises(_: Sequence[str], lines: Sequence[str]) -> bool:
 
 def lay_out(text: DelimitedText) -> DelimitedText:
     """Return the table below the first two rows, its columns named after the file."""
-    _, second, below = _first_rows(text.lines)
-    width, sensor = len(cells_of(text.lines[below], ",")), text.content.path.stem.lower()
+    _, second, below = _find_first_rows(text.lines)
+    width, sensor = len(split_cells(text.lines[below], ",")), text.content.path.stem.lower()
     axes = "xyz" if width == 3 else range(1, width + 1)
     names = [sensor] if width == 1 else [f"{sensor}_{axis}" for axis in axes]
-    rate = float(cells_of(text.lines[second], ",")[0])
+    rate = float(split_cells(text.lines[second], ",")[0])
     return DelimitedText(text.content, text.lines, names, below, below, ",", rate=rate, clocks={})
 
 
-def _first_rows(lines: Sequence[str]) -> list[int]:
+def _find_first_rows(lines: Sequence[str]) -> list[int]:
     full = (i for i, line in enumerate(lines) if line.strip() and line[0] != "#")
     return list(islice(full, 3))
 

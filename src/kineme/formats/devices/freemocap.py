@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from kineme.formats.columns import columns_to_motion, joint_names
+from kineme.formats.columns import columns_to_motion, list_joints
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.options import ReadOptions
@@ -23,7 +23,7 @@ _NANOSECONDS = 1e5  # a step of a clock at or above it is no number of seconds
 
 def recognises(names: Sequence[str], _: Sequence[str]) -> bool:
     """Return whether the columns are a time stamp and coordinates of ``body_`` joints."""
-    body = [name for name in joint_names(names) if name.startswith(_BODY)]
+    body = [name for name in list_joints(names) if name.startswith(_BODY)]
     return "timestamp" in names and f"{_BODY}nose" in body
 
 

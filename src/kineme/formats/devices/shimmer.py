@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kineme.formats.delimited import DelimitedText, cells_of, separator_of
+from kineme.formats.delimited import DelimitedText, find_separator, split_cells
 from kineme.formats.devices import Layout, begins_with
 from kineme.formats.dialects import Dialect
 
@@ -28,8 +28,8 @@ def lay_out(text: DelimitedText) -> DelimitedText:
     if _recognise_names((), lines):
         return _CONSENSYS(text)
     at = next(i for i, line in enumerate(lines) if line.startswith(("CAL", "RAW"))) - 1
-    separator = separator_of(lines[at])
-    devices, signals = (cells_of(line, separator) for line in lines[at - 1 : at + 1])
+    separator = find_separator(lines[at])
+    devices, signals = (split_cells(line, separator) for line in lines[at - 1 : at + 1])
     if len(set(filter(None, devices))) > 1:
         signals = [" ".join(pair) for pair in zip(devices, signals, strict=False)]
     table = _FOUR_LINES(replace(text, lines=[separator.join(signals), *lines[at + 1 :]]))

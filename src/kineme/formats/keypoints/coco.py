@@ -66,8 +66,8 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
         for entry in (data["annotations"] if is_set else data)
         if isinstance(entry, Mapping) and entry.get("keypoints")
     ]
-    names = _names(data) if is_set else None
-    frames = _frames(content, data.get("images") if is_set else None, entries)
+    names = _find_names(data) if is_set else None
+    frames = _find_frames(content, data.get("images") if is_set else None, entries)
     tracked = next(
         (key for key in _IDS if all(entry.get(key) is not None for entry in entries)), ""
     )
@@ -87,7 +87,7 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     return video_to_motion(content, video, options)
 
 
-def _names(data: Mapping[str, Any]) -> list[str] | None:
+def _find_names(data: Mapping[str, Any]) -> list[str] | None:
     """Return the names of the first category that has any."""
     categories = data.get("categories")
     for category in categories if isinstance(categories, list) else []:
@@ -97,33 +97,35 @@ def _names(data: Mapping[str, Any]) -> list[str] | None:
     return None
 
 
-def _frames(content: FileContent, images: Any, entries: Sequence[Mapping[str, Any]]) -> list[int]:
+def _find_frames(
+    content: FileContent, images: Any, entries: Sequence[Mapping[str, Any]]
+) -> list[int]:
     """Return the frame of each entry."""
     if isinstance(images, list) and images:
         usable = [image for image in images if isinstance(image, Mapping) and "id" in image]
         # Images in the order of their frames, whatever their ids are.
-        order = {str(image["id"]): i for i, image in enumerate(sorted(usable, key=_place))}
+        order = {str(image["id"]): i for i, image in enumerate(sorted(usable, key=_make_sort_key))}
         for entry in entries:
             if str(entry.get("image_id")) not in order:
                 raise content.error(f"image {entry.get('image_id')!r:.40} is not in 'images'")
         return [order[str(entry["image_id"])] for entry in entries]
-    return [_number(content, entry.get("image_id")) for entry in entries]
+    return [_parse_frame_number(content, entry.get("image_id")) for entry in entries]
 
 
-def _place(image: Mapping[str, Any]) -> tuple[int, list[int], str]:
+def _make_sort_key(image: Mapping[str, Any]) -> tuple[int, list[int], str]:
     """Where an image comes: by frame number, else by the numbers in its name, else by its id."""
     number = image.get("frame_id")
     name = str(image.get("file_name") or image["id"])
-    return (number if isinstance(number, int) else 0, _numbers(name), name)
+    return (number if isinstance(number, int) else 0, _find_numbers(name), name)
 
 
-def _numbers(name: str) -> list[int]:
+def _find_numbers(name: str) -> list[int]:
     return [int(digits[-18:]) for digits in _DIGITS.findall(name)]
 
 
-def _number(content: FileContent, image: Any) -> int:
+def _parse_frame_number(content: FileContent, image: Any) -> int:
     """Return the last number in what a result calls its image: 12, "12.jpg", "video_0012"."""
-    numbers = _numbers(str(image)[:200])
+    numbers = _find_numbers(str(image)[:200])
     if not numbers:
         raise content.error(f"image_id {str(image)[:40]!r} has no frame number in it")
     return numbers[-1]

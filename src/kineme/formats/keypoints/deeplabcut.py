@@ -11,10 +11,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.delimited import DelimitedText, cells_of
+from kineme.formats.delimited import DelimitedText, split_cells
 from kineme.formats.dialects import Dialect
 from kineme.formats.options import ReadOptions
-from kineme.formats.persons import chosen_person
+from kineme.formats.persons import choose_person
 from kineme.recordings import Motion
 
 LIKELY = 0.6
@@ -25,7 +25,7 @@ def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
     content, line = table.content, table.head + 2
     labels: dict[str, list[str]] = {}
     for row in table.lines[table.head : table.head + 4]:
-        kind, *cells = cells_of(row, table.separator)
+        kind, *cells = split_cells(row, table.separator)
         if kind.lower() in ("scorer", "individuals", "bodyparts", "coords"):
             labels[kind.lower()] = cells
     if not {"bodyparts", "coords"} <= labels.keys():
@@ -35,7 +35,7 @@ def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
     if len({len(parts), len(coords), len(individuals)}) > 1:
         raise content.error("the rows of names differ in length", line)
     several = list(dict.fromkeys(individuals))
-    individual = chosen_person(content.path, several, options.person, "individuals")
+    individual = choose_person(content.path, several, options.person, "individuals")
     names = ["frame", *(f"{part}_{coord}" for part, coord in zip(parts, coords, strict=True))]
     values = replace(table, names=names, below=table.head + len(labels)).numbers()[:, 1:]
     columns = {

@@ -59,29 +59,30 @@ _PLAIN = re.compile(r"[\s_-]")
 def is_mediapipe(data: Any) -> bool:
     """Return whether JSON of this content has frames of 33 landmarks."""
     return any(
-        _poses(frame, world=False) or _poses(frame, world=True) for _, frame in _frames(data)
+        _find_poses(frame, world=False) or _find_poses(frame, world=True)
+        for _, frame in _list_frames(data)
     )
 
 
 def read_mediapipe(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """Return the motion of one person's landmarks."""
-    frames = _frames(data)
-    world = any(_poses(frame, world=True) for _, frame in frames)
+    frames = _list_frames(data)
+    world = any(_find_poses(frame, world=True) for _, frame in frames)
     people: list[Person] = []
     numbers: list[int] = []
     for i, frame in frames:
-        number = _first_value(frame, _NUMBER) if isinstance(frame, Mapping) else None
+        number = _find_value(frame, _NUMBER) if isinstance(frame, Mapping) else None
         numbers.append(number if isinstance(number, int) else i)
-        poses = _poses(frame, world=world)
-        people += [Person(numbers[-1], *_landmarks(content, i, pose)) for pose in poses]
+        poses = _find_poses(frame, world=world)
+        people += [Person(numbers[-1], *_parse_landmarks(content, i, pose)) for pose in poses]
     head = data if isinstance(data, Mapping) else {}
-    fps = _first_value(head, ("fps", "framerate", "frame_rate"))
+    fps = _find_value(head, ("fps", "framerate", "frame_rate"))
     size = [
-        _first_value(head, (side, f"image{side}", f"frame{side}")) for side in ("width", "height")
+        _find_value(head, (side, f"image{side}", f"frame{side}")) for side in ("width", "height")
     ]
     return landmarks_to_motion(
-        content, people, options, world=world or None, fps=_positive(fps),
-        size=tuple(map(_positive, size)), frames=numbers,
+        content, people, options, world=world or None, fps=_to_positive(fps),
+        size=tuple(map(_to_positive, size)), frames=numbers,
     )  # fmt: skip
 
 
@@ -147,7 +148,7 @@ def _are_in_space(people: Sequence[Person]) -> bool:
     return bool(along[2] > 0.7)
 
 
-def _frames(data: Any) -> list[tuple[int, Any]]:
+def _list_frames(data: Any) -> list[tuple[int, Any]]:
     """Return each frame and its number."""
     if isinstance(data, list):
         return [(0, data)] if _is_pose(data) else list(enumerate(data))
@@ -157,16 +158,16 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
         return numbered
     for key, value in data.items():
         several = isinstance(value, list) and not _is_pose(value)
-        if plain(str(key)) in _FRAMES and (several or isinstance(value, Mapping)):
-            return _frames(value) or [(0, data)]
+        if normalize_name(str(key)) in _FRAMES and (several or isinstance(value, Mapping)):
+            return _list_frames(value) or [(0, data)]
     return [(0, data)]
 
 
-def _poses(frame: Any, *, world: bool) -> list[Any]:
+def _find_poses(frame: Any, *, world: bool) -> list[Any]:
     """Return the poses in a frame: lists of 33 landmarks."""
     found = frame
     if isinstance(frame, Mapping) and not _order_landmarks(frame):
-        found = _first_value(frame, _WORLD if world else _IMAGE)
+        found = _find_value(frame, _WORLD if world else _IMAGE)
     elif world:
         return []
     if isinstance(found, Mapping) and "landmark" in found:
@@ -192,12 +193,12 @@ def _is_landmark(value: Any) -> bool:
 
 def _order_landmarks(frame: Mapping[str, Any]) -> list[Any]:
     """Return the landmarks in order, from a mapping by their names; empty if it is none."""
-    by_name = {plain(str(key)): landmark for key, landmark in frame.items()}
-    names = [plain(name) for name in NAMES]
+    by_name = {normalize_name(str(key)): landmark for key, landmark in frame.items()}
+    names = [normalize_name(name) for name in NAMES]
     return [by_name[name] for name in names] if all(name in by_name for name in names) else []
 
 
-def _landmarks(
+def _parse_landmarks(
     content: FileContent, frame: int, pose: list[Any]
 ) -> tuple[list[list[float]], list[float]]:
     points, confidence = [], []
@@ -217,17 +218,17 @@ def _landmarks(
     return points, confidence
 
 
-def _first_value(mapping: Mapping[str, Any], keys: Sequence[str]) -> Any:
+def _find_value(mapping: Mapping[str, Any], keys: Sequence[str]) -> Any:
     """Return the value under the first of the keys, whatever its case and underscores."""
-    values = {plain(str(key)): value for key, value in mapping.items()}
+    values = {normalize_name(str(key)): value for key, value in mapping.items()}
     return next((values[key] for key in keys if key in values), None)
 
 
-def _positive(value: Any) -> float | None:
+def _to_positive(value: Any) -> float | None:
     good = is_number(value) and value > 0
     return float(value) if good else None
 
 
-def plain(name: str) -> str:
+def normalize_name(name: str) -> str:
     """Return a name without blanks, underscores and hyphens, in small letters."""
     return _PLAIN.sub("", name).lower()

@@ -16,10 +16,10 @@ from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
-from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion, plain
-from kineme.formats.keypoints.video import Person, frame_numbers
+from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion, normalize_name
+from kineme.formats.keypoints.video import Person, to_frame_numbers
 from kineme.formats.options import ReadOptions
-from kineme.formats.timing import place_points, table_timing
+from kineme.formats.timing import find_table_timing, place_points
 from kineme.recordings import Motion
 from kineme.recordings.regular import Timing
 from kineme.recordings.times import is_timing
@@ -36,23 +36,23 @@ _LANDMARK = re.compile(
     r"(landmark|keypoint|joint|point)([\s_]*(id|idx|index|name|no|num|number))?|name|id",
     re.IGNORECASE,
 )
-_PLACES = {plain(name): i for i, name in enumerate(NAMES)}
+_PLACES = {normalize_name(name): i for i, name in enumerate(NAMES)}
 
 
 def is_long(names: Sequence[str]) -> bool:
     """Return whether columns of these names are landmarks, a row for each of them."""
     lower = [name.lower() for name in names]
     return {"x", "y"} <= set(lower) and None not in (
-        _column_of(names, _FRAME),
-        _column_of(names, _LANDMARK),
+        _find_column(names, _FRAME),
+        _find_column(names, _LANDMARK),
     )
 
 
 def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
     """Return the motion of MediaPipe's landmarks, a row for each frame."""
-    at = _landmark_columns(table.names)
+    at = _find_landmark_columns(table.names)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)]
-    frame = _column_of(table.names, _FRAME)
+    frame = _find_column(table.names, _FRAME)
     extra = [*timing, *([frame] if frame is not None else [])]
     rows = table.numbers([*at.values(), *extra])
     # Columns x, y, z and visibility; the last one is 1 where there is none.
@@ -64,11 +64,11 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
     gaps = clock.gaps
     if timing and not options.fps:
         columns = {table.names[i]: rows[:, len(at) + k] for k, i in enumerate(timing)}
-        clock = table_timing(table.content, columns)
+        clock = find_table_timing(table.content, columns)
         poses, gaps = place_points(clock, poses)
         frames = np.arange(len(poses))
     elif frame is not None:
-        frames = frame_numbers(table.content, rows[:, -1])
+        frames = to_frame_numbers(table.content, rows[:, -1])
     people = [
         Person(frame, pose[:, :3], pose[:, 3])
         for frame, pose in zip(frames.tolist(), poses, strict=True)
@@ -90,14 +90,14 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
     """Return the motion of MediaPipe's landmarks, a row for each landmark."""
     lower = [name.lower() for name in table.names]
     at = {field: lower.index(name) for name, field in _FIELDS.items() if name in lower}
-    landmark_column, frame = _column_of(table.names, _LANDMARK), _column_of(table.names, _FRAME)
+    landmark_column, frame = _find_column(table.names, _LANDMARK), _find_column(table.names, _FRAME)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)][:1]
     rows = table.numbers([frame or 0, *at.values(), *timing])
-    landmarks = _landmark_numbers(table.content, table.texts(landmark_column or 0)[: len(rows)])
+    landmarks = _parse_landmarks(table.content, table.texts(landmark_column or 0)[: len(rows)])
     # Rows of one frame share a place.
-    frames, place = np.unique(frame_numbers(table.content, rows[:, 0]), return_inverse=True)
+    frames, place = np.unique(to_frame_numbers(table.content, rows[:, 0]), return_inverse=True)
     size = _BYTES_PER_POSE * len(frames)
-    table.content.claim(size, f"{len(NAMES)} landmarks in {len(frames)} frames")
+    table.content.require_memory(size, f"{len(NAMES)} landmarks in {len(frames)} frames")
     poses = np.full((len(frames), len(NAMES), 4), np.nan)
     # Without z and visibility in the table, these are 0 and 1.
     poses[..., 2:] = (0.0, 1.0)
@@ -107,7 +107,7 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
     if timing and not fps:
         times = np.zeros(len(frames))
         times[place] = rows[:, -1]
-        clock = table_timing(table.content, {table.names[timing[0]]: times})
+        clock = find_table_timing(table.content, {table.names[timing[0]]: times})
         poses, fps = place_points(clock, poses)[0], clock.fps
         frames = np.arange(len(poses)) if clock.order is not None else frames
     people = [
@@ -117,7 +117,7 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
     return landmarks_to_motion(table.content, people, options, fps=fps)
 
 
-def _landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
+def _find_landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
     """Return for each landmark and field the column; empty unless x and y of all 33 are there."""
     found: dict[tuple[str, int], int] = {}
     for column, name in enumerate(names):
@@ -125,7 +125,7 @@ def _landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
         if first:
             found.setdefault((first[2], _FIELDS[first[1].lower()]), column)
         elif last:
-            found.setdefault((plain(last[1]), _FIELDS[last[2].lower()]), column)
+            found.setdefault((normalize_name(last[1]), _FIELDS[last[2].lower()]), column)
     by_name = {(_PLACES[name], field): i for (name, field), i in found.items() if name in _PLACES}
     by_number = {(int(m), field): i for (m, field), i in found.items() if m.isdecimal()}
     # Landmarks counted from 1.
@@ -137,11 +137,11 @@ def _landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
     return {}
 
 
-def _landmark_numbers(content: FileContent, texts: Sequence[str]) -> NDArray[np.intp]:
+def _parse_landmarks(content: FileContent, texts: Sequence[str]) -> NDArray[np.intp]:
     """Return the landmarks that people call by number or name."""
     numbers = []
     for text in texts:
-        name = plain(text.rpartition(".")[2])  # PoseLandmark.NOSE
+        name = normalize_name(text.rpartition(".")[2])  # PoseLandmark.NOSE
         number = _PLACES.get(name, int(name) if name.isdecimal() and len(name) < 3 else -1)
         if not 0 <= number < len(NAMES):
             raise content.error(f"{text[:40]!r} is none of MediaPipe's {len(NAMES)} landmarks")
@@ -149,13 +149,13 @@ def _landmark_numbers(content: FileContent, texts: Sequence[str]) -> NDArray[np.
     return np.array(numbers, np.intp)
 
 
-def _column_of(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:
+def _find_column(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:
     return next((i for i, name in enumerate(names) if pattern.fullmatch(name.strip())), None)
 
 
 WIDE = Dialect(
     "MediaPipe",
-    lambda names, _: len(_landmark_columns(names)) >= 2 * len(NAMES),
+    lambda names, _: len(_find_landmark_columns(names)) >= 2 * len(NAMES),
     read_landmarks,
     motion=True,
 )

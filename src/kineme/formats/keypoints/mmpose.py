@@ -29,22 +29,22 @@ from kineme.recordings import Motion
 
 def is_mmpose(data: Any) -> bool:
     """Return whether JSON of this content is MMPose's."""
-    return any(isinstance(frame, Mapping) and "instances" in frame for frame in _frames(data))
+    return any(isinstance(frame, Mapping) and "instances" in frame for frame in _list_frames(data))
 
 
 def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """Return the motion of one person in MMPose's predictions."""
     found: list[tuple[int, Mapping[str, Any]]] = []
     numbers = []
-    for place, frame in enumerate(_frames(data)):
+    for place, frame in enumerate(_list_frames(data)):
         instances = frame.get("instances") if isinstance(frame, Mapping) else None
         if not isinstance(instances, list):
             raise content.error(f"frame {place} has no list of 'instances'")
         number = frame.get("frame_id")
         numbers.append(number if isinstance(number, int) else place)
         found += [(numbers[-1], each) for each in instances if isinstance(each, Mapping)]
-    width = max((len(_points(each)) for _, each in found), default=0)
-    names = _names(data, width)
+    width = max((len(_get_points(each)) for _, each in found), default=0)
+    names = _find_names(data, width)
     if not names:
         raise content.error(f"a person has {width} keypoints, and 'meta_info' does not name them")
     tracked = all(each.get("track_id") is not None for _, each in found)
@@ -53,7 +53,7 @@ def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion
         scores = each.get("keypoint_scores")
         confidence: list[Any] = scores[: len(names)] if isinstance(scores, list) else ["none"]
         who = str(each["track_id"])[:40] if tracked else None
-        people.append(Person(number, _points(each)[: len(names)], confidence, who))
+        people.append(Person(number, _get_points(each)[: len(names)], confidence, who))
     first = people[0].points[0]
     flat = isinstance(first, list) and len(first) == 2
     unit, up = ("pixel", "-y") if flat else (None, "z")
@@ -61,17 +61,17 @@ def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion
     return video_to_motion(content, video, options)
 
 
-def _frames(data: Any) -> Sequence[Any]:
+def _list_frames(data: Any) -> Sequence[Any]:
     frames = data.get("instance_info") if isinstance(data, Mapping) else data
     return frames if isinstance(frames, list) else []
 
 
-def _points(instance: Mapping[str, Any]) -> Sequence[Any]:
+def _get_points(instance: Mapping[str, Any]) -> Sequence[Any]:
     points = instance.get("keypoints")
     return points if isinstance(points, list) else []
 
 
-def _names(data: Any, count: int) -> Sequence[str]:
+def _find_names(data: Any, count: int) -> Sequence[str]:
     """Return the names in the file, else those that so many keypoints usually have.
 
     None for others.

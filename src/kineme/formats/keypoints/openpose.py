@@ -33,7 +33,7 @@ from kineme.formats.keypoints.video import (
     Person,
     Video,
     order_by_number,
-    parsed_json,
+    parse_json,
     split_groups,
     video_to_motion,
 )
@@ -60,19 +60,21 @@ _KEYS = {"pose_keypoints_3d": 4, "pose_keypoints_2d": 3, "pose_keypoints": 3}
 
 def is_openpose(data: Any) -> bool:
     """Return whether JSON of this content is one or more of OpenPose's frames."""
-    return any(isinstance(frame, Mapping) and "people" in frame for _, frame in _frames(data))
+    return any(isinstance(frame, Mapping) and "people" in frame for _, frame in _list_frames(data))
 
 
 def read_openpose(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """Return the motion of one person in OpenPose's frames."""
-    frames = _frames(data)
-    people = [person for number, frame in frames for person in _people(content, number, frame)]
+    frames = _list_frames(data)
+    people = [
+        person for number, frame in frames for person in _parse_people(content, number, frame)
+    ]
     return _to_motion(content, people, options, [number for number, _ in frames])
 
 
 def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
     """Return the motion of one person in a folder with a file for each frame, or None."""
-    numbered = frame_files(path)
+    numbered = list_frame_files(path)
     if not numbered:
         return None
     for (number, file), (following, other) in pairwise(numbered):
@@ -84,16 +86,16 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
     digest: list[bytes] = []
     for number, file in numbered:
         content = load(file)
-        data = parsed_json(content)
+        data = parse_json(content)
         if not is_openpose(data):
             raise content.error("no 'people' in it: is it one of OpenPose's files?")
-        people += _people(content, number, data)
+        people += _parse_people(content, number, data)
         digest.append(content.data)
     content = FileContent(path, b"".join(digest))
     return _to_motion(content, people, options, [number for number, _ in numbered])
 
 
-def frame_files(folder: Path) -> list[tuple[int, Path]]:
+def list_frame_files(folder: Path) -> list[tuple[int, Path]]:
     """Return files in a folder that hold a frame each, with the numbers of the frames, in order.
 
     Files numbered alike are frames where one of them begins as OpenPose's do; a numbered
@@ -108,12 +110,12 @@ def frame_files(folder: Path) -> list[tuple[int, Path]]:
     return sorted(
         frame
         for frames in series.values()
-        if any(_begins_a_frame(file) for _, file in frames)
+        if any(_begins_frame(file) for _, file in frames)
         for frame in frames
     )
 
 
-def _begins_a_frame(file: Path) -> bool:
+def _begins_frame(file: Path) -> bool:
     try:
         head = read_head(file)
     except OSError:
@@ -122,7 +124,7 @@ def _begins_a_frame(file: Path) -> bool:
     return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") and b'"people"' in head
 
 
-def _frames(data: Any) -> list[tuple[int, Any]]:
+def _list_frames(data: Any) -> list[tuple[int, Any]]:
     """Return each frame and its number."""
     if isinstance(data, Mapping) and "people" in data:
         return [(0, data)]
@@ -131,24 +133,24 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
     return order_by_number(data) if isinstance(data, Mapping) else []
 
 
-def _people(content: FileContent, number: int, frame: Any) -> list[Person]:
+def _parse_people(content: FileContent, number: int, frame: Any) -> list[Person]:
     people = frame.get("people") if isinstance(frame, Mapping) else None
     if not isinstance(people, list):
         raise content.error(f"frame {number} has no list of 'people'")
-    return [_person(content, number, person) for person in people]
+    return [_parse_person(content, number, person) for person in people]
 
 
-def _person(content: FileContent, number: int, person: Any) -> Person:
+def _parse_person(content: FileContent, number: int, person: Any) -> Person:
     if not isinstance(person, Mapping):
         raise content.error(f"frame {number} has a person without keypoints")
     for key, width in _KEYS.items():
         if person.get(key):
             groups = split_groups(content, person[key], width)
-            return Person(number, groups[:, :-1], groups[:, -1], _id(person.get("person_id")))
+            return Person(number, groups[:, :-1], groups[:, -1], _parse_id(person.get("person_id")))
     raise content.error(f"frame {number} has a person without {', '.join(_KEYS)}")
 
 
-def _id(value: Any) -> str | None:
+def _parse_id(value: Any) -> str | None:
     """Return the number of a tracked person; OpenPose itself writes [-1]."""
     number = value[0] if isinstance(value, list) and value else value
     return str(number) if isinstance(number, int) and number >= 0 else None

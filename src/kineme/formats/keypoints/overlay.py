@@ -13,7 +13,7 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme.errors import KinemeError
-from kineme.formats.channels.parquet import parquet_file
+from kineme.formats.channels.parquet import open_parquet
 from kineme.formats.files import load, load_head
 from kineme.formats.keypoints.poses import Poses, find_poses, holds_poses, parse_poses
 from kineme.formats.registry import is_video
@@ -62,13 +62,13 @@ def find_overlay(recording: Path, person: str | None = None) -> Overlay | None:
         if place.suffix.lower() != ".parquet" or not place.is_file():
             return None
         content = load(place)
-        file = parquet_file(content)
-        return draw_over(parse_poses(content, file), person) if holds_poses(file) else None
+        file = open_parquet(content)
+        return make_overlay(parse_poses(content, file), person) if holds_poses(file) else None
     except KinemeError:
         return None
 
 
-def draw_over(poses: Poses, person: str | None) -> Overlay:
+def make_overlay(poses: Poses, person: str | None) -> Overlay:
     """Return the keypoints of a person, by default the one seen most, in frames of an even rate."""
     head, rows = poses.head, poses.rows
     names, fps = tuple(map(str, head["keypoints"])), float(head["fps"])

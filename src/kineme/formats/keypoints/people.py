@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
-from kineme.formats.persons import chosen_person
+from kineme.formats.persons import choose_person
 
 Rows = NDArray[np.intp]
 
@@ -50,12 +50,12 @@ class PersonFound(NamedTuple):
     notes: list[str]
 
 
-def rows_of_person(content: FileContent, found: Detections, person: str | None) -> PersonFound:
+def select_person(content: FileContent, found: Detections, person: str | None) -> PersonFound:
     """Return the rows of this person, or of the only one.
 
     SeveralPeopleError where there are several and none was chosen, or nobody of this name.
     """
-    people = _people(found)
+    people = _group_by_person(found)
     if not people:
         raise content.error("nobody is found in any frame")
     most = max(map(len, people.values()))
@@ -66,7 +66,7 @@ def rows_of_person(content: FileContent, found: Detections, person: str | None) 
         f"{name} ({len(rows)} frames from {found.frames[rows[0]]} on)"
         for name, rows in candidates.items()
     ]
-    name = chosen_person(content.path, candidates, person, shown=shown)
+    name = choose_person(content.path, candidates, person, shown=shown)
     others = tuple(each for each in people if each in staying or each == name)
     note = f"person {name} of {len(people)}"
     if person is None:
@@ -74,7 +74,7 @@ def rows_of_person(content: FileContent, found: Detections, person: str | None) 
     return PersonFound(people[name], name, others, [note] if len(people) > 1 else [])
 
 
-def _people(found: Detections) -> dict[str, Rows]:
+def _group_by_person(found: Detections) -> dict[str, Rows]:
     """Return for each person the rows, in order of first sight."""
     if all(name is not None for name in found.who):
         numbers = [str(name) for name in found.who]
@@ -110,7 +110,7 @@ def track_people(found: Detections) -> list[int]:
         cost = np.full((len(tracks), stop - start), np.inf)
         for column, row in enumerate(range(start, stop)):
             if tracks:
-                cost[:, column] = _strides(found, before, drift, row)
+                cost[:, column] = _measure_strides(found, before, drift, row)
         # The assignment needs finite costs; pairs that are too far are dropped below.
         possible = np.where(np.isfinite(cost), cost, 1e6)
         pairs = zip(*linear_sum_assignment(possible), strict=True)
@@ -123,14 +123,16 @@ def track_people(found: Detections) -> list[int]:
             who = numbers[row] = matched[column]
             # Taken out and put in again: the order tells who was seen last.
             if (former := last.pop(who, None)) is not None:
-                drifts[who] = _STEADY * drifts[who] + (1 - _STEADY) * _step(found, former, row)
+                drifts[who] = _STEADY * drifts[who] + (1 - _STEADY) * _measure_step(
+                    found, former, row
+                )
             last[who] = row
         for who in list(last)[:-_REMEMBERED]:
             del last[who], drifts[who]
     return numbers
 
 
-def _step(found: Detections, former: int, row: int) -> Floats:
+def _measure_step(found: Detections, former: int, row: int) -> Floats:
     """How far a person went in a frame between two rows, as a whole; 0 where nothing tells."""
     steps = found.points[row] - found.points[former]
     seen = np.isfinite(steps).all(axis=1)
@@ -138,7 +140,7 @@ def _step(found: Detections, former: int, row: int) -> Floats:
     return steps[seen].mean(axis=0) / passed if seen.any() else np.zeros(3)
 
 
-def _strides(found: Detections, before: Rows, drift: Floats, row: int) -> Floats:
+def _measure_strides(found: Detections, before: Rows, drift: Floats, row: int) -> Floats:
     """How far a person is from where others went, in the ways they could have gone; or inf."""
     now = found.points[row]
     passed = found.frames[row] - found.frames[before]

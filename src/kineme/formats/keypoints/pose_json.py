@@ -14,7 +14,7 @@ from kineme.formats.keypoints.openpose import (
     read_openpose_folder,
 )
 from kineme.formats.keypoints.ultralytics import is_ultralytics, read_ultralytics
-from kineme.formats.keypoints.video import parsed_json
+from kineme.formats.keypoints.video import parse_json
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
@@ -35,7 +35,7 @@ _OF_COCO = (b'"image_id"', b'"images"', b'"annotations"')
 
 def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of one person in a JSON file of keypoints."""
-    data = parsed_json(content)
+    data = parse_json(content)
     for is_of, read in _READERS:
         if is_of(data):
             return read(content, data, options)

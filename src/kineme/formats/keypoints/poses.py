@@ -40,9 +40,9 @@ from kineme._util.checks import join_names, require_extra
 from kineme._util.files import POSES, atomic_write
 from kineme._util.parallel import find_user_cache
 from kineme.features.filters import filter_low
-from kineme.formats.channels.parquet import parquet_columns, parquet_file
+from kineme.formats.channels.parquet import open_parquet, read_parquet_columns
 from kineme.formats.files import FileContent, load
-from kineme.formats.gaps import split_at, unseen
+from kineme.formats.gaps import mark_gaps, split_at
 from kineme.formats.keypoints.people import Detections, track_people
 from kineme.formats.keypoints.video import MOST_FRAMES_MORE, Person, Video, video_to_motion
 from kineme.formats.options import ReadOptions
@@ -65,7 +65,7 @@ NOBODY = -1
 """Number of the person in a row of a frame without one."""
 
 Rows = NDArray[np.void]
-"""Poses in the order of time, see `row_type`."""
+"""Poses in the order of time, see `make_row_type`."""
 Head = Mapping[str, Any]
 """What holds for all rows, as JSON has it."""
 
@@ -83,7 +83,7 @@ class Poses:
         return len(np.unique(self.rows["time"]))
 
 
-def row_type(keypoints: int) -> np.dtype[np.void]:
+def make_row_type(keypoints: int) -> np.dtype[np.void]:
     """Return the type of a row: time, person, and image, metres and confidence of each keypoint.
 
     ``change`` is the share of the picture whose colours are others than in the one before.
@@ -130,7 +130,7 @@ def write_poses(path: Path, head: Head, rows: Rows) -> None:
         "duration": float(times[-1] - times[0]),
         "changes": np.unique(rows["time"][rows["change"] >= CHANGE] - times[0]).tolist(),
     }
-    for column, (field, k, axis) in _columns(told).items():
+    for column, (field, k, axis) in _list_columns(told).items():
         values = found[field][:, k] if axis is None else found[field][:, k, axis]
         columns[column] = np.ascontiguousarray(values)
     table = pa.table(columns).replace_schema_metadata({KEY: json.dumps(told).encode()})
@@ -149,7 +149,7 @@ def find_poses(video: Path, digest: str) -> Path:
 def read_poses(path: Path) -> Poses:
     """Return the poses in a Parquet file; ReadError where it is no table of poses."""
     content = load(path)
-    return parse_poses(content, parquet_file(content))
+    return parse_poses(content, open_parquet(content))
 
 
 def holds_poses(file: Any) -> bool:
@@ -164,7 +164,7 @@ def parse_head(content: FileContent, file: Any) -> Head:
     try:
         head: Head = json.loads(file.schema_arrow.metadata[KEY])
         frames, most = head["fps"] * head["duration"], MOST_FRAMES_MORE * (head["frames"] + 1)
-        is_whole = head["fps"] > 0 and 0 <= frames < most and bool(_columns(head))
+        is_whole = head["fps"] > 0 and 0 <= frames < most and bool(_list_columns(head))
         is_whole = is_whole and {"estimator", "limit"} <= head.keys()
     except (ValueError, TypeError, LookupError):
         is_whole = False
@@ -176,9 +176,9 @@ def parse_head(content: FileContent, file: Any) -> Head:
 def parse_poses(content: FileContent, file: Any) -> Poses:
     """Return the poses in an open Parquet file; ReadError where it is damaged."""
     head = parse_head(content, file)
-    columns, keypoints = _columns(head), len(head["keypoints"])
-    table = parquet_columns(content, file, ["time", "person", *columns])
-    rows = np.zeros(table.num_rows, row_type(keypoints))
+    columns, keypoints = _list_columns(head), len(head["keypoints"])
+    table = read_parquet_columns(content, file, ["time", "person", *columns])
+    rows = np.zeros(table.num_rows, make_row_type(keypoints))
     try:
         for name in ("time", "person"):
             rows[name] = table.column(name).to_numpy()
@@ -202,7 +202,9 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     steadied = np.array(rows[field], np.float64)
     for each in np.unique(rows["person"]):
         mine = rows["person"] == each
-        steadied[mine] = _steady(steadied[mine], rows["confidence"][mine], float(head["fps"]))
+        steadied[mine] = _steady_points(
+            steadied[mine], rows["confidence"][mine], float(head["fps"])
+        )
     unit, up = ("m", "y") if head["depth"] else ("pixel", "-y")
     people = [
         Person(number, points, row["confidence"], str(row["person"]))
@@ -244,7 +246,7 @@ def find_cuts(rows: Rows, head: Head) -> list[float]:
     return found
 
 
-def _steady(points: Floats, confidence: Floats, fps: float) -> Floats:
+def _steady_points(points: Floats, confidence: Floats, fps: float) -> Floats:
     """Return a person's points (rows, keypoints, axes), the unsure drawn to surer ones nearby."""
     from scipy.ndimage import gaussian_filter1d
 
@@ -257,7 +259,7 @@ def _steady(points: Floats, confidence: Floats, fps: float) -> Floats:
     return np.asarray(weights * points + (1 - weights) * mean)
 
 
-def _columns(head: Head) -> dict[str, tuple[str, int, int | None]]:
+def _list_columns(head: Head) -> dict[str, tuple[str, int, int | None]]:
     """Return for each column of keypoints its field, keypoint and axis in a row."""
     columns: dict[str, tuple[str, int, int | None]] = {}
     for k, name in enumerate(head["keypoints"]):
@@ -273,7 +275,7 @@ def _smooth(motion: Motion) -> Motion:
     if motion.fps <= 2 * CUTOFF:
         return motion.noted(f"not smoothed: {motion.fps:g} Hz are too few for {CUTOFF:g} Hz")
     positions = motion.positions.copy()
-    for start, stop in find_spans(~np.array(unseen(motion))).tolist():
+    for start, stop in find_spans(~np.array(mark_gaps(motion))).tolist():
         padding = min(round(motion.fps), stop - start - 2)
         if padding > 0:
             flat = positions[start:stop].reshape(stop - start, -1)

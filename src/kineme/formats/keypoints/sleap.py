@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
+from kineme.formats.arrays.hdf5_file import SIGNATURE, collect_texts, parse_hdf5
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.video import Person, Video, frame_numbers, video_to_motion
+from kineme.formats.keypoints.video import Person, Video, to_frame_numbers, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
@@ -32,13 +32,13 @@ LIMIT = 0.2
 def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of one animal in an analysis file of SLEAP's."""
     found = parse_hdf5(content)
-    tracks, nodes = found.get("tracks"), texts(found.get("node_names"))
+    tracks, nodes = found.get("tracks"), collect_texts(found.get("node_names"))
     if not isinstance(tracks, np.ndarray) or tracks.ndim != 4 or not nodes:
         raise content.error(
             f"is HDF5, but no analysis file of SLEAP: no 'tracks' and 'node_names' among "
             f"{', '.join(list(found)[:8]) or 'nothing'}; give an analysis file, or a CSV"
         )
-    names = texts(found.get("track_names"))
+    names = collect_texts(found.get("track_names"))
     # Old files have tracks, axes, nodes, frames; new ones frames, tracks, nodes, axes.
     old = tracks.shape[1:3] == (2, len(nodes)) and len(names) in (0, tracks.shape[0])
     if not old and tracks.shape[2:] != (len(nodes), 2):
@@ -69,7 +69,7 @@ def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
     k = len(nodes)
     confidence = rows[:, 1 + 2 * k :] if len(scores) == k else np.ones((len(rows), k))
     points = rows[:, 1 : 1 + 2 * k].reshape(-1, k, 2)
-    frames = frame_numbers(content, rows[:, 0]).tolist()
+    frames = to_frame_numbers(content, rows[:, 0]).tolist()
     tracks = table.texts(names.index("track")) if "track" in names else []
     tracked = any(tracks)
     people = [

@@ -21,12 +21,12 @@ from kineme.recordings import Motion
 
 def is_ultralytics(data: Any) -> bool:
     """Return whether JSON of this content is a list of Ultralytics' frames."""
-    return isinstance(data, list) and any(_people(frame) for frame in data)
+    return isinstance(data, list) and any(_list_people(frame) for frame in data)
 
 
 def read_ultralytics(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """Read the motion of one person in Ultralytics' results."""
-    found = [(number, each) for number, frame in enumerate(data) for each in _people(frame)]
+    found = [(number, each) for number, frame in enumerate(data) for each in _list_people(frame)]
     width = max(len(each["keypoints"]["x"]) for _, each in found)
     names = COCO if width == len(COCO) else tuple(f"point{i + 1}" for i in range(width))
     tracked = all(each.get("track_id") is not None for _, each in found)
@@ -45,7 +45,7 @@ def read_ultralytics(content: FileContent, data: Any, options: ReadOptions) -> M
     return video_to_motion(content, video, options)
 
 
-def _people(frame: Any) -> list[Mapping[str, Any]]:
+def _list_people(frame: Any) -> list[Mapping[str, Any]]:
     """Return the people of a frame that have keypoints."""
     return [
         each

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.people import Detections, rows_of_person
+from kineme.formats.keypoints.people import Detections, select_person
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.recordings import Motion
@@ -67,7 +67,7 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
         raise content.error("nobody is found in any frame")
     frames, n_frames = _number_frames(content, video, [person.frame for person in people])
     size = 8 * 4 * len(video.names) * max(n_frames, len(people))
-    content.claim(size, f"{len(video.names)} keypoints in {n_frames} frames")
+    content.require_memory(size, f"{len(video.names)} keypoints in {n_frames} frames")
     points, confidence = _stack_people(content, people, len(video.names))
     limit = video.limit if options.confidence is None else options.confidence
     # Not `<`, so that nan counts as unsure, too.
@@ -75,20 +75,20 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     points[unsure] = np.nan
     points[~np.isfinite(points).all(axis=2)] = np.nan
     found = Detections(frames, points, [person.who for person in people])
-    rows, name, others, notes = rows_of_person(content, found, options.person)
+    rows, name, others, notes = select_person(content, found, options.person)
     positions = np.full((n_frames, len(video.names), 3), np.nan)
     positions[frames[rows]] = points[rows]
     if unsure[rows].any():
         notes.append(
             f"{format_count(int(unsure[rows].sum()), 'position')} less sure than {limit:g} not used"
         )
-    notes += [*video.notes, *_flatness(points, video.unit)]
+    notes += [*video.notes, *_note_flatness(points, video.unit)]
     unit, up = options.unit or video.unit, options.up or video.up
     found_in = Points(video.names, positions, fps, unit, up)
     return to_motion(found_in, content.provenance(video.format, notes).of_person(name, others))
 
 
-def parsed_json(content: FileContent) -> Any:
+def parse_json(content: FileContent) -> Any:
     """Return what a JSON file holds; ReadError where it breaks off or is none."""
     try:
         return json.loads(content.text)
@@ -117,7 +117,7 @@ def split_groups(content: FileContent, values: Any, width: int) -> Floats:
     return flat.reshape(-1, width)
 
 
-def frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
+def to_frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
     """Return the numbers of frames as such; ReadError where they are none."""
     if not np.isfinite(frames).all() or np.abs(frames).max(initial=0) > 2**53:
         raise content.error("the frames have no whole numbers")
@@ -158,7 +158,7 @@ def _stack_people(content: FileContent, people: Sequence[Person], k: int) -> tup
     return np.stack(points), np.stack(confidence)
 
 
-def _flatness(points: Floats, unit: str | float | None) -> list[str]:
+def _note_flatness(points: Floats, unit: str | float | None) -> list[str]:
     if unit == "pixel" and np.nanmax(np.abs(points[..., 2]), initial=0.0) == 0:
         return ["two-dimensional: z is 0, and image rows count downwards"]
     return []

@@ -24,13 +24,18 @@ import re
 
 from kineme._util.checks import unique
 from kineme.errors import ReadError
-from kineme.formats.channels.reading import ChannelTable, asked_for, columns_read, to_signals
+from kineme.formats.channels.reading import (
+    ChannelTable,
+    list_needed_columns,
+    select_columns,
+    to_signals,
+)
 from kineme.formats.files import FileContent
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
-from kineme.formats.units import AXES, unit_named
+from kineme.formats.units import AXES, parse_unit
 from kineme.recordings import Motion, Signals
 from kineme.recordings.joint_names import is_nameless
 
@@ -65,12 +70,12 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """
     file = parse_c3d(content)
     if options.channels or (file.analog.size and not file.labels):
-        return _channels(content, file, options)
+        return _read_channels(content, file, options)
     fps = options.fps or file.rate
     if not fps:
         raise content.error("the file has no frame rate: give fps= (--fps)")
     notes = []
-    markers, left_out = _markers(file)
+    markers, left_out = _find_markers(file)
     if not markers:
         raise ReadError(content.path, f"none of its {len(file.labels)} points is a named marker")
     if left_out:
@@ -90,16 +95,16 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
         file.points[:, markers] if left_out else file.points,
         fps,
         unit=options.unit,
-        stated_unit=_unit(file),
+        stated_unit=_find_unit(file),
         up=options.up,
-        usual_up=_up(file) or "z",
-        is_up_stated=_up(file) is not None,
+        usual_up=_find_up_axis(file) or "z",
+        is_up_stated=_find_up_axis(file) is not None,
         person=options.person,
     )
     return to_motion(points, content.provenance("C3D", notes).marked(file.events))
 
 
-def _markers(file: C3D) -> tuple[list[int], int]:
+def _find_markers(file: C3D) -> tuple[list[int], int]:
     """Indices of the points that are markers, and how many are not."""
     parameters = file.parameters
     groups = {*_MODELLED, *parameters.strings("POINT", "TYPE_GROUPS")} - {"MARKERS"}
@@ -110,11 +115,11 @@ def _markers(file: C3D) -> tuple[list[int], int]:
     return kept, len(file.labels) - len(kept)
 
 
-def _unit(file: C3D) -> str | None:
-    return unit_named(next(iter(file.parameters.strings("POINT", "UNITS")), ""))
+def _find_unit(file: C3D) -> str | None:
+    return parse_unit(next(iter(file.parameters.strings("POINT", "UNITS")), ""))
 
 
-def _up(file: C3D) -> str | None:
+def _find_up_axis(file: C3D) -> str | None:
     axis = "".join(file.parameters.strings("POINT", "Y_SCREEN")).lower().lstrip("+")
     return axis if axis in AXES else None
 
@@ -124,24 +129,24 @@ def read_analog(content: FileContent, options: ReadOptions) -> Signals:
 
     ReadError where it has none, or not those that were asked for.
     """
-    return _channels(content, parse_c3d(content), options)
+    return _read_channels(content, parse_c3d(content), options)
 
 
-def _channels(content: FileContent, file: C3D, options: ReadOptions) -> Signals:
+def _read_channels(content: FileContent, file: C3D, options: ReadOptions) -> Signals:
     columns, notes = options.columns or None, []
     if options.emg and columns is None:
-        columns, note = muscles_of(content, file)
+        columns, note = find_muscles(content, file)
         notes.append(note)
     if not file.analog.size:
         raise content.error("holds no analog channels")
     names = unique(file.analog_labels)
-    chosen = columns_read(asked_for(content, names, columns, names), names)
+    chosen = list_needed_columns(select_columns(content, names, columns, names), names)
     values = file.analog[:, [names.index(name) for name in chosen]]
     table = ChannelTable(chosen, values, {}, file.analog_rate or None, tuple(notes))
     return to_signals(content, "C3D", table, options.fps)
 
 
-def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
+def find_muscles(content: FileContent, file: C3D) -> tuple[list[str], str]:
     """Return the names of the channels that are muscles', and a sentence on what was taken."""
     names = unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
@@ -175,7 +180,7 @@ def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
     """
     # A unit of something else, such as g or N, or a word such as `acc`, rules a muscle out.
     unit = unit.strip().lower()
-    words = _words(f"{label} {description}")
+    words = _split_words(f"{label} {description}")
     if unit not in _VOLTS | _SMALL_VOLTS | _NO_UNIT or any(map(_OTHER.fullmatch, words)):
         return False
     if unit in _SMALL_VOLTS or any(_EMG.match(w) or _MUSCLE.fullmatch(w) for w in words):
@@ -183,7 +188,7 @@ def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
     return unit in _VOLTS and _ABBREVIATION.fullmatch(label.strip()) is not None
 
 
-def _words(text: str) -> list[str]:
+def _split_words(text: str) -> list[str]:
     """Return the words of a name: ``RTibialisAnt.EMG1`` has four."""
     return re.findall(
         r"[A-Z]?[a-z]+|[A-Z]+\d*(?![a-z])", re.sub(r"([A-Z])(?=[A-Z][a-z])", r"\1 ", text)

@@ -72,24 +72,24 @@ def parse_c3d(content: FileContent) -> C3D:
     # One row for each frame: points first, then analog samples.
     raw = file.frames()
     n = file.n_points
-    points, visible = _points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
+    points, visible = _scale_points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
     points[~visible] = np.nan
-    analog = _analog(file, raw[:, 4 * n :])
+    analog = _scale_analog(file, raw[:, 4 * n :])
     return C3D(
-        labels=_labels(parameters, "POINT", n, "point"),
+        labels=_read_labels(parameters, "POINT", n, "point"),
         points=points,
         rate=file.rate,
         first_frame=file.first_frame,
         analog=analog,
-        analog_labels=_labels(parameters, "ANALOG", analog.shape[1], "channel"),
+        analog_labels=_read_labels(parameters, "ANALOG", analog.shape[1], "channel"),
         analog_units=_pad(parameters.strings("ANALOG", "UNITS"), analog.shape[1]),
         analog_rate=file.rate * len(analog) / len(raw),
-        events=_events(file),
+        events=_read_events(file),
         parameters=parameters,
     )
 
 
-def _analog(file: Layout, raw: Stored) -> Floats:
+def _scale_analog(file: Layout, raw: Stored) -> Floats:
     """(samples, channels): what follows the points in each frame, scaled."""
     total = raw.shape[1]
     per_frame = file.header.samples_per_frame or 1
@@ -113,17 +113,17 @@ def _repeat_per_channel(parameters: Parameters, name: str, channels: int, usual:
     return np.array(values + [usual] * (channels - len(values)))
 
 
-def _events(file: Layout) -> tuple[tuple[float, str], ...]:
+def _read_events(file: Layout) -> tuple[tuple[float, str], ...]:
     """Those of the EVENT group, else those of the header; times count from frame 1."""
     if file.rate == 0:
         return ()
     # Times of events count from frame 1 of the capture, which may be cut off.
     skipped = (file.first_frame - 1) / file.rate
-    found = _group_events(file.parameters) or header_events(file)
+    found = _read_group_events(file.parameters) or read_header_events(file)
     return tuple(sorted((round(t - skipped, 6), label) for t, label in found if np.isfinite(t)))
 
 
-def _group_events(parameters: Parameters) -> list[tuple[float, str]]:
+def _read_group_events(parameters: Parameters) -> list[tuple[float, str]]:
     used = int(parameters.number("EVENT", "USED", 0))
     times = parameters.numbers("EVENT", "TIMES")
     labels = parameters.strings("EVENT", "LABELS")
@@ -134,21 +134,21 @@ def _group_events(parameters: Parameters) -> list[tuple[float, str]]:
     return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
 
 
-def header_events(file: Layout) -> list[tuple[float, str]]:
+def read_header_events(file: Layout) -> list[tuple[float, str]]:
     """Second from frame 1, and label, of the events in the first block."""
     data, kind = file.content.data, file.parameters.processor
     # Word 150 of the header marks labels of four letters; the next word is their number.
-    marker, n = np.frombuffer(data, number_type(kind, real=False), 2, 2 * 149).tolist()
+    marker, n = np.frombuffer(data, get_number_type(kind, real=False), 2, 2 * 149).tolist()
     if marker != _HEADER_EVENTS:
         return []
     # Times begin at word 153 and labels at word 199, 18 at most.
-    words = np.frombuffer(data, number_type(kind, real=True), 18, 2 * 152)
+    words = np.frombuffer(data, get_number_type(kind, real=True), 18, 2 * 152)
     times = as_float32(words, kind).tolist()
-    labels = [string(data[at : at + 4]) for at in range(2 * 198, 2 * 198 + 72, 4)]
+    labels = [decode_text(data[at : at + 4]) for at in range(2 * 198, 2 * 198 + 72, 4)]
     return list(zip(times, labels, strict=True))[: max(n, 0)]
 
 
-def _points(quads: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
+def _scale_points(quads: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
     """Positions (frames, points, 3), and where they were seen."""
     positions = quads[:, :, :3].astype(np.float64)
     if quads.dtype.kind == "i":
@@ -158,7 +158,7 @@ def _points(quads: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
     return positions, visible & positions.any(axis=2)
 
 
-def _labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]:
+def _read_labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]:
     labels = list(parameters.strings(group, "LABELS"))
     for number in count(2):
         more = parameters.strings(group, f"LABELS{number}")
@@ -189,10 +189,10 @@ class Header:
 def read_header(content: FileContent, parameters: Parameters) -> Header:
     """Return the header, in the numbers of the processor that the parameters name."""
     kind = parameters.processor
-    words = np.frombuffer(content.data, number_type(kind, real=False), 12)
+    words = np.frombuffer(content.data, get_number_type(kind, real=False), 12)
     # Counts are unsigned, or those beyond 32767 would be negative.
     words = words.view(words.dtype.str.replace("i", "u"))
-    reals = np.frombuffer(content.data, number_type(kind, real=True), 6)
+    reals = np.frombuffer(content.data, get_number_type(kind, real=True), 6)
     # The scale is the fourth real of the header, the rate the sixth.
     scale, rate = as_float32(reals, kind)[[3, 5]].tolist()
     _, points, analog, first, last, _, _, _, block, per_frame, _, _ = words.tolist()
@@ -254,7 +254,7 @@ class Layout:
 
     @cached_property
     def _kind(self) -> np.dtype[Any]:
-        return number_type(self.parameters.processor, real=self.scale < 0)
+        return get_number_type(self.parameters.processor, real=self.scale < 0)
 
     @cached_property
     def start(self) -> int:
@@ -355,12 +355,12 @@ class Parameters:
         """
         kind, _, data = self.stored(group, name)
         if kind == 4:
-            reals = np.frombuffer(data, number_type(self.processor, real=True))
+            reals = np.frombuffer(data, get_number_type(self.processor, real=True))
             return list(map(float, as_float32(reals, self.processor)))
         if kind not in (1, 2):
             return []
         integers = np.frombuffer(
-            data, "i1" if kind == 1 else number_type(self.processor, real=False)
+            data, "i1" if kind == 1 else get_number_type(self.processor, real=False)
         )
         if not signed:
             # The same bytes, seen as unsigned.
@@ -369,7 +369,7 @@ class Parameters:
 
     def strings(self, group: str, name: str) -> list[str]:
         """Return the values as text, none if they are numbers."""
-        return [string(text) for text in self.texts(group, name)]
+        return [decode_text(text) for text in self.texts(group, name)]
 
     def texts(self, group: str, name: str) -> list[bytes]:
         """Return the same as they are stored."""
@@ -419,7 +419,7 @@ def read_parameters(content: FileContent) -> Parameters:
         step = int.from_bytes(data[after : after + 2], order)  # type: ignore[arg-type]
         if length == 0 or group == 0:
             break
-        name = string(data[at + 2 : after]).upper()
+        name = decode_text(data[at + 2 : after]).upper()
         records.append(Record(group, name, at, after + 2, after + step if step else None))
         if step == 0:
             break
@@ -427,7 +427,7 @@ def read_parameters(content: FileContent) -> Parameters:
     return Parameters(content, processor, start, records)
 
 
-def number_type(processor: int, *, real: bool) -> np.dtype[Any]:
+def get_number_type(processor: int, *, real: bool) -> np.dtype[Any]:
     """How a number is stored; DEC's floats need `as_float32` besides."""
     return np.dtype((">" if processor == MIPS else "<") + ("f4" if real else "i2"))
 
@@ -442,7 +442,7 @@ def as_float32(values: NDArray[Any], processor: int) -> NDArray[np.float32]:
     return np.asarray(exchanged / 4, np.float32)
 
 
-def string(data: bytes) -> str:
+def decode_text(data: bytes) -> str:
     """Text padded with blanks or zeros; UTF-8, else Latin-1 as older programs write."""
     data = data.partition(b"\0")[0]
     try:

@@ -33,9 +33,9 @@ from kineme.formats.markers.c3d_file import (
     Layout,
     Parameters,
     as_float32,
-    header_events,
-    number_type,
+    get_number_type,
     read_header,
+    read_header_events,
     read_parameters,
 )
 
@@ -76,7 +76,7 @@ def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
     layout.frames()  # ReadError where the data are not there
     if not layout.rate:
         raise content.error("has no frame rate, which the times of events need")
-    table = _table(layout, events)
+    table = _collect_events(layout, events)
     if len(table["LABELS"]) > MOST:
         raise WriteError(
             content.path,
@@ -84,7 +84,7 @@ def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
         )
     if not events:
         return content.data
-    data = _replace_section(layout, _records_with(layout, table))
+    data = _replace_section(layout, _replace_event_records(layout, table))
     if not _is_kept(parameters, read_parameters(FileContent(content.path, data)), table):
         raise content.error("has records of parameters over each other: it is damaged")
     return data
@@ -106,7 +106,7 @@ def _is_kept(before: Parameters, after: Parameters, table: dict[str, list[Any]])
     )
 
 
-def _table(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, list[Any]]:
+def _collect_events(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, list[Any]]:
     """By parameter the values of all events: those of the file first, in its order."""
     parameters, first = layout.parameters, (layout.first_frame - 1) / layout.rate
     # An event without a label is none for the reader either.
@@ -123,7 +123,9 @@ def _table(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, list[Any]]:
         )[: len(pairs)]
         table[name] = [*stored, *([usual] * (len(pairs) - len(stored)))]
     subject = (parameters.texts("SUBJECTS", "NAMES") or [b""])[0]
-    more = [] if pairs else [C3DEvent(at - first, "", name) for at, name in header_events(layout)]
+    more = (
+        [] if pairs else [C3DEvent(at - first, "", name) for at, name in read_header_events(layout)]
+    )
     for event in [*more, *events]:
         minutes, seconds = divmod(event.seconds + first, 60)
         icon, description = ICONS.get(event.label, (0, ""))
@@ -137,10 +139,10 @@ def _table(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, list[Any]]:
     return table
 
 
-def _records_with(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord]:
+def _replace_event_records(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord]:
     """Return all records, those of events made anew, at the end."""
     parameters = layout.parameters
-    records = _records(parameters)
+    records = _read_records(parameters)
     groups = {-number: name for number, name, _ in records if number < 0}
     number = next((each for each, name in groups.items() if name == EVENT), 0)
     kept = [each for each in records if not (each[0] == number > 0 and each[1] in PER_EVENT)]
@@ -149,13 +151,13 @@ def _records_with(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord
         number = next((n for n in range(1, 128) if n not in groups), 0)
         if not number:
             raise layout.content.error("has 127 groups of parameters, and no room for its events")
-        kept.append((-number, EVENT, _record(-number, EVENT, b"\0", parameters.processor)))
+        kept.append((-number, EVENT, _encode_record(-number, EVENT, b"\0", parameters.processor)))
     n = len(table["LABELS"])
     times = np.array(table["TIMES"], np.float32)
     made: list[tuple[str, int, list[int], bytes]] = [
-        ("USED", 2, [], _integers([n], parameters.processor)),
-        ("TIMES", 4, [2, n], _reals(times, parameters.processor)),
-        ("ICON_IDS", 2, [n], _integers(table["ICON_IDS"], parameters.processor)),
+        ("USED", 2, [], _encode_integers([n], parameters.processor)),
+        ("TIMES", 4, [2, n], _encode_reals(times, parameters.processor)),
+        ("ICON_IDS", 2, [n], _encode_integers(table["ICON_IDS"], parameters.processor)),
         ("GENERIC_FLAGS", 1, [n], bytes(each & 255 for each in table["GENERIC_FLAGS"])),
     ]
     for name in ("CONTEXTS", "LABELS", "DESCRIPTIONS", "SUBJECTS"):
@@ -164,27 +166,27 @@ def _records_with(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord
         made.append((name, -1, [width, n], b"".join(each.ljust(width) for each in table[name])))
     for name, kind, shape, values in sorted(made, key=lambda each: PER_EVENT.index(each[0])):
         body = bytes([kind & 255, len(shape), *shape]) + values + b"\0"  # without a description
-        kept.append((number, name, _record(number, name, body, parameters.processor)))
+        kept.append((number, name, _encode_record(number, name, body, parameters.processor)))
     return kept
 
 
-def _records(parameters: Parameters) -> list[RawRecord]:
+def _read_records(parameters: Parameters) -> list[RawRecord]:
     """Return records as stored, each from the length of its name to where the next one begins."""
     data, records = parameters.content.data, []
     for each in parameters.records:
         stop = each.stop
         if stop is None:  # the last one does not tell where it ends
-            stop = _end(data, each.number, each.values)
+            stop = _find_end(data, each.number, each.values)
         raw = bytearray(data[each.start : stop])
         # The distance is set anew: it is 0 in what used to be the last record.
-        raw[each.values - 2 - each.start : each.values - each.start] = _step(
+        raw[each.values - 2 - each.start : each.values - each.start] = _encode_distance(
             stop - (each.values - 2), parameters.processor
         )
         records.append((each.number, each.name, bytes(raw)))
     return records
 
 
-def _end(data: bytes, number: int, values: int) -> int:
+def _find_end(data: bytes, number: int, values: int) -> int:
     """Where a record ends whose values, or for a group its description, begin at a byte."""
     if number > 0:
         # Type, number of dimensions, the dimensions, and then the values.
@@ -195,12 +197,12 @@ def _end(data: bytes, number: int, values: int) -> int:
     return values + 1 + (data[values] if values < len(data) else 0)
 
 
-def _record(number: int, name: str, body: bytes, processor: int) -> bytes:
+def _encode_record(number: int, name: str, body: bytes, processor: int) -> bytes:
     head = bytes([len(name), number & 255]) + name.encode()
-    return head + _step(len(body) + 2, processor) + body
+    return head + _encode_distance(len(body) + 2, processor) + body
 
 
-def _step(length: int, processor: int) -> bytes:
+def _encode_distance(length: int, processor: int) -> bytes:
     return length.to_bytes(2, "big" if processor == MIPS else "little")
 
 
@@ -229,9 +231,9 @@ def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
     header = bytearray(data[:start])
     # All that follows moves down by so many blocks, so pointers to it grow.
     if grown:
-        _move(header, 2 * 8, kind, grown)
-        if header[2 * 147 : 2 * 148] == _integers([_LABELS_AND_RANGES], kind):
-            _move(header, 2 * 148, kind, grown)
+        _move_pointer(header, 2 * 8, kind, grown)
+        if header[2 * 147 : 2 * 148] == _encode_integers([_LABELS_AND_RANGES], kind):
+            _move_pointer(header, 2 * 148, kind, grown)
         points = {-number for number, name, _ in records if number < 0 and name == "POINT"}
         at = 4
         for number, name, raw in records:
@@ -247,15 +249,15 @@ def _move_value(section: bytearray, values: int, processor: int, by: int) -> Non
     """Add blocks to a parameter whose type stands at a byte of the section."""
     place = values + 2 + section[values + 1]
     if section[values] == 2:
-        _move(section, place, processor, by)
+        _move_pointer(section, place, processor, by)
     elif section[values] == 4:
-        kind = number_type(processor, real=True)
+        kind = get_number_type(processor, real=True)
         stored = np.frombuffer(bytes(section[place : place + 4]), kind)
         moved = as_float32(stored, processor) + by
-        section[place : place + 4] = _reals(moved, processor)
+        section[place : place + 4] = _encode_reals(moved, processor)
 
 
-def _move(data: bytearray, place: int, processor: int, by: int) -> None:
+def _move_pointer(data: bytearray, place: int, processor: int, by: int) -> None:
     """Add blocks to a pointer of two bytes; one that is 0 points nowhere."""
     order: Any = "big" if processor == MIPS else "little"
     block = int.from_bytes(data[place : place + 2], order)
@@ -263,13 +265,13 @@ def _move(data: bytearray, place: int, processor: int, by: int) -> None:
         data[place : place + 2] = (block + by).to_bytes(2, order)
 
 
-def _integers(values: Sequence[int], processor: int) -> bytes:
-    return np.array(values, number_type(processor, real=False)).tobytes()
+def _encode_integers(values: Sequence[int], processor: int) -> bytes:
+    return np.array(values, get_number_type(processor, real=False)).tobytes()
 
 
-def _reals(values: NDArray[np.float32], processor: int) -> bytes:
+def _encode_reals(values: NDArray[np.float32], processor: int) -> bytes:
     """Floats as a processor has them; DEC's have exponents larger by two, and words exchanged."""
     if processor != DEC:
-        return values.astype(number_type(processor, real=True)).tobytes()
+        return values.astype(get_number_type(processor, real=True)).tobytes()
     words = (values * np.float32(4)).astype("<f4").view("<u2").reshape(-1, 2)[:, ::-1]
     return words.tobytes()

@@ -26,12 +26,12 @@ from functools import partial
 import numpy as np
 
 from kineme._util.checks import format_count
-from kineme.formats.delimited import DelimitedText, cells_of, is_number, separator_of
+from kineme.formats.delimited import DelimitedText, find_separator, is_number, split_cells
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
-from kineme.formats.units import unit_named
+from kineme.formats.units import parse_unit
 from kineme.recordings import Motion
 from kineme.recordings.joint_names import is_nameless
 
@@ -55,17 +55,19 @@ class Capture:
 
 def is_nexus(_: Sequence[str], lines: Sequence[str]) -> bool:
     """Return whether a file is Nexus's; one of devices alone holds channels as others do."""
-    return _first_line(lines) in CHAPTERS and any(map(_MARKERS.fullmatch, lines))
+    return _find_first_line(lines) in CHAPTERS and any(map(_MARKERS.fullmatch, lines))
 
 
 def is_motive(_: Sequence[str], lines: Sequence[str]) -> bool:
     """Return whether a file is Motive's."""
-    return _first_line(lines).startswith("format version,")
+    return _find_first_line(lines).startswith("format version,")
 
 
 def is_qtm(_: Sequence[str], lines: Sequence[str]) -> bool:
     """Return whether a file is a table of markers of Qualisys'."""
-    return _first_line(lines).startswith("no_of_frames") and "MARKER_NAMES" in _facts(lines)
+    return _find_first_line(lines).startswith("no_of_frames") and "MARKER_NAMES" in _parse_header(
+        lines
+    )
 
 
 def read_capture(
@@ -98,43 +100,43 @@ def read_capture(
     points = Points(
         names,
         values,
-        options.fps or _rate(content, capture),
+        options.fps or _parse_rate(content, capture),
         options.unit,
         options.up,
-        stated_unit=unit_named(capture.unit),
+        stated_unit=parse_unit(capture.unit),
         usual_up=usual_up,
         person=options.person,
     )
     return to_motion(points, content.provenance(f"{program} table", notes))
 
 
-def _first_line(lines: Sequence[str]) -> str:
+def _find_first_line(lines: Sequence[str]) -> str:
     first = next(filter(str.strip, lines), "")
     return first.lower().strip(' "\r,;\t')
 
 
-def _nexus(content: FileContent, lines: Sequence[str]) -> Capture:
+def _parse_nexus(content: FileContent, lines: Sequence[str]) -> Capture:
     at = next(i for i, line in enumerate(lines) if _MARKERS.fullmatch(line))
-    axes = _line_of_axes(content, lines, at)
+    axes = _find_axis_line(content, lines, at)
     if axes < at + 3 or axes + 1 >= len(lines):
         raise content.error("rate and names expected under 'Trajectories', units under 'Frame'")
-    separator = separator_of(lines[axes])
-    names = cells_of(lines[axes - 1], separator)
-    cells = cells_of(lines[axes], separator)
-    columns = _columns(content, names, cells, axes)
-    below = cells_of(lines[axes + 1], separator)
+    separator = find_separator(lines[axes])
+    names = split_cells(lines[axes - 1], separator)
+    cells = split_cells(lines[axes], separator)
+    columns = _find_columns(content, names, cells, axes)
+    below = split_cells(lines[axes + 1], separator)
     units = [cell for first in columns.values() for cell in below[first : first + 3] if cell]
     if len(set(units)) > 1:
         listed = " and ".join(sorted(set(units)))
         raise content.error(f"markers are in {listed}: export all of them in one unit", axes + 2)
-    rate = cells_of(lines[at + 1], separator)[0]
+    rate = split_cells(lines[at + 1], separator)[0]
     return Capture(cells, separator, axes + 2, columns, rate, units[0] if units else "")
 
 
-def _motive(content: FileContent, lines: Sequence[str]) -> Capture:
-    axes = _line_of_axes(content, lines, 0)
-    separator = separator_of(lines[axes])
-    above = [cells_of(line, separator) for line in lines[:axes] if line.strip()]
+def _parse_motive(content: FileContent, lines: Sequence[str]) -> Capture:
+    axes = _find_axis_line(content, lines, 0)
+    separator = find_separator(lines[axes])
+    above = [split_cells(line, separator) for line in lines[:axes] if line.strip()]
     # Facts are name and value in turn.
     pairs = zip(above[0][::2], above[0][1::2], strict=False)
     facts = {key.lower(): value for key, value in pairs}
@@ -142,19 +144,19 @@ def _motive(content: FileContent, lines: Sequence[str]) -> Capture:
         raise content.error("kinds, names and 'Position' expected above the axes", axes + 1)
     kinds, names, quantities = above[1], above[2], above[-1]
     kinds = [kind.lower() for kind in kinds]
-    points = _points_of(kinds, names)
-    cells = cells_of(lines[axes], separator)
+    points = _find_point_kinds(kinds, names)
+    cells = split_cells(lines[axes], separator)
     places = [
         axis if kind in points and quantity.lower() == "position" else ""
         for axis, kind, quantity in zip(cells, kinds, quantities, strict=False)
     ]
-    columns = _columns(content, names, places, axes)
+    columns = _find_columns(content, names, places, axes)
     rate = facts.get("export frame rate") or facts.get("capture frame rate", "")
     unit = facts.get("length units", "")
     return Capture(cells, separator, axes + 1, columns, rate, unit)
 
 
-def _points_of(kinds: Sequence[str], names: Sequence[str]) -> set[str]:
+def _find_point_kinds(kinds: Sequence[str], names: Sequence[str]) -> set[str]:
     """Return the kind of column that holds the body.
 
     A body has more markers than bones. Fewer are strays, and so are those without a name and the
@@ -175,8 +177,8 @@ def _points_of(kinds: Sequence[str], names: Sequence[str]) -> set[str]:
     return {solid} if solid else set(kinds)
 
 
-def _qtm(content: FileContent, lines: Sequence[str]) -> Capture:
-    facts = _facts(lines)
+def _parse_qtm(content: FileContent, lines: Sequence[str]) -> Capture:
+    facts = _parse_header(lines)
     names = facts["MARKER_NAMES"]
     below = next((i for i, line in enumerate(lines) if is_number(line.split("\t")[0])), len(lines))
     cells = lines[below].split("\t") if below < len(lines) else []
@@ -189,7 +191,7 @@ def _qtm(content: FileContent, lines: Sequence[str]) -> Capture:
     return Capture(numbered, "\t", below, columns, "".join(facts.get("FREQUENCY", [])), "mm")
 
 
-def _facts(lines: Sequence[str]) -> dict[str, list[str]]:
+def _parse_header(lines: Sequence[str]) -> dict[str, list[str]]:
     """Return what the lines at the top of a table of Qualisys' name, by what they begin with."""
     facts: dict[str, list[str]] = {}
     for line in lines:
@@ -200,14 +202,14 @@ def _facts(lines: Sequence[str]) -> dict[str, list[str]]:
     return facts
 
 
-def _line_of_axes(content: FileContent, lines: Sequence[str], start: int) -> int:
+def _find_axis_line(content: FileContent, lines: Sequence[str], start: int) -> int:
     for i in range(start, min(start + 12, len(lines))):
         if lines[i].strip(' "').lower().startswith("frame"):
             return i
     raise content.error("no line 'Frame' with the axes of its columns", start + 1)
 
 
-def _columns(
+def _find_columns(
     content: FileContent, names: Sequence[str], axes: Sequence[str], line: int
 ) -> dict[str, int]:
     """Return the column of x of each point with y and z beside it."""
@@ -220,7 +222,7 @@ def _columns(
     return found
 
 
-def _rate(content: FileContent, table: Capture) -> float:
+def _parse_rate(content: FileContent, table: Capture) -> float:
     try:
         rate = float(table.rate)
     except ValueError:
@@ -230,11 +232,13 @@ def _rate(content: FileContent, table: Capture) -> float:
     return rate
 
 
-NEXUS = Dialect("Nexus", is_nexus, partial(read_capture, program="Nexus", look=_nexus), motion=True)
+NEXUS = Dialect(
+    "Nexus", is_nexus, partial(read_capture, program="Nexus", look=_parse_nexus), motion=True
+)
 MOTIVE = Dialect(
     "Motive",
     is_motive,
-    partial(read_capture, program="Motive", look=_motive, usual_up="y"),
+    partial(read_capture, program="Motive", look=_parse_motive, usual_up="y"),
     motion=True,
 )
-QTM = Dialect("QTM", is_qtm, partial(read_capture, program="QTM", look=_qtm), motion=True)
+QTM = Dialect("QTM", is_qtm, partial(read_capture, program="QTM", look=_parse_qtm), motion=True)

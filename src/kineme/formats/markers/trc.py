@@ -16,14 +16,14 @@ from pathlib import Path
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme.formats.delimited import DelimitedText, replace_decimal_comma, separator_of
-from kineme.formats.files import FileContent, format_point_name, numbers, save, spell_names
-from kineme.formats.gaps import split_at, unseen
+from kineme.formats.delimited import DelimitedText, find_separator, replace_decimal_comma
+from kineme.formats.files import FileContent, clean_names, format_point_name, parse_numbers, save
+from kineme.formats.gaps import mark_gaps, split_at
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
-from kineme.formats.timing import place_points, timing_of
-from kineme.formats.units import unit_named
+from kineme.formats.timing import find_timing, place_points
+from kineme.formats.units import parse_unit
 from kineme.recordings import Motion
 from kineme.recordings.regular import Timing
 
@@ -36,21 +36,21 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     lines = content.text.splitlines()
     if len(lines) <= _HEADER_LINES:
         raise content.error("the file ends within its five header lines: there is no motion")
-    separator = separator_of(lines[3])
+    separator = find_separator(lines[3])
     row = next(filter(str.strip, lines[_HEADER_LINES:]), "")
-    names = _names(lines[3].split(separator)[2:], len(row.split(separator)) - 2)
+    names = _name_markers(lines[3].split(separator)[2:], len(row.split(separator)) - 2)
     if not names:
         raise content.error("no marker is named after 'Frame#' and 'Time'", 4)
     # `x y z` of each marker; the first two columns are frame and time.
     columns = ["frame", "seconds", *(f"{name}_{axis}" for name in names for axis in "xyz")]
     text = DelimitedText(content, lines, columns, 3, _HEADER_LINES, separator)
     table = text.numbers()
-    head = _header(lines[1], lines[2], separator_of(lines[1]))
+    head = _parse_header(lines[1], lines[2], find_separator(lines[1]))
     declared = head.get("NumFrames", "")
     if declared.isdigit() and int(declared) != len(table):
         content.warn(f"{declared} frames declared, {len(table)} found and kept", 3)
     positions = table[:, 2:].reshape(len(table), -1, 3)
-    timing = _rate(content, options, head, table[:, 1])
+    timing = _find_timing(content, options, head, table[:, 1])
     positions, gaps = place_points(timing, positions)
     unit = options.unit or ("pixel" if _is_image(content, head, positions) else None)
     points = Points(
@@ -59,7 +59,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
         timing.fps,
         unit,
         options.up,
-        stated_unit=unit_named(head.get("Units", "")),
+        stated_unit=parse_unit(head.get("Units", "")),
         person=options.person,
     )
     notes = [*timing.notes, *text.remarks]
@@ -80,7 +80,7 @@ def _is_image(content: FileContent, head: dict[str, str], positions: Floats) -> 
 
 def write_trc(motion: Motion, path: Path) -> None:
     """Leave the joints' positions in a TRC file, in millimetres; cells in gaps are empty."""
-    names = spell_names(path, motion.skeleton.names, format_point_name)
+    names = clean_names(path, motion.skeleton.names, format_point_name)
     n, m = motion.n_frames, len(names)
     fps = f"{motion.fps!r}"
     head = (
@@ -93,7 +93,7 @@ def write_trc(motion: Motion, path: Path) -> None:
     )
     row = "%d\t%.9f" + "\t%.6f" * (3 * m) + "\n"
     empty = "%d\t%.9f" + "\t" * (3 * m) + "\n"
-    values = zip((motion.positions / _MM).reshape(n, -1).tolist(), unseen(motion), strict=True)
+    values = zip((motion.positions / _MM).reshape(n, -1).tolist(), mark_gaps(motion), strict=True)
     lines = (
         empty % (i + 1, i / motion.fps) if gap else row % (i + 1, i / motion.fps, *line)
         for i, (line, gap) in enumerate(values)
@@ -101,7 +101,7 @@ def write_trc(motion: Motion, path: Path) -> None:
     save(path, [head, *lines])
 
 
-def _names(cells: list[str], width: int) -> list[str]:
+def _name_markers(cells: list[str], width: int) -> list[str]:
     """Return one name for each three of the ``width`` columns of coordinates.
 
     Programs leave a varying number of tabs between names. Where there is a name for every marker,
@@ -117,23 +117,23 @@ def _names(cells: list[str], width: int) -> list[str]:
     return [name or f"marker{i}" for i, name in enumerate(triples, 1)]
 
 
-def _header(keys: str, values: str, separator: str) -> dict[str, str]:
+def _parse_header(keys: str, values: str, separator: str) -> dict[str, str]:
     pairs = zip(keys.split(separator), values.split(separator), strict=False)
     return {key.strip(): value.strip() for key, value in pairs}
 
 
-def _rate(
+def _find_timing(
     content: FileContent, options: ReadOptions, head: dict[str, str], times: Floats
 ) -> Timing:
     if options.fps:
         return Timing(options.fps)
     try:
-        (declared,) = numbers([replace_decimal_comma(head.get("DataRate", ""))])
+        (declared,) = parse_numbers([replace_decimal_comma(head.get("DataRate", ""))])
     except ValueError:
         declared = 0.0
     if declared > 0 and (len(times) < 2 or np.isnan(times).any()):
         return Timing(declared)
-    timing = timing_of(content, times)
+    timing = find_timing(content, times)
     fps = timing.fps
     # The declared rate is taken where the times agree up to rounding.
     if abs(fps - declared) <= 0.005 * fps:

@@ -28,10 +28,10 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import join_names, unique
 from kineme._util.rotations import matrices, quaternions
-from kineme.formats.files import MOST_EXPANSION, FileContent
-from kineme.formats.scenes.characters import SceneNode, carriers
-from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
-from kineme.formats.units import blocks, metres
+from kineme.formats.files import MAX_EXPANSION, FileContent
+from kineme.formats.scenes.characters import SceneNode, list_ancestors
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion
+from kineme.formats.units import iterate_blocks, to_metres
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 from kineme.recordings.rig import UNIFORM, Rig
 
@@ -58,21 +58,23 @@ class Transform(NamedTuple):
 
 
 class Local(NamedTuple):
-    """How joints are turned and where they are in their parents' frames, as `place` takes it."""
+    """Rotations and positions of joints relative to their parents, as `build_motion` takes them."""
 
     rotations: Floats
     offsets: Floats
     slides: dict[int, Floats]
 
 
-def claim_frames(content: FileContent, joints: int, frames: int, *, beside: int = 0) -> None:
+def require_frame_memory(
+    content: FileContent, joints: int, frames: int, *, beside: int = 0
+) -> None:
     """ReadError where so many frames are more than a file of this size can honestly have.
 
     ``beside`` are the bytes of other files that belong to it.
     """
     size = BYTES_PER_JOINT * joints * frames
-    if size > max(MOST_SAMPLED, MOST_EXPANSION * beside):
-        content.claim(size, f"{joints} joints in {frames} frames")
+    if size > max(MOST_SAMPLED, MAX_EXPANSION * beside):
+        content.require_memory(size, f"{joints} joints in {frames} frames")
 
 
 def assemble(
@@ -101,20 +103,23 @@ def assemble(
     # Numbers of nodes become numbers of joints; a parent that is no joint is -1.
     number_of = {node: j for j, node in enumerate(joints)}
     parents = [number_of.get(nodes[node].parent, -1) for node in joints]
-    above = carriers(nodes, joints[0])[::-1]  # topmost first
+    above = list_ancestors(nodes, joints[0])[::-1]  # topmost first
     found = _apply_scale(above, joints, parents, transform, n_frames, turn)
     if found is None:
         found = _multiply_matrices(above, joints, parents, transform, n_frames, turn)
-        if any(_factor(transform(node).scale, UNIFORM) is None for node in (*above, *joints)):
+        if any(
+            _find_uniform_scale(transform(node).scale, UNIFORM) is None
+            for node in (*above, *joints)
+        ):
             remark = "its bones are scaled unevenly or over time: in clips joints slide instead"
             provenance = provenance.noted(Note(remark, "warning"))
-    rig = _rig(nodes, [*above, *joints], len(joints), rest, metres(unit), turn, numbers)
+    rig = _build_rig(nodes, [*above, *joints], len(joints), rest, to_metres(unit), turn, numbers)
     if rig is None:
         remark = "its bones are mirrored or scaled unevenly at rest: clips get another rest pose"
         provenance = provenance.noted(Note(remark, "warning"))
     elif binds:
-        rig = replace(rig, binds=_bind(rig, [*above, *joints], binds))
-    content.let_go()
+        rig = replace(rig, binds=_compute_binds(rig, [*above, *joints], binds))
+    content.release()
     rotations, offsets, slides = found
     # Leaves that never turn and do not slide become end sites, which have no rotation.
     inner = set(parents)
@@ -133,10 +138,10 @@ def assemble(
         remark = f"several bones have one name: they are read as {join_names(others)}"
         provenance = provenance.noted(Note(remark, "warning"))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends), rig)
-    return place(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
+    return build_motion(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
 
 
-def _rig(
+def _build_rig(
     nodes: Sequence[SceneNode],
     chosen: Sequence[int],
     n_joints: int,
@@ -162,7 +167,7 @@ def _rig(
     )
 
 
-def _bind(rig: Rig, chosen: Sequence[int], binds: Mapping[int, Floats]) -> Floats | None:
+def _compute_binds(rig: Rig, chosen: Sequence[int], binds: Mapping[int, Floats]) -> Floats | None:
     """Return where a skin has the joints (joints, 4, 4), None where that is as at rest."""
     rest = compose(rig.translations, rig.rotations, rig.scales)
     local, bound = np.array(rest), np.tile(np.eye(4), (len(rest), 1, 1))
@@ -178,13 +183,13 @@ def stack_transforms(
     found: Sequence[Transform], parents: Sequence[int]
 ) -> tuple[Floats, Floats, Floats] | None:
     """Return translations, rotations and scales of a rig's nodes; None where one is uneven."""
-    if any(_factor(each.scale, UNIFORM) is None for each in found):
+    if any(_find_uniform_scale(each.scale, UNIFORM) is None for each in found):
         return None
     scales = np.array([each.scale for each in found])
     for here, (each, parent) in enumerate(zip(found, parents, strict=True)):
         if each.inheritance == "Rrs" and parent >= 0:
             # A rig's nodes inherit their parent's scale, so it is divided out.
-            scales[here] /= _factor(found[parent].scale, UNIFORM) or 1.0
+            scales[here] /= _find_uniform_scale(found[parent].scale, UNIFORM) or 1.0
     moved = np.array([each.translation for each in found])
     return moved, np.array([each.rotation for each in found]), scales
 
@@ -202,7 +207,7 @@ def _apply_scale(
     position, rotation, world, node_scale = np.zeros(3), turn, 1.0, 1.0
     for node in above:
         found = transform(node)
-        factor = _factor(found.scale)
+        factor = _find_uniform_scale(found.scale)
         if factor is None:
             return None
         position = position + world * rot.rotate(rotation, found.translation)
@@ -214,7 +219,7 @@ def _apply_scale(
     scales: list[tuple[float, float]] = []
     for j, (node, parent) in enumerate(zip(joints, parents, strict=True)):
         found = transform(node)
-        factor = _factor(found.scale)
+        factor = _find_uniform_scale(found.scale)
         if factor is None:
             return None
         if parent < 0:
@@ -228,7 +233,7 @@ def _apply_scale(
         scale, parent_factor = scales[parent]
         rotations[:, j] = found.rotation
         scales.append((_multiply_scale(scale, parent_factor, factor, found.inheritance), factor))
-        _carry(j, scale * found.translation, offsets, slides)
+        _store_shift(j, scale * found.translation, offsets, slides)
     return Local(rotations, offsets, slides)
 
 
@@ -238,7 +243,7 @@ def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inh
     return world / parent * factor if inheritance == "Rrs" else world * factor
 
 
-def _factor(scale: Floats, share: float = STILL) -> float | None:
+def _find_uniform_scale(scale: Floats, share: float = STILL) -> float | None:
     """Return the one number that a scale is in all axes and frames, or None.
 
     ``share`` is that by which it may change and still count as one.
@@ -250,7 +255,7 @@ def _factor(scale: Floats, share: float = STILL) -> float | None:
     return (least + most) / 2
 
 
-def _carry(j: int, shift: Floats, offsets: Floats, slides: dict[int, Floats]) -> None:
+def _store_shift(j: int, shift: Floats, offsets: Floats, slides: dict[int, Floats]) -> None:
     """Note where a joint is in its parent's frame: always the same, or over time."""
     if shift.ndim == 1:
         offsets[j] = shift
@@ -281,7 +286,7 @@ def _multiply_matrices(
     rotations = np.empty((n_frames, len(joints), 4))
     shifts = np.empty((len(joints), n_frames, 3))
     # In blocks, as matrices of all frames take much memory.
-    for span in blocks(n_frames):
+    for span in iterate_blocks(n_frames):
         n = span.stop - span.start
         ground = np.broadcast_to(matrices(turn), (n, 3, 3))
         worlds = {-len(above) - 1: (ground, ground, np.zeros((n, 3)))}
@@ -289,7 +294,7 @@ def _multiply_matrices(
         for number, parent, _ in chain:
             found = transforms[number]
             before = transforms.get(parent)
-            worlds[number] = _product(worlds[parent], found, before, span)
+            worlds[number] = _multiply_transform(worlds[parent], found, before, span)
             if number < 0:
                 continue
             axes, _, position = worlds[number]
@@ -308,7 +313,7 @@ def _multiply_matrices(
         if parent < 0:
             slides[j] = shifts[j]
         else:
-            _carry(j, shifts[j], offsets, slides)
+            _store_shift(j, shifts[j], offsets, slides)
     return Local(rotations, offsets, slides)
 
 
@@ -316,11 +321,13 @@ World = tuple[Floats, Floats, Floats]
 """A node's axes, its whole matrix and its position: (frames, 3, 3) twice and (frames, 3)."""
 
 
-def _product(parent: World, found: Transform, before: Transform | None, span: slice) -> World:
+def _multiply_transform(
+    parent: World, found: Transform, before: Transform | None, span: slice
+) -> World:
     """Return a node's world, from its parent's and the transforms of both."""
     axes, matrix, position = parent
-    turn = matrices(_frames(found.rotation, span))
-    scale = _frames(found.scale, span)
+    turn = matrices(_select_frames(found.rotation, span))
+    scale = _select_frames(found.scale, span)
     # The parent's scale and shear, in its own axes.
     inherited = axes.transpose(0, 2, 1) @ matrix
     if found.inheritance == "RSrs":
@@ -328,35 +335,35 @@ def _product(parent: World, found: Transform, before: Transform | None, span: sl
     else:
         if found.inheritance == "Rrs" and before is not None:
             # Without the scale that the parent itself has.
-            scale = _frames(before.scale, span)
+            scale = _select_frames(before.scale, span)
             inherited = inherited / np.where(scale == 0, 1, scale)[:, None, :]
         product = axes @ turn @ inherited
     # Columns of the matrix are the axes: each is scaled.
     product = product * scale[:, None, :]
-    place = position + np.einsum("fij,fj->fi", matrix, _frames(found.translation, span))
-    return orthogonal(product), product, place
+    place = position + np.einsum("fij,fj->fi", matrix, _select_frames(found.translation, span))
+    return orthogonalize(product), product, place
 
 
-def _frames(values: Floats, span: slice) -> Floats:
+def _select_frames(values: Floats, span: slice) -> Floats:
     """Return the values of these frames, (frames, ...)."""
     if values.ndim > 1:
         return values[span]
     return np.broadcast_to(values, (span.stop - span.start, len(values)))
 
 
-def orthogonal(matrices: Floats) -> Floats:
+def orthogonalize(matrices: Floats) -> Floats:
     """Right-handed orthonormal axes (frames, 3, 3), the first along that of the matrix."""
     # Gram-Schmidt; where an axis has no length, another one stands in.
-    first = _unit(matrices[:, :, 0], np.array([1.0, 0.0, 0.0]))
+    first = _normalize(matrices[:, :, 0], np.array([1.0, 0.0, 0.0]))
     second = matrices[:, :, 1]
     second = second - first * np.einsum("fi,fi->f", first, second)[:, None]
     # Any vector that is not parallel to the first axis.
     spare = np.cross(first, np.roll(first, 1, axis=1) + np.array([0.1, 0.2, 0.4]))
-    second = _unit(second, spare)
+    second = _normalize(second, spare)
     return np.stack([first, second, np.cross(first, second)], axis=2)
 
 
-def _unit(vectors: Floats, spare: Floats) -> Floats:
+def _normalize(vectors: Floats, spare: Floats) -> Floats:
     """Return the vectors at length one; ``spare`` where they have none."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     flat = length < 1e-12
@@ -380,5 +387,5 @@ def decompose(matrix: Floats) -> Transform:
     # A reflection: it belongs to the scale, so that the axes are a rotation.
     if np.linalg.det(axes) < 0:
         scale = -scale
-    turn = quaternions(orthogonal((axes / np.where(scale == 0, 1, scale))[None]))[0]
+    turn = quaternions(orthogonalize((axes / np.where(scale == 0, 1, scale))[None]))[0]
     return Transform(matrix[:3, 3], turn, scale)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from kineme._util.checks import join_names, unique
 from kineme.formats.files import FileContent
-from kineme.formats.persons import chosen_person
+from kineme.formats.persons import choose_person
 from kineme.recordings import Note
 
 SMALLEST = 0.25
@@ -69,9 +69,11 @@ class Character:
     people: Sequence[str]
 
 
-def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str | None) -> Character:
+def find_character(
+    content: FileContent, nodes: Sequence[SceneNode], person: str | None
+) -> Character:
     """Return the only skeleton that moves, or the one of the person wanted."""
-    skeletons = _skeletons(nodes)
+    skeletons = _find_skeletons(nodes)
     if not skeletons:
         raise content.error(
             "holds no skeleton, neither bones nor animated nodes: export the armature with its "
@@ -82,14 +84,14 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
     bodies = [joints for joints in skeletons if len(joints) >= SMALLEST * largest]
     moving = [joints for joints in bodies if any(nodes[j].animated for j in joints)]
     bodies = moving or bodies
-    people = dict(zip(_names(nodes, bodies), bodies, strict=True))
+    people = dict(zip(_name_bodies(nodes, bodies), bodies, strict=True))
     # A person may also be named by number.
     numbers = {str(number): name for number, name in enumerate(people)}
     name = person if person in people else numbers.get(person or "", person)
     shown = [f"{name} ({len(joints)} joints)" for name, joints in people.items()]
-    name = chosen_person(content.path, people, name, "characters", shown)
+    name = choose_person(content.path, people, name, "characters", shown)
     notes = [f"person {name} of {len(people)}"] if len(people) > 1 else []
-    props = _props(nodes, list(people.values()))
+    props = _find_props(nodes, list(people.values()))
     if props:
         notes.append(f"left out as props: {join_names([nodes[j].name for j in props])}")
     large = [nodes[j].name for j, moved in props.items() if moved >= max(SMALLEST * largest, 2)]
@@ -102,7 +104,7 @@ def character_of(content: FileContent, nodes: Sequence[SceneNode], person: str |
     return Character(people[name], notes, name, [*people])
 
 
-def carriers(nodes: Sequence[SceneNode], node: int) -> list[int]:
+def list_ancestors(nodes: Sequence[SceneNode], node: int) -> list[int]:
     """Return the nodes that carry one, from its parent up."""
     found = []
     while (node := nodes[node].parent) >= 0:
@@ -110,7 +112,7 @@ def carriers(nodes: Sequence[SceneNode], node: int) -> list[int]:
     return found
 
 
-def lively_takes(moved: Sequence[set[int]], bones: set[int]) -> list[int]:
+def find_moving_takes(moved: Sequence[set[int]], bones: set[int]) -> list[int]:
     """Return the animations that move a bone, by what each moves.
 
     Anything where there are no bones.
@@ -159,7 +161,9 @@ def _find_take(names: Sequence[str], name: str) -> int | None:
     return None
 
 
-def bones_of(parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]) -> list[bool]:
+def find_scene_joints(
+    parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]
+) -> list[bool]:
     """Return which nodes are joints: bones, what is between two of them, and free ends below.
 
     A node is free if it carries no geometry.
@@ -185,13 +189,13 @@ def is_end(name: str) -> bool:
     return _END.search(name) is not None
 
 
-def _skeletons(nodes: Sequence[SceneNode]) -> list[list[int]]:
+def _find_skeletons(nodes: Sequence[SceneNode]) -> list[list[int]]:
     """Return the joints of each, parents first."""
     bones = [node.bone for node in nodes]
     if not any(bones):
         bones = [node.animated and not node.geometry for node in nodes]
     parents = [node.parent for node in nodes]
-    joints = bones_of(parents, bones, [not node.geometry for node in nodes])
+    joints = find_scene_joints(parents, bones, [not node.geometry for node in nodes])
     found: list[list[int]] = []
     home: dict[int, list[int]] = {}
     for j, joint in enumerate(joints):
@@ -206,7 +210,7 @@ def _skeletons(nodes: Sequence[SceneNode]) -> list[list[int]]:
     return found
 
 
-def _names(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
+def _name_bodies(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
     """What each body is called: as what carries it alone, by its namespace, or as its root."""
     carriers = [nodes[joints[0]].parent for joints in bodies]
     names = []
@@ -218,13 +222,13 @@ def _names(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
     return unique(names)
 
 
-def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> dict[int, int]:
+def _find_props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> dict[int, int]:
     """Return the topmost nodes that are animated or bones, but neither in a body nor above one.
 
     With each goes how many animated nodes without geometry and bone there are from it down.
     """
     body = {joint for joints in bodies for joint in joints}
-    body.update(above for joints in bodies for above in carriers(nodes, joints[0]))
+    body.update(above for joints in bodies for above in list_ancestors(nodes, joints[0]))
     moved: dict[int, int] = {}
     tops: dict[int, int] = {}
     for number, node in enumerate(nodes):

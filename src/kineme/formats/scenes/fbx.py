@@ -23,8 +23,8 @@ from kineme._util.rotations import quaternions
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, claim_frames
-from kineme.formats.scenes.characters import character_of, choose_take, lively_takes
+from kineme.formats.scenes.assembly import MOST_SAMPLED, assemble, require_frame_memory
+from kineme.formats.scenes.characters import choose_take, find_character, find_moving_takes
 from kineme.formats.scenes.fbx_copy import copy_takes
 from kineme.formats.scenes.fbx_curves import CUSTOM, RATES, SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx
@@ -32,7 +32,7 @@ from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
 from kineme.formats.scenes.fbx_text import TEXT
 from kineme.formats.scenes.fbx_writer import write_fbx, write_takes
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT
-from kineme.formats.units import up_rotation
+from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 
 USUAL_RATE = 30.0
@@ -53,15 +53,15 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     version, root = parse_fbx(content)
     scene = FBXScene(content, root)
     moved = [scene.moved(take) for take in scene.takes]
-    animated = lively_takes(moved, scene.bones)
+    animated = find_moving_takes(moved, scene.bones)
     names = unique(take.name for take in scene.takes)
     number, notes = choose_take(content, names, animated, options.take)
     take, nodes = scene.takes[number], scene.nodes(moved[number])
-    character = character_of(content, nodes, options.person)
+    character = find_character(content, nodes, options.person)
     joints = [scene.models[j].number for j in character.joints]
-    fps, rated = _rate(scene, take, joints, options)
-    at = _frames(scene, take, joints, fps)
-    turn, turned = _turn(scene, options)
+    fps, rated = _find_rate(scene, take, joints, options)
+    at = _compute_frame_times(scene, take, joints, fps)
+    turn, turned = _find_turn(scene, options)
     pose = Pose(scene, take, Sampler(at))
     notes = [f"FBX {version // 1000}.{version % 1000 // 100}", *notes, *character.notes]
     return assemble(
@@ -72,7 +72,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         pose.rest,
         len(at),
         fps,
-        unit=options.unit or _unit(scene),
+        unit=options.unit or _find_unit(scene),
         turn=turn,
         provenance=content.provenance("FBX", [*notes, *rated, *turned])
         .of_take(names[number], (names[each] for each in animated))
@@ -81,7 +81,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     )
 
 
-def _rate(
+def _find_rate(
     scene: FBXScene, take: Take, joints: list[int], options: ReadOptions
 ) -> tuple[float, list[str]]:
     """Frames per second, and what to say of them."""
@@ -89,7 +89,7 @@ def _rate(
         return options.fps, [f"sampled {options.fps:g} times a second, as asked for"]
     mode = int(scene.setting("TimeMode", 0))
     fps = RATES.get(mode, 0.0) if mode != CUSTOM else scene.setting("CustomFrameRate", 0.0)
-    keys = _rate_of_keys(scene, take, joints)
+    keys = _infer_rate(scene, take, joints)
     if not SLOWEST <= fps <= FASTEST:
         if keys:
             return keys, [f"frame rate {keys:g} Hz: the file tells none, its keys are so far apart"]
@@ -101,7 +101,7 @@ def _rate(
     return fps, []
 
 
-def _rate_of_keys(scene: FBXScene, take: Take, joints: list[int]) -> float:
+def _infer_rate(scene: FBXScene, take: Take, joints: list[int]) -> float:
     """How many keys a second the first curve with evenly spaced ones has; 0 where none has."""
     for times in scene.key_times(take, joints):
         steps = np.diff(times)
@@ -117,11 +117,11 @@ def _rate_of_keys(scene: FBXScene, take: Take, joints: list[int]) -> float:
     return 0.0
 
 
-def _frames(scene: FBXScene, take: Take, joints: list[int], fps: float) -> Floats:
+def _compute_frame_times(scene: FBXScene, take: Take, joints: list[int], fps: float) -> Floats:
     """Ticks of each frame: from the start of the take to its end, or of its keys."""
     start, stop = take.start, take.stop
     count = (stop - start) / TICKS * fps + 1
-    room = max(MOST_SAMPLED, scene.content.room)
+    room = max(MOST_SAMPLED, scene.content.memory_limit)
     # The span of the take is missing, or absurdly long: the keys tell it.
     if stop <= start or count * BYTES_PER_JOINT * len(joints) > room:
         ends = [(times[0], times[-1]) for times in scene.key_times(take, joints)]
@@ -130,23 +130,23 @@ def _frames(scene: FBXScene, take: Take, joints: list[int], fps: float) -> Float
         count = (stop - start) / TICKS * fps + 1
     # The end of the take may miss its last frame by rounding.
     n_frames = int(min(count + _ROUNDED, _MOST_FRAMES))
-    claim_frames(scene.content, len(joints), n_frames)
+    require_frame_memory(scene.content, len(joints), n_frames)
     return np.asarray(start + np.arange(n_frames) * (TICKS / fps), np.float64)
 
 
-def _unit(scene: FBXScene) -> float:
+def _find_unit(scene: FBXScene) -> float:
     """Return the metres in one unit of the file, which counts in centimetres."""
     factor = scene.setting("UnitScaleFactor", 1.0)
     return CENTIMETRE * (factor if factor > 0 else 1.0)
 
 
-def _turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]]:
+def _find_turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]]:
     """Return the rotation to axes with y up, and what to say of it.
 
     The file tells which of its axes are those to the right, up and to the front.
     """
     if options.up is not None:
-        return up_rotation(options.up), []
+        return make_up_rotation(options.up), []
     # Rows are the file's axes to the right, up and to the front.
     rows = np.zeros((3, 3))
     for row, (name, usual) in enumerate((("Coord", 0), ("Up", 1), ("Front", 2))):
@@ -163,7 +163,7 @@ def _turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]]:
     remark = (
         "the file's axes are left-handed or no axes: read as right-handed ones with the same up"
     )
-    return up_rotation(name), [*notes, Note(remark, "warning")]
+    return make_up_rotation(name), [*notes, Note(remark, "warning")]
 
 
 FORMAT = Format(

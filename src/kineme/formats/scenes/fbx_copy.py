@@ -26,11 +26,11 @@ from kineme.errors import WriteError
 from kineme.formats.files import load
 from kineme.formats.scenes.assembly import Transform, stack_transforms
 from kineme.formats.scenes.fbx_curves import Sampler
-from kineme.formats.scenes.fbx_file import MAGIC, START, head_of, parse_fbx
+from kineme.formats.scenes.fbx_file import MAGIC, START, get_head_struct, parse_fbx
 from kineme.formats.scenes.fbx_nodes import FBXNode
 from kineme.formats.scenes.fbx_scene import STILL, FBXScene, Pose, invert_transform
-from kineme.formats.scenes.fbx_writer import FOOTER, TakeWriter, encode_fbx, single, write_takes
-from kineme.formats.scenes.gltf_writer import check_copy, refuse_uneven
+from kineme.formats.scenes.fbx_writer import FOOTER, TakeWriter, encode_fbx, make_node, write_takes
+from kineme.formats.scenes.gltf_writer import check_copy, make_uneven_error
 from kineme.recordings import Motion
 from kineme.recordings.posing import get_rig
 
@@ -58,7 +58,7 @@ def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
         copy.animate(name, motion)
     _warn_of_textures(scene, source, path)
     data = content.data
-    stop = root.children[-1].stop + head_of(version).size
+    stop = root.children[-1].stop + get_head_struct(version).size
     footer = data[stop : stop + len(FOOTER)].ljust(len(FOOTER), b"\0")
     with atomic_write(path) as draft:
         draft.write_bytes(encode_fbx(copy.rebuild(root), data[:START], footer, data))
@@ -82,7 +82,7 @@ class _Copy(TakeWriter):
             self._rest[root] = Transform(*still, below.inheritance)
         parts = stack_transforms(self._rest, rig.parents)
         if parts is None:
-            raise refuse_uneven(source, path)
+            raise make_uneven_error(source, path)
         rig = replace(rig, translations=parts[0], rotations=parts[1], scales=parts[2])
         numbers = (number for number in count(1_000_000) if number not in scene.objects)
         super().__init__(rig, motion.fps, numbers)
@@ -123,14 +123,14 @@ class _Copy(TakeWriter):
             if node.name == "Objects":
                 kept = [each for each in node.children if each.name not in _ANIMATION]
                 kept = [self._extend_pose(each) for each in kept]
-                yield _with_children(node, [*kept, *self.objects])
+                yield _replace_children(node, [*kept, *self.objects])
             elif node.name == "Connections":
                 kept = [each for each in node.children if self._is_kept(each, dropped, above)]
-                yield _with_children(node, [*kept, *self.links])
+                yield _replace_children(node, [*kept, *self.links])
             elif node.name == "Definitions":
-                yield _with_children(node, _count_objects(node, counts, change))
+                yield _replace_children(node, _count_objects(node, counts, change))
             elif node.name == "Takes":
-                yield _with_children(node, [single("Current", names[0]), *self._spans()])
+                yield _replace_children(node, [make_node("Current", names[0]), *self._spans()])
             else:
                 yield _set_properties(node, {**settings, "ActiveAnimStackName": names[0]})
 
@@ -148,14 +148,14 @@ class _Copy(TakeWriter):
             return node
         kept = (child for child in node.children if child.name != "NbPoseNodes")
         new = self._bind_pose()[self.rig.above]
-        return _with_children(node, [single("NbPoseNodes", len(entries) + 1), *kept, new])
+        return _replace_children(node, [make_node("NbPoseNodes", len(entries) + 1), *kept, new])
 
     def _spans(self) -> Iterator[FBXNode]:
         """Yield the takes as older programs look for them."""
         for name, stop in self.stops.items():
             span = [np.int64(0), np.int64(stop)]
             ends = [FBXNode(f"{kind}Time", span) for kind in ("Local", "Reference")]
-            yield FBXNode("Take", [name], [single("FileName", f"{name}.tak"), *ends])
+            yield FBXNode("Take", [name], [make_node("FileName", f"{name}.tak"), *ends])
 
 
 def _count_objects(node: FBXNode, counts: Mapping[str, int], change: int) -> Iterator[FBXNode]:
@@ -163,14 +163,14 @@ def _count_objects(node: FBXNode, counts: Mapping[str, int], change: int) -> Ite
     kinds = {kind.text(0) for kind in node.all("ObjectType")}
     for child in node.children:
         if child.name == "Count":
-            yield single("Count", int(child.number(0)) + change)
+            yield make_node("Count", int(child.number(0)) + change)
         elif child.name == "ObjectType" and child.text(0) in counts:
             rest = (each for each in child.children if each.name != "Count")
-            yield _with_children(child, [single("Count", counts[child.text(0)]), *rest])
+            yield _replace_children(child, [make_node("Count", counts[child.text(0)]), *rest])
         else:
             yield child
     for kind in counts.keys() - kinds:
-        yield FBXNode("ObjectType", [kind], [single("Count", counts[kind])])
+        yield FBXNode("ObjectType", [kind], [make_node("Count", counts[kind])])
 
 
 def _set_properties(node: FBXNode, values: Mapping[str, Any]) -> FBXNode:
@@ -180,10 +180,10 @@ def _set_properties(node: FBXNode, values: Mapping[str, Any]) -> FBXNode:
     if node.name not in _HOLDERS:
         return node
     children = [_set_properties(child, values) for child in node.children]
-    return node if children == node.children else _with_children(node, children)
+    return node if children == node.children else _replace_children(node, children)
 
 
-def _with_children(node: FBXNode, children: Iterable[FBXNode]) -> FBXNode:
+def _replace_children(node: FBXNode, children: Iterable[FBXNode]) -> FBXNode:
     """Return the node with others inside. Whole numbers before these are of 64 bits."""
     values = [np.int64(value) if isinstance(value, int) else value for value in node.values]
     return FBXNode(node.name, values, list(children))

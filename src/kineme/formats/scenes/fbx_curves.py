@@ -96,7 +96,7 @@ class CurveReader:
             raise self.content.error(reason)
         if not np.isfinite(values).all():
             raise self.content.error("a curve has values that are not finite: damaged")
-        flags, details = _attributes(self.content, node, len(times))
+        flags, details = _read_attributes(self.content, node, len(times))
         kinds = int(np.bitwise_or.reduce(flags))
         # Sorted, and of keys at one time only one.
         if not self._ordered:  # as editors leave keys that were moved
@@ -116,7 +116,7 @@ class CurveReader:
         return self._times
 
 
-def _attributes(
+def _read_attributes(
     content: FileContent, node: FBXNode, n_keys: int
 ) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
     """Flags and details of each key: they are stored once for successive keys that share them."""
@@ -190,7 +190,7 @@ class Sampler:
             sampled[constant] = np.where(after, values[i + 1], values[i])[constant]
         if curve.kinds & CUBIC:
             cubic = ((flags & CUBIC) > 0) & (share > 0) & (share < 1)
-            sampled[cubic] = _bezier(curve, i[cubic], share[cubic])
+            sampled[cubic] = _evaluate_bezier(curve, i[cubic], share[cubic])
         return sampled
 
     def _are_frames(self, times: Floats) -> bool:
@@ -210,15 +210,15 @@ class Sampler:
         self._index, self._share = find_keys(times, self.at, SLACK)
 
 
-def _bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:
+def _evaluate_bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:
     """Values between the keys i and i + 1, of which so large a share has passed."""
-    right, left, right_weight, left_weight = _tangents(curve)
+    right, left, right_weight, left_weight = _compute_tangents(curve)
     # Seconds of each interval.
     step = np.diff(curve.times)[i] / TICKS
     start, stop = curve.values[i], curve.values[i + 1]
     first, last = right_weight[i], left_weight[i]
     # Time is a Bézier curve of its own, if the inner points are not at the thirds.
-    share_after = _parameter(share, first, 1 - last)
+    share_after = _solve_parameter(share, first, 1 - last)
     rest = 1 - share_after
     # Inner points of the Bézier curve: along the slopes, weight times the interval away.
     out, into = start + right[i] * first * step, stop - left[i] * last * step
@@ -226,7 +226,7 @@ def _bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:
     return np.asarray(value + share_after**3 * stop, np.float64)
 
 
-def _parameter(share: Floats, first: Floats, second: Floats) -> Floats:
+def _solve_parameter(share: Floats, first: Floats, second: Floats) -> Floats:
     """Where on the curve so large a share of the time has passed: halving, as it only grows."""
     # At the thirds time is even.
     if (np.abs(first - THIRD) < 1e-3).all() and (np.abs(second - 2 * THIRD) < 1e-3).all():
@@ -241,7 +241,7 @@ def _parameter(share: Floats, first: Floats, second: Floats) -> Floats:
     return (low + high) / 2
 
 
-def _tangents(curve: Curve) -> tuple[Floats, Floats, Floats, Floats]:
+def _compute_tangents(curve: Curve) -> tuple[Floats, Floats, Floats, Floats]:
     """(keys - 1,) each: slopes at the start and end of each interval, and their weights."""
     times, values = curve.times / TICKS, curve.values
     step = np.diff(times)
@@ -265,17 +265,17 @@ def _tangents(curve: Curve) -> tuple[Floats, Floats, Floats, Floats]:
     left = np.where(tcb[:-1], 0.0, left)  # its details are no slopes
     if automatic.any():
         # Slopes of automatic keys hold for both sides.
-        made = _automatic(times, values, flags, right_weight, left_weight)
+        made = _compute_automatic_slopes(times, values, flags, right_weight, left_weight)
         right = np.where(automatic[:-1], made[:-1], right)
         left = np.where(automatic[1:], made[1:], left)
     if tcb.any():
-        after, before = _kochanek_bartels(curve, secant)
+        after, before = _compute_tcb_slopes(curve, secant)
         right = np.where(tcb[:-1], after[:-1], right)
         left = np.where(tcb[1:], before[1:], left)
     return right, left, right_weight, left_weight
 
 
-def _automatic(
+def _compute_automatic_slopes(
     times: Floats, values: Floats, flags: NDArray[np.int64], right: Floats, left: Floats
 ) -> Floats:
     """(keys,): slopes of automatic tangents, which overshoot no neighbour if they are clamped."""
@@ -308,7 +308,7 @@ def _automatic(
     return slope
 
 
-def _kochanek_bartels(curve: Curve, secant: Floats) -> tuple[Floats, Floats]:
+def _compute_tcb_slopes(curve: Curve, secant: Floats) -> tuple[Floats, Floats]:
     """(keys,) each: slopes after and before the keys, from tension, continuity and bias."""
     with np.errstate(invalid="ignore", over="ignore"):
         tension, continuity, bias = np.nan_to_num(curve.details[:, :3].astype(np.float64)).T

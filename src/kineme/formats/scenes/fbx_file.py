@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.formats.files import FileContent
-from kineme.formats.scenes.fbx_nodes import FBXNode, claim_nodes
+from kineme.formats.scenes.fbx_nodes import FBXNode, require_node_memory
 from kineme.formats.scenes.fbx_text import parse_text
 
 MAGIC = b"Kaydara FBX Binary  \x00"
@@ -57,7 +57,7 @@ def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
         # The version is in the four bytes before the first node.
         version = int.from_bytes(content.data[START - 4 : START], "little")
         _refuse_old(content, version)
-        return version, _binary(content, head_of(version))
+        return version, _parse_binary(content, get_head_struct(version))
     root = parse_text(content)
     header = root.child("FBXHeaderExtension")
     found = header.child("FBXVersion") if header else None
@@ -76,12 +76,12 @@ def _refuse_old(content: FileContent, version: int) -> None:
         )
 
 
-def head_of(version: int) -> struct.Struct:
+def get_head_struct(version: int) -> struct.Struct:
     """Return the layout of what stands before a node's name in a binary file."""
     return struct.Struct("<QQQB" if version >= WIDE else "<IIIB")
 
 
-def _binary(content: FileContent, head: struct.Struct) -> FBXNode:
+def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
     data = content.data
     root = FBXNode("")
     # A stack instead of recursion: files may be nested deeply.
@@ -106,9 +106,9 @@ def _binary(content: FileContent, head: struct.Struct) -> FBXNode:
         if not start + size <= end <= stop:
             raise content.error("a node is longer than what it stands in: truncated or damaged")
         nodes += 1
-        claim_nodes(content, nodes)
+        require_node_memory(content, nodes)
         name = data[at:start].decode("utf-8", "replace")
-        child = FBXNode(name, _values(content, start, start + size, count), [], first, end)
+        child = FBXNode(name, _parse_values(content, start, start + size, count), [], first, end)
         node.children.append(child)
         at = start + size
         # What is left of the node are its own nodes.
@@ -117,13 +117,13 @@ def _binary(content: FileContent, head: struct.Struct) -> FBXNode:
     return root
 
 
-def _values(content: FileContent, at: int, stop: int, count: int) -> list[Any]:
+def _parse_values(content: FileContent, at: int, stop: int, count: int) -> list[Any]:
     values: list[Any] = []
     for _ in range(count):
         if at >= stop:
             raise content.error("a node has fewer values than it says: truncated or damaged")
         try:
-            value, at = _value(content.data, at)
+            value, at = _parse_value(content.data, at)
         except struct.error:
             raise content.error("breaks off within a value: the file is truncated") from None
         except KeyError:
@@ -135,7 +135,7 @@ def _values(content: FileContent, at: int, stop: int, count: int) -> list[Any]:
     return values
 
 
-def _value(data: bytes, at: int) -> tuple[Any, int]:
+def _parse_value(data: bytes, at: int) -> tuple[Any, int]:
     """Return a value, and where the next one is."""
     kind = data[at]
     at += 1
@@ -167,7 +167,7 @@ class _Array:
         raw = self.raw(content)
         size = self.count * np.dtype(self.code).itemsize
         if self.packed:
-            content.claim(size, f"an array of {self.count} numbers")
+            content.require_memory(size, f"an array of {self.count} numbers")
             try:
                 # One byte more shows that an array is longer than it says.
                 raw = zlib.decompressobj().decompress(raw, size + 1)

@@ -68,7 +68,7 @@ class FBXNode:
         return None if stored is None else stored.read(content)
 
 
-def claim_nodes(content: FileContent, count: int) -> None:
+def require_node_memory(content: FileContent, count: int) -> None:
     """ReadError where so many nodes take more memory than the file can honestly need."""
     if count % 1000 == 0:
-        content.claim(BYTES_PER_NODE * count, f"{count} nodes")
+        content.require_memory(BYTES_PER_NODE * count, f"{count} nodes")

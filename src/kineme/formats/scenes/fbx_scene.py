@@ -37,7 +37,7 @@ from kineme.formats.scenes.assembly import Inheritance, Transform, compose, deco
 from kineme.formats.scenes.characters import SceneNode, is_end
 from kineme.formats.scenes.fbx_curves import Curve, CurveReader, Sampler
 from kineme.formats.scenes.fbx_nodes import FBXNode
-from kineme.formats.units import blocks
+from kineme.formats.units import iterate_blocks
 
 BONES = frozenset({"LimbNode", "Limb", "Root", "Effector", "IKEffector", "FKEffector"})
 GEOMETRY = frozenset({"Mesh", "Camera", "CameraSwitcher", "Light", "Nurbs", "NurbsCurve", "Line"})
@@ -92,8 +92,8 @@ class FBXScene:
                 if node.values and isinstance(node.values[0], int):
                     self.objects[node.values[0]] = node
         self._reader = CurveReader(content)
-        self.settings = _properties(root.child("GlobalSettings"))
-        self._templates = _templates(root)
+        self.settings = _read_properties(root.child("GlobalSettings"))
+        self._templates = _read_templates(root)
         self._parts: dict[int, list[int]] = {}
         self._driven: dict[int, list[tuple[int, str]]] = {}
         self._driving: dict[int, list[tuple[int, str]]] = {}
@@ -164,26 +164,28 @@ class FBXScene:
             if node is None or node.name != "Model" or number in visited:
                 continue
             visited.add(number)
-            name = _plain(node.text(1))
-            properties = {**self._templates.get("Model", {}), **_properties(node)}
+            name = _strip_class(node.text(1))
+            properties = {**self._templates.get("Model", {}), **_read_properties(node)}
             here = len(found)
             found.append(Model(number, name or "joint", node.text(2), parent, properties))
             waiting += [(part, here) for part in reversed(self._parts.get(number, []))]
         return found
 
     def _takes(self, root: FBXNode) -> list[Take]:
-        spans = _spans(root)
+        spans = _read_spans(root)
         takes = []
         for number, node in self.objects.items():
             if node.name != "AnimationStack":
                 continue
-            name = _plain(node.text(1)) or "take"
+            name = _strip_class(node.text(1)) or "take"
             layers = [p for p in self._parts.get(number, ()) if self._is(p, "AnimationLayer")]
-            properties = _properties(node)
+            properties = _read_properties(node)
             span = None
             # The local span counts; the reference span replaces one that is missing.
             for kind in ("Local", "Reference"):
-                start, stop = (_number(properties, f"{kind}{end}", 0) for end in ("Start", "Stop"))
+                start, stop = (
+                    _get_number(properties, f"{kind}{end}", 0) for end in ("Start", "Stop")
+                )
                 if span is None and stop > start:
                     span = start, stop
             takes.append(Take(name, layers, *(span or spans.get(name, (0.0, 0.0)))))
@@ -252,10 +254,10 @@ class FBXScene:
 
     def setting(self, name: str, usual: float) -> float:
         """Return a number of the file's settings."""
-        return _number(self.settings, name, usual)
+        return _get_number(self.settings, name, usual)
 
     def properties(self, number: int) -> Properties:
-        return _properties(self.objects.get(number))
+        return _read_properties(self.objects.get(number))
 
 
 class Pose:
@@ -293,48 +295,51 @@ class Pose:
             return Pose(self.scene, STILL, self.sampler).transform(number)
         model = self.scene.models[number]
         properties = model.properties
-        order = _ORDERS[_choice(properties, "RotationOrder", len(_ORDERS))]
+        order = _ORDERS[_get_choice(properties, "RotationOrder", len(_ORDERS))]
         turn = self._rotation(model, order)
-        before, after = _vector(properties, "PreRotation"), _vector(properties, "PostRotation")
+        before, after = (
+            _get_vector(properties, "PreRotation"),
+            _get_vector(properties, "PostRotation"),
+        )
         if before.any():
-            turn = rot.multiply(_euler(before, "zyx"), turn)
+            turn = rot.multiply(_to_rotation(before, "zyx"), turn)
         if after.any():
-            turn = rot.multiply(turn, rot.conjugate(_euler(after, "zyx")))
+            turn = rot.multiply(turn, rot.conjugate(_to_rotation(after, "zyx")))
         scale, shift = self._values(model, SCALING, 1.0), self._values(model, TRANSLATION, 0.0)
         shift = _add_pivots(properties, shift, turn, scale)
-        inheritance = INHERITANCE[_choice(properties, "InheritType", len(INHERITANCE))]
+        inheritance = INHERITANCE[_get_choice(properties, "InheritType", len(INHERITANCE))]
         return Transform(shift, turn, scale, inheritance)
 
     def _rotation(self, model: Model, order: str) -> Floats:
         """(4,) or (frames, 4)."""
-        angles = _vector(model.properties, ROTATION)
+        angles = _get_vector(model.properties, ROTATION)
         turn: Floats | None = None  # in place of the angles, once layers were multiplied
         for value, weight, properties in self._layers(model, ROTATION, angles):
             # A weight of None replaces all layers before it.
             if weight is None:
                 angles, turn = value, None
-            elif _choice(properties, "RotationAccumulationMode", 2) == 1:
+            elif _get_choice(properties, "RotationAccumulationMode", 2) == 1:
                 # Added axis by axis, so a product is turned into angles again.
-                angles = angles if turn is None else _angles(turn, order)
+                angles = angles if turn is None else _to_angles(turn, order)
                 angles = angles * (1 - weight if _replaces(properties) else 1) + value * weight
                 turn = None
             else:
-                turn = _euler(angles, order) if turn is None else turn
-                layer = _euler(value, order)
+                turn = _to_rotation(angles, order) if turn is None else turn
+                layer = _to_rotation(value, order)
                 if _replaces(properties):
                     # What is missing from the turn so far to that of the layer.
                     layer = rot.multiply(rot.conjugate(turn), layer)
                 # The weight shortens the rotation along its arc.
                 turn = rot.multiply(turn, rot.exponential(weight * rot.logarithm(layer)))
-        return _euler(angles, order) if turn is None else turn
+        return _to_rotation(angles, order) if turn is None else turn
 
     def _values(self, model: Model, what: str, usual: float) -> Floats:
         """(3,) or (frames, 3): a property with all layers on it."""
-        result = _vector(model.properties, what, usual)
+        result = _get_vector(model.properties, what, usual)
         for value, weight, properties in self._layers(model, what, result):
             if weight is None:
                 result = value
-            elif what == SCALING and _choice(properties, "ScaleAccumulationMode", 2) == 0:
+            elif what == SCALING and _get_choice(properties, "ScaleAccumulationMode", 2) == 0:
                 rest = 1 - weight if _replaces(properties) else 1
                 # Multiplied scales: shares are exponents.
                 result = np.abs(result) ** rest * np.abs(value) ** weight
@@ -351,10 +356,10 @@ class Pose:
             table = self.layers[layer]
             if layer == base:
                 yield self._sample_curve(part, usual), None, table
-            elif not _number(table, "Mute", 0):
+            elif not _get_number(table, "Mute", 0):
                 # A layer adds nothing where it has no curve: 0, or a scale of 1.
                 rest = np.full(3, 1.0 if what == SCALING else 0.0)
-                overrides = _choice(table, "BlendMode", 3) == _OVERRIDE
+                overrides = _get_choice(table, "BlendMode", 3) == _OVERRIDE
                 yield (
                     self._sample_curve(part, rest),
                     None if overrides else self._weight(layer),
@@ -369,7 +374,7 @@ class Pose:
                 # Weights are per cent.
                 sampled = np.clip(np.asarray(self.sampler.values(curve)) / 100, 0, 1)
                 return sampled[:, None] if sampled.ndim else float(sampled)
-        return min(max(_number(table, "Weight", 100.0) / 100, 0.0), 1.0)
+        return min(max(_get_number(table, "Weight", 100.0) / 100, 0.0), 1.0)
 
     def _sample_curve(self, part: int, usual: Floats) -> Floats:
         """(3,) or (frames, 3): what a curve node has for the three axes."""
@@ -378,7 +383,9 @@ class Pose:
         for letter, rest in zip("XYZ", usual.tolist(), strict=True):
             curve = curves.get(f"d|{letter}")
             value = (
-                _number(table, f"d|{letter}", rest) if curve is None else self.sampler.values(curve)
+                _get_number(table, f"d|{letter}", rest)
+                if curve is None
+                else self.sampler.values(curve)
             )
             axes.append(np.asarray(value, np.float64))
         return np.stack(np.broadcast_arrays(*axes)).T  # contiguous per axis
@@ -392,31 +399,33 @@ def invert_transform(
     All are (frames, 3), but ``turns`` (frames, 4); the scale (3,) is the model's own.
     """
     properties = model.properties
-    order = _ORDERS[_choice(properties, "RotationOrder", len(_ORDERS))]
-    before, after = (_euler(_vector(properties, f"{at}Rotation"), "zyx") for at in ("Pre", "Post"))
+    order = _ORDERS[_get_choice(properties, "RotationOrder", len(_ORDERS))]
+    before, after = (
+        _to_rotation(_get_vector(properties, f"{at}Rotation"), "zyx") for at in ("Pre", "Post")
+    )
     inner = rot.multiply(rot.multiply(rot.conjugate(before), turns), after)
     # What pivots add does not depend on the translation, so it is what they add to none.
-    return shifts - _add_pivots(properties, np.zeros(3), turns, scale), _angles(inner, order)
+    return shifts - _add_pivots(properties, np.zeros(3), turns, scale), _to_angles(inner, order)
 
 
 def _replaces(properties: Properties) -> bool:
     """Whether a layer takes the place of what is below it, to its share, and is not added."""
-    return _choice(properties, "BlendMode", 3) == _PASS_THROUGH
+    return _get_choice(properties, "BlendMode", 3) == _PASS_THROUGH
 
 
-def _euler(angles: Floats, axes: str) -> Floats:
+def _to_rotation(angles: Floats, axes: str) -> Floats:
     """Return rotation (..., 4) by angles about x, y and z in degrees, multiplied in this order."""
     order = ["xyz".index(axis) for axis in axes]
     if angles.ndim == 1:
         # The angles in the order of the axes in the product.
         return rot.from_euler(np.radians(angles[None, order]), axes).reshape(4)
     turned = np.empty((4, len(angles)))
-    for span in blocks(len(angles)):
+    for span in iterate_blocks(len(angles)):
         turned[:, span] = rot.from_euler(np.radians(angles[span].T[order]).T, axes).T
     return turned.T
 
 
-def _angles(turn: Floats, axes: str) -> Floats:
+def _to_angles(turn: Floats, axes: str) -> Floats:
     """Angles about x, y and z in degrees whose rotations, multiplied in this order, are these."""
     from scipy.spatial.transform import Rotation  # heavy, and seldom needed
 
@@ -427,10 +436,13 @@ def _angles(turn: Floats, axes: str) -> Floats:
 
 def _add_pivots(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
     """Return the translation with what pivots and their offsets add to it."""
-    shift = shift + _vector(properties, "RotationOffset")
-    pivot, center = _vector(properties, "RotationPivot"), _vector(properties, "ScalingPivot")
+    shift = shift + _get_vector(properties, "RotationOffset")
+    pivot, center = (
+        _get_vector(properties, "RotationPivot"),
+        _get_vector(properties, "ScalingPivot"),
+    )
     # Everything that the rotation carries, as seen from its pivot.
-    carried = _vector(properties, "ScalingOffset") - pivot
+    carried = _get_vector(properties, "ScalingOffset") - pivot
     if center.any():
         carried = carried + center - scale * center
     if pivot.any() or carried.any():
@@ -438,17 +450,17 @@ def _add_pivots(properties: Properties, shift: Floats, turn: Floats, scale: Floa
     return np.asarray(shift, np.float64)
 
 
-def _templates(root: FBXNode) -> dict[str, Properties]:
+def _read_templates(root: FBXNode) -> dict[str, Properties]:
     """Return what the objects of a class have where they do not say."""
     found: dict[str, Properties] = {}
     for group in root.all("Definitions"):
         for kind in group.all("ObjectType"):
             for template in kind.all("PropertyTemplate"):
-                found.setdefault(kind.text(0), _properties(template))
+                found.setdefault(kind.text(0), _read_properties(template))
     return found
 
 
-def _spans(root: FBXNode) -> dict[str, tuple[float, float]]:
+def _read_spans(root: FBXNode) -> dict[str, tuple[float, float]]:
     """Return the spans of takes by their names, as programs write them for older ones."""
     found = {}
     for group in root.all("Takes"):
@@ -460,7 +472,7 @@ def _spans(root: FBXNode) -> dict[str, tuple[float, float]]:
     return found
 
 
-def _properties(node: FBXNode | None) -> Properties:
+def _read_properties(node: FBXNode | None) -> Properties:
     """Return the values of an object's properties, by their names."""
     table = node.child("Properties70") if node else None
     if table is None:
@@ -469,7 +481,7 @@ def _properties(node: FBXNode | None) -> Properties:
     return {entry.text(0): entry.values[4:] for entry in table.all("P")}
 
 
-def _number(properties: Properties, name: str, usual: float) -> float:
+def _get_number(properties: Properties, name: str, usual: float) -> float:
     values = properties.get(name) or [usual]
     value = values[0]
     if not isinstance(value, int | float) or not isfinite(value):
@@ -477,19 +489,19 @@ def _number(properties: Properties, name: str, usual: float) -> float:
     return float(value)
 
 
-def _choice(properties: Properties, name: str, count: int) -> int:
+def _get_choice(properties: Properties, name: str, count: int) -> int:
     """One of so many values, the first where it is none of them."""
-    value = _number(properties, name, 0)
+    value = _get_number(properties, name, 0)
     return int(value) if 0 <= value < count else 0
 
 
-def _vector(properties: Properties, name: str, usual: float = 0.0) -> Floats:
+def _get_vector(properties: Properties, name: str, usual: float = 0.0) -> Floats:
     values = properties.get(name) or []
     numbers = [v for v in values[:3] if isinstance(v, int | float) and abs(v) < _LARGEST]
     return np.array(numbers, np.float64) if len(numbers) == 3 else np.full(3, usual)
 
 
-def _plain(name: str) -> str:
+def _strip_class(name: str) -> str:
     """An object's name without its class, which binary files have behind it, texts before it."""
     # Binary files write `name\0\1class`, texts `class::name`.
     name = name.partition("\0\1")[0]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent
-from kineme.formats.scenes.fbx_nodes import FBXNode, claim_nodes
+from kineme.formats.scenes.fbx_nodes import FBXNode, require_node_memory
 
 TEXT = re.compile(rb"^(\xef\xbb\xbf)?\s*;\s*FBX\s+\d|^FBXHeaderExtension\s*:", re.MULTILINE)
 
@@ -66,7 +66,7 @@ class _Text:
             self.node = FBXNode(value.decode("utf-8", "replace"))
             self.open_nodes[-1].children.append(self.node)
             self.count += 1
-            claim_nodes(self.content, self.count)
+            require_node_memory(self.content, self.count)
         elif value == b"}" and kind == "mark":
             if len(self.open_nodes) == 1:
                 raise self._error("a '}' too many", at)
@@ -83,7 +83,7 @@ class _Text:
         elif kind == "text":
             self.node.values.append(_unquote(value))
         elif kind == "word":
-            self.node.values.append(_word(value))
+            self.node.values.append(_parse_word(value))
 
     def _array(self, count: bytes) -> _Array:
         """Return the array that begins here, which is skipped."""
@@ -102,7 +102,7 @@ def _unquote(quoted: bytes) -> str:
     return raw.decode("utf-8", "replace")
 
 
-def _word(word: bytes) -> int | float | str:
+def _parse_word(word: bytes) -> int | float | str:
     for number in (int, float):
         try:
             # Cut to some digits: a text of millions of digits takes long to convert.

@@ -25,10 +25,10 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.files import atomic_write
 from kineme._version import __version__
-from kineme.formats.files import spell_names
+from kineme.formats.files import clean_names
 from kineme.formats.scenes.assembly import Transform, compose
 from kineme.formats.scenes.fbx_curves import CUSTOM, LINEAR, RATES, TICKS
-from kineme.formats.scenes.fbx_file import MAGIC, head_of
+from kineme.formats.scenes.fbx_file import MAGIC, get_head_struct
 from kineme.formats.scenes.fbx_nodes import FBXNode
 from kineme.formats.scenes.fbx_scene import INHERITANCE, ROTATION, SCALING, TRANSLATION
 from kineme.formats.scenes.gltf_writer import check_animations
@@ -92,24 +92,24 @@ class TakeWriter:
         kind = "Null" if node < rig.above else "LimbNode"
         flags = "Null" if node < rig.above else "Skeleton"
         attribute = self._add(
-            "NodeAttribute", name, "NodeAttribute", kind, single("TypeFlags", flags)
+            "NodeAttribute", name, "NodeAttribute", kind, make_node("TypeFlags", flags)
         )
         model = self._add(
             "Model",
             name,
             "Model",
             kind,
-            single("Version", 232),
-            _properties(
+            make_node("Version", 232),
+            _make_properties(
                 ("RotationActive", "bool", "", 1),
                 ("InheritType", "enum", "", INHERITANCE.index(rest.inheritance)),
-                ("PreRotation", "Vector3D", "Vector", *_angles(rest.rotation)),
+                ("PreRotation", "Vector3D", "Vector", *_to_angles(rest.rotation)),
                 (TRANSLATION, TRANSLATION, "", *rest.translation.tolist()),
                 (ROTATION, ROTATION, "", 0.0, 0.0, 0.0),
                 (SCALING, SCALING, "", *rest.scale.tolist()),
             ),
-            single("Shading", True),
-            single("Culling", "CullingOff"),
+            make_node("Shading", True),
+            make_node("Culling", "CullingOff"),
         )
         self._link(attribute, model)
         parent = rig.parents[node]
@@ -122,9 +122,9 @@ class TakeWriter:
             FBXNode(
                 "PoseNode",
                 children=[
-                    single("Node", np.int64(model)),
+                    make_node("Node", np.int64(model)),
                     # Columns are stored one after another.
-                    single("Matrix", np.ascontiguousarray(matrix.T).ravel()),
+                    make_node("Matrix", np.ascontiguousarray(matrix.T).ravel()),
                 ],
             )
             for model, matrix in zip(self.models, compose(*self.rig.world), strict=True)
@@ -141,7 +141,7 @@ class TakeWriter:
             for kind in ("Local", "Reference")
             for end in ("Start", "Stop")
         ]
-        stack = self._add("AnimationStack", name, "AnimStack", "", _properties(*span))
+        stack = self._add("AnimationStack", name, "AnimStack", "", _make_properties(*span))
         layer = self._add("AnimationLayer", name, "AnimLayer", "")
         self._link(layer, stack)
         shifts, turns = pose_rig(motion, rig)
@@ -172,7 +172,7 @@ class TakeWriter:
             (f"d|{axis}", "Number", "", x)
             for axis, x in zip("XYZ", values[0].tolist(), strict=True)
         ]
-        node = self._add("AnimationCurveNode", short, "AnimCurveNode", "", _properties(*start))
+        node = self._add("AnimationCurveNode", short, "AnimCurveNode", "", _make_properties(*start))
         self._link(node, layer)
         self._link(node, self.models[model], what)
         for axis, column in zip("XYZ", values.T.astype("<f4"), strict=True):
@@ -183,13 +183,13 @@ class TakeWriter:
                 "",
                 "AnimCurve",
                 "",
-                single("Default", float(column[0])),
-                single("KeyVer", _KEY_VERSION),
-                single("KeyTime", times[:n]),
-                single("KeyValueFloat", column[:n]),
-                single("KeyAttrFlags", np.array([LINEAR], "<i4")),
-                single("KeyAttrDataFloat", np.zeros(4, "<f4")),
-                single("KeyAttrRefCount", np.array([n], "<i4")),
+                make_node("Default", float(column[0])),
+                make_node("KeyVer", _KEY_VERSION),
+                make_node("KeyTime", times[:n]),
+                make_node("KeyValueFloat", column[:n]),
+                make_node("KeyAttrFlags", np.array([LINEAR], "<i4")),
+                make_node("KeyAttrDataFloat", np.zeros(4, "<f4")),
+                make_node("KeyAttrRefCount", np.array([n], "<i4")),
             )
             self._link(curve, node, f"d|{axis}")
 
@@ -212,20 +212,20 @@ class _Scene(TakeWriter):
         rig = replace(rig, translations=rig.translations / CENTIMETRE, unit=CENTIMETRE)
         super().__init__(rig, motion.fps, count(1_000_000))
         above = [*rig.names[: rig.above]]
-        names = spell_names(path, [*above, *motion.skeleton.names], str.strip)
+        names = clean_names(path, [*above, *motion.skeleton.names], str.strip)
         for node, name in enumerate(names):
             rest = Transform(rig.translations[node], rig.rotations[node], rig.scales[node])
             self.models.append(self._add_model(node, name, rest))
         entries = self._bind_pose()
-        head = [single("Type", "BindPose"), single("Version", 100)]
-        head.append(single("NbPoseNodes", len(entries)))
+        head = [make_node("Type", "BindPose"), make_node("Version", 100)]
+        head.append(make_node("NbPoseNodes", len(entries)))
         self._add("Pose", "rest", "Pose", "BindPose", *head, *entries)
 
     def file(self) -> list[FBXNode]:
         """Return the nodes of the file."""
         kinds = [node.name for node in self.objects]
         counted = [
-            FBXNode("ObjectType", [kind], [single("Count", kinds.count(kind))])
+            FBXNode("ObjectType", [kind], [make_node("Count", kinds.count(kind))])
             for kind in dict.fromkeys(kinds)
         ]
         creator = f"kineme {__version__}"
@@ -233,19 +233,19 @@ class _Scene(TakeWriter):
             FBXNode(
                 "FBXHeaderExtension",
                 children=[
-                    single("FBXHeaderVersion", 1003),
-                    single("FBXVersion", VERSION),
-                    single("Creator", creator),
+                    make_node("FBXHeaderVersion", 1003),
+                    make_node("FBXVersion", VERSION),
+                    make_node("Creator", creator),
                 ],
             ),
-            single("FileId", _FILE_ID),
-            single("CreationTime", _CREATED),
-            single("Creator", creator),
+            make_node("FileId", _FILE_ID),
+            make_node("CreationTime", _CREATED),
+            make_node("Creator", creator),
             FBXNode(
                 "GlobalSettings",
                 children=[
-                    single("Version", 1000),
-                    _properties(
+                    make_node("Version", 1000),
+                    _make_properties(
                         *((f"{name}Axis", "int", "Integer", axis) for name, axis in _AXES),
                         *((f"{name}AxisSign", "int", "Integer", 1) for name, _ in _AXES),
                         ("UnitScaleFactor", "double", "Number", 1.0),
@@ -257,16 +257,16 @@ class _Scene(TakeWriter):
             FBXNode(
                 "Documents",
                 children=[
-                    single("Count", 1),
+                    make_node("Count", 1),
                     FBXNode(
-                        "Document", [np.int64(1), "", "Scene"], [single("RootNode", np.int64(0))]
+                        "Document", [np.int64(1), "", "Scene"], [make_node("RootNode", np.int64(0))]
                     ),
                 ],
             ),
             FBXNode("References"),
             FBXNode(
                 "Definitions",
-                children=[single("Version", 100), single("Count", len(kinds)), *counted],
+                children=[make_node("Version", 100), make_node("Count", len(kinds)), *counted],
             ),
             FBXNode("Objects", children=self.objects),
             FBXNode("Connections", children=self.links),
@@ -276,12 +276,12 @@ class _Scene(TakeWriter):
 _AXES = (("Coord", 0), ("Up", 1), ("Front", 2))
 
 
-def single(name: str, value: Any) -> FBXNode:
+def make_node(name: str, value: Any) -> FBXNode:
     """Return a node with one value."""
     return FBXNode(name, [value])
 
 
-def _properties(*entries: Sequence[Any]) -> FBXNode:
+def _make_properties(*entries: Sequence[Any]) -> FBXNode:
     """Return a table of properties: name, type, label, values of each."""
     animated = (TRANSLATION, ROTATION, SCALING, "Number")
     return FBXNode(
@@ -293,7 +293,7 @@ def _properties(*entries: Sequence[Any]) -> FBXNode:
     )
 
 
-def _angles(rotation: Floats) -> list[float]:
+def _to_angles(rotation: Floats) -> list[float]:
     """Return the angles about x, y and z in degrees, the first applied first."""
     angles: list[float] = np.degrees(rot.to_euler_zyx(rotation))[::-1].tolist()
     return angles
@@ -305,7 +305,7 @@ def encode_fbx(nodes: Iterable[FBXNode], start: bytes, footer: bytes, source: by
     The last four bytes of ``start`` are the version; ``footer`` depends on the time of creation.
     """
     data, version = bytearray(start), start[-4:]
-    head = head_of(int.from_bytes(version, "little"))
+    head = get_head_struct(int.from_bytes(version, "little"))
     for node in nodes:
         _write_node(data, node, head, source)
     data += bytes(head.size) + footer + bytes(4)

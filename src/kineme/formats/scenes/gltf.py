@@ -29,22 +29,22 @@ from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import (
     Transform,
     assemble,
-    claim_frames,
     decompose,
+    require_frame_memory,
 )
 from kineme.formats.scenes.characters import (
     SceneNode,
-    carriers,
-    character_of,
     choose_take,
+    find_character,
+    find_moving_takes,
     is_end,
-    lively_takes,
+    list_ancestors,
 )
 from kineme.formats.scenes.gltf_copy import copy_animations
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
 from kineme.formats.scenes.gltf_writer import EXTRAS, write_animations, write_gltf
 from kineme.formats.scenes.sampling import find_keys
-from kineme.formats.units import up_rotation
+from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 
 USUAL_RATE = 30.0
@@ -75,7 +75,7 @@ class Keys(NamedTuple):
 def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of a character in a glTF file."""
     file = GLTFFile(content)
-    order, parents = _tree(file)
+    order, parents = _order_nodes(file)
     objects = [file.tree.nodes[number] for number in order]
     bones = {joint for skin in file.tree.skins for joint in skin.joints}
     moved = [
@@ -87,7 +87,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         }
         for animation in file.tree.animations
     ]
-    animated = lively_takes(moved, bones)
+    animated = find_moving_takes(moved, bones)
     names = unique(animation.name or "animation" for animation in file.tree.animations)
     number, notes = choose_take(content, names, animated, options.take)
     nodes = [
@@ -101,37 +101,39 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         )
         for j, each in enumerate(objects)
     ]
-    character = character_of(content, nodes, options.person)
-    keys = _keys(
+    character = find_character(content, nodes, options.person)
+    keys = _read_keys(
         file, file.tree.animations[number], _find_needed_nodes(nodes, character.joints, order)
     )
-    fps, rated = _rate(file, keys, options)
-    start, n_frames = _span(keys, fps)
-    claim_frames(content, len(character.joints), n_frames, beside=file.beside)
+    fps, rated = _find_rate(file, keys, options)
+    start, n_frames = _find_span(keys, fps)
+    require_frame_memory(content, len(character.joints), n_frames, beside=file.beside)
     at = start + np.arange(n_frames) / fps
 
     def transform(j: int) -> Transform:
-        return _transform(objects[j], {what: keys.get((order[j], what)) for what in _WIDTHS}, at)
+        return _sample_transform(
+            objects[j], {what: keys.get((order[j], what)) for what in _WIDTHS}, at
+        )
 
     return assemble(
         content,
         nodes,
         character.joints,
         transform,
-        lambda j: _rest(objects[j]),
+        lambda j: _read_rest(objects[j]),
         len(at),
         fps,
         unit=options.unit or 1.0,
-        turn=up_rotation(options.up or "y"),
+        turn=make_up_rotation(options.up or "y"),
         provenance=content.provenance("glTF", [*notes, *character.notes, *rated])
         .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
         numbers=order,
-        binds=_binds(file, order, parents),
+        binds=_read_binds(file, order, parents),
     )
 
 
-def _binds(file: GLTFFile, order: Sequence[int], parents: Sequence[int]) -> dict[int, Floats]:
+def _read_binds(file: GLTFFile, order: Sequence[int], parents: Sequence[int]) -> dict[int, Floats]:
     """Return where skins have nodes, by their places in the tree, as Blender understands it."""
     places = {number: place for place, number in enumerate(order)}
     found: dict[int, Floats] = {}
@@ -159,7 +161,7 @@ def _is_marked(each: SceneObject) -> bool:
     return isinstance(each.extras, dict) and each.extras.get("end_site") is True
 
 
-def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
+def _order_nodes(file: GLTFFile) -> tuple[list[int], list[int]]:
     """Return numbers of the nodes, parents first, and the place of each one's parent among them."""
     nodes = file.tree.nodes
     carried = {child for node in nodes for child in node.children}
@@ -182,10 +184,12 @@ def _tree(file: GLTFFile) -> tuple[list[int], list[int]]:
 
 def _find_needed_nodes(nodes: list[SceneNode], joints: list[int], order: list[int]) -> set[int]:
     """Return the numbers of the nodes that a character consists of, and of those that carry it."""
-    return {order[j] for j in (*joints, *carriers(nodes, joints[0]))}
+    return {order[j] for j in (*joints, *list_ancestors(nodes, joints[0]))}
 
 
-def _keys(file: GLTFFile, animation: Animation, nodes: set[int]) -> dict[tuple[int, str], Keys]:
+def _read_keys(
+    file: GLTFFile, animation: Animation, nodes: set[int]
+) -> dict[tuple[int, str], Keys]:
     """Return the keys of each node's properties."""
     found: dict[tuple[int, str], Keys] = {}
     times: dict[int, Floats] = {}
@@ -208,7 +212,7 @@ def _keys(file: GLTFFile, animation: Animation, nodes: set[int]) -> dict[tuple[i
     return found
 
 
-def _rate(
+def _find_rate(
     file: GLTFFile, keys: dict[tuple[int, str], Keys], options: ReadOptions
 ) -> tuple[float, list[str]]:
     """Frames per second, and what to say of them."""
@@ -233,16 +237,16 @@ def _rate(
     return USUAL_RATE, [Note(remark, "warning")]
 
 
-def _span(keys: dict[tuple[int, str], Keys], fps: float) -> tuple[float, int]:
+def _find_span(keys: dict[tuple[int, str], Keys], fps: float) -> tuple[float, int]:
     """Return the second of the first key, and how many frames there are up to the last one."""
     start = min((float(each.times[0]) for each in keys.values()), default=0.0)
     stop = max((float(each.times[-1]) for each in keys.values()), default=0.0)
     return start, int(min((stop - start) * fps + 1 + _ROUNDED, _MOST_FRAMES))
 
 
-def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> Transform:
+def _sample_transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> Transform:
     """Return a node's transform at these seconds."""
-    rest = dict(zip(_WIDTHS, _rest(node)[:3], strict=True))
+    rest = dict(zip(_WIDTHS, _read_rest(node)[:3], strict=True))
     found = {
         what: rest[what] if track is None else _sample_channel(track, at, turns=what == ROTATION)
         for what, track in keys.items()
@@ -250,21 +254,21 @@ def _transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> T
     return Transform(found[TRANSLATION], found[ROTATION], found[SCALE])
 
 
-def _rest(node: SceneObject) -> Transform:
+def _read_rest(node: SceneObject) -> Transform:
     """Return the transform of a node without an animation."""
     if node.matrix is not None and len(node.matrix) == 16:
         # Columns are stored one after another.
         return decompose(np.array(node.matrix).reshape(4, 4).T)
-    turn = np.roll(_numbers(node.rotation, [0.0, 0.0, 0.0, 1.0]), 1)
+    turn = np.roll(_to_array(node.rotation, [0.0, 0.0, 0.0, 1.0]), 1)
     norm = np.linalg.norm(turn)
     return Transform(
-        _numbers(node.translation, [0.0] * 3),
+        _to_array(node.translation, [0.0] * 3),
         turn / norm if norm > 0 else rot.IDENTITY,
-        _numbers(node.scale, [1.0] * 3),
+        _to_array(node.scale, [1.0] * 3),
     )
 
 
-def _numbers(values: list[float] | None, usual: list[float]) -> Floats:
+def _to_array(values: list[float] | None, usual: list[float]) -> Floats:
     fits = values is not None and len(values) == len(usual)
     return np.array(values if fits else usual, np.float64)
 
@@ -294,7 +298,7 @@ def _sample_channel(keys: Keys, at: Floats, *, turns: bool) -> Floats:
             step = np.diff(times)[index]
             # Out of the key before, into the key after.
             out, into = tangents[index, 2], tangents[index + 1, 0]
-            found = _hermite(start, stop, out, into, share[:, None], step[:, None])
+            found = _evaluate_hermite(start, stop, out, into, share[:, None], step[:, None])
         elif turns:
             found = rot.slerp(start, stop, share[:, None])
         else:
@@ -302,7 +306,7 @@ def _sample_channel(keys: Keys, at: Floats, *, turns: bool) -> Floats:
     return rot.normalize(found) if turns else found
 
 
-def _hermite(
+def _evaluate_hermite(
     start: Floats, stop: Floats, out: Floats, into: Floats, share: Floats, step: Floats
 ) -> Floats:
     """Cubic values between keys with slopes at both ends."""

@@ -25,8 +25,8 @@ from kineme.formats.scenes.gltf_file import GLTFFile
 from kineme.formats.scenes.gltf_writer import (
     Animator,
     check_copy,
+    describe_transform,
     save_gltf,
-    transform_of,
 )
 from kineme.recordings import Motion
 from kineme.recordings.posing import get_rig
@@ -53,10 +53,10 @@ def copy_animations(motions: Mapping[str, Motion], source: Path, path: Path) -> 
     _drop_animations(copy, file)
     if numbers[rig.above] < 0:
         copy.numbers = [_add_root(copy, file, rig), *numbers[rig.above + 1 :]]
-    _take_images(copy, file)
+    _embed_images(copy, file)
     for name, motion in motions.items():
         copy.animate(name, motion)
-    _close_gaps(copy)
+    _close_number_gaps(copy)
     save_gltf(tree, bytes(copy.data), path)
 
 
@@ -93,7 +93,7 @@ def _drop_animations(copy: Animator, file: GLTFFile) -> None:
     tree["animations"] = []
 
 
-def _close_gaps(copy: Animator) -> None:
+def _close_number_gaps(copy: Animator) -> None:
     """Drop the numbers that no animation took, or leave something small at those in between."""
     view = {"buffer": 0, "byteLength": 4}
     accessor = {"componentType": 5126, "count": 1, "type": "SCALAR"}
@@ -120,7 +120,9 @@ def _add_root(copy: Animator, file: GLTFFile, rig: Rig) -> int:
     for scene in tree.get("scenes", ()) if not at else ():
         if {*scene.get("nodes", ())} & {*children}:
             scene["nodes"] = [*(each for each in scene["nodes"] if each not in children), new]
-    tree["nodes"].append({"name": rig.names[at], **transform_of(rig, at), "children": children})
+    tree["nodes"].append(
+        {"name": rig.names[at], **describe_transform(rig, at), "children": children}
+    )
     bind = np.linalg.inv(compose(*(part[at : at + 1] for part in rig.world)))[0]
     bind[3] = [0.0, 0.0, 0.0, 1.0]
     for skin in tree.get("skins", ()):
@@ -134,7 +136,7 @@ def _add_root(copy: Animator, file: GLTFFile, rig: Rig) -> int:
     return new
 
 
-def _take_images(copy: Animator, file: GLTFFile) -> None:
+def _embed_images(copy: Animator, file: GLTFFile) -> None:
     """Put images that are files beside the source into the copy, which may lie elsewhere."""
     for image in copy.tree.get("images", ()):
         place = image.get("uri", "data:")

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.json import decode_json
-from kineme.formats.files import FileContent, find_beside, load
+from kineme.formats.files import FileContent, find_sibling, load
 
 Part = TypeVar("Part")
 
@@ -168,7 +168,7 @@ class GLTFFile:
         self.content = content
         text, self._chunk = content.data, b""
         if text.startswith(MAGIC):
-            text, self._chunk = _chunks(content)
+            text, self._chunk = _split_chunks(content)
         version = str(decode_json(text, content.path, Head).asset.version)
         if not version.startswith("2"):
             raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
@@ -195,7 +195,9 @@ class GLTFFile:
             raise self.content.error(f"accessor {number} has no elements: damaged")
         shape = accessor.count, width
         if accessor.buffer_view is None:
-            self.content.claim(8 * accessor.count * width, f"an accessor of {accessor.count}")
+            self.content.require_memory(
+                8 * accessor.count * width, f"an accessor of {accessor.count}"
+            )
             stored = np.zeros(shape, code)
         else:
             place = accessor.buffer_view, accessor.byte_offset
@@ -260,12 +262,12 @@ class GLTFFile:
         # Only files in the folder of the glTF or below: others are none of its business.
         if Path(name).is_absolute() or ".." in Path(name).parts or ":" in name:
             raise self.content.error(f"has a buffer in {name!r:.60}: put that file beside it")
-        data = load(find_beside(self.content, name)).data
+        data = load(find_sibling(self.content, name)).data
         self.beside += len(data)
         return data
 
 
-def _chunks(content: FileContent) -> tuple[bytes, bytes]:
+def _split_chunks(content: FileContent) -> tuple[bytes, bytes]:
     """Return the JSON and the bytes of a GLB."""
     data = content.data
     if len(data) < HEADER.size:

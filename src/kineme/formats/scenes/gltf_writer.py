@@ -30,7 +30,7 @@ from kineme._util.arrays import Floats
 from kineme._util.files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
-from kineme.formats.files import rotations_of, spell_names
+from kineme.formats.files import clean_names, require_rotations
 from kineme.formats.gaps import warn_of_gaps
 from kineme.formats.scenes.assembly import compose
 from kineme.formats.scenes.gltf_file import BYTES, CHUNK, HEADER, JSON, MAGIC
@@ -77,8 +77,10 @@ def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a g
     """
     first = next(iter(motions.values()))
     for motion in motions.values():
-        rotations_of(motion, path, what)
-        if motion.skeleton is not first.skeleton and not _same(motion.skeleton, first.skeleton):
+        require_rotations(motion, path, what)
+        if motion.skeleton is not first.skeleton and not _is_same_skeleton(
+            motion.skeleton, first.skeleton
+        ):
             raise WriteError(path, "its animations are of different skeletons: write several files")
     warn_of_gaps(motions.values(), path)
     return first
@@ -91,11 +93,11 @@ def check_copy(motions: Mapping[str, Motion], source: Path, path: Path) -> Skele
     """
     skeleton = check_animations(motions, path, f"a copy of {source.name}").skeleton
     if skeleton.rig is None or not skeleton.rig.numbers:
-        raise refuse_uneven(source, path)
+        raise make_uneven_error(source, path)
     return skeleton
 
 
-def refuse_uneven(source: Path, path: Path) -> WriteError:
+def make_uneven_error(source: Path, path: Path) -> WriteError:
     """Return the error for bones whose rest no rig can have."""
     return WriteError(path, f"the bones of {source.name} are mirrored or scaled unevenly at rest")
 
@@ -109,10 +111,10 @@ def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
         buffer["uri"] = f"data:application/octet-stream;base64,{stored}"
     text = json.dumps({**tree, "buffers": [buffer]}, ensure_ascii=False, separators=(",", ":"))
     with atomic_write(path) as draft:
-        draft.write_bytes(_glb(text.encode(), data) if binary else text.encode())
+        draft.write_bytes(_encode_glb(text.encode(), data) if binary else text.encode())
 
 
-def _same(one: Skeleton, other: Skeleton) -> bool:
+def _is_same_skeleton(one: Skeleton, other: Skeleton) -> bool:
     if one.names != other.names or one.parents != other.parents:
         return False
     if one.rig is None or other.rig is None or not one.rig.numbers:
@@ -166,7 +168,7 @@ class Animator:
                 add(j, "translation", shifts[: 1 if still[j] < limit[j] else n, j])
             if j not in skeleton.end_sites:
                 # The format has w last.
-                add(j, "rotation", np.roll(_steady(turns[:, j]), -1, axis=1))
+                add(j, "rotation", np.roll(_align_signs(turns[:, j]), -1, axis=1))
         self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
 
     def accessor(
@@ -182,7 +184,7 @@ class Animator:
         # Accessors must begin at multiples of four bytes.
         self.data += bytes(-len(self.data) % 4)
         accessor: dict[str, Any] = {
-            "bufferView": _put(self.tree["bufferViews"], view, self.free_views),
+            "bufferView": _store_part(self.tree["bufferViews"], view, self.free_views),
             "componentType": kind,
             "count": len(stored),
             "type": _TYPES[stored.shape[1]],
@@ -190,7 +192,7 @@ class Animator:
         # The format demands the extent of times and positions.
         if bounds:
             accessor |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
-        return _put(self.tree["accessors"], accessor, self.free_accessors)
+        return _store_part(self.tree["accessors"], accessor, self.free_accessors)
 
 
 class _Writer(Animator):
@@ -225,10 +227,10 @@ class _Writer(Animator):
         rig, skeleton = self.rig, self.skeleton
         order = [*range(rig.above, len(rig.names)), *range(rig.above)]
         numbers = {node: number for number, node in enumerate(order)}
-        names = spell_names(path, [*skeleton.names, *rig.names[: rig.above]], str.strip)
+        names = clean_names(path, [*skeleton.names, *rig.names[: rig.above]], str.strip)
         nodes: list[dict[str, Any]] = [{"name": name} for name in names]
         for number, node in enumerate(order):
-            nodes[number] |= transform_of(rig, node)
+            nodes[number] |= describe_transform(rig, node)
             if number in skeleton.end_sites:
                 nodes[number]["extras"] = {"end_site": True}
         for node, parent in enumerate(rig.parents):
@@ -243,7 +245,7 @@ class _Writer(Animator):
         """Bones to look at, bound to the joints where they are at rest."""
         skeleton, rig = self.skeleton, self.rig
         places, turns, sizes = (part[rig.above :] for part in rig.world)
-        vertices, faces, joints = _bones(skeleton, places)
+        vertices, faces, joints = _build_bone_mesh(skeleton, places)
         rest = compose(places, turns, sizes)
         binds = rest if rig.binds is None else rig.binds
         # Each vertex hangs on one joint, so it goes to where the skin has that joint.
@@ -281,7 +283,7 @@ class _Writer(Animator):
             self.tree["skins"][0]["skeleton"] = skeleton.n_joints + max(rig.above, 1) - 1
 
 
-def _put(parts: list[Any], part: Any, free: list[int]) -> int:
+def _store_part(parts: list[Any], part: Any, free: list[int]) -> int:
     """Keep a part in a list of the JSON, at a number that is free; its number."""
     if free:
         number = free.pop(0)
@@ -291,7 +293,7 @@ def _put(parts: list[Any], part: Any, free: list[int]) -> int:
     return len(parts) - 1
 
 
-def transform_of(rig: Rig, node: int) -> dict[str, Any]:
+def describe_transform(rig: Rig, node: int) -> dict[str, Any]:
     """Return what the JSON says of a node at rest; nothing of what is as usual."""
     parts = {
         "translation": (rig.translations[node], np.zeros(3)),
@@ -301,7 +303,7 @@ def transform_of(rig: Rig, node: int) -> dict[str, Any]:
     return {what: part.tolist() for what, (part, usual) in parts.items() if (part != usual).any()}
 
 
-def _steady(turns: Floats) -> Floats:
+def _align_signs(turns: Floats) -> Floats:
     """Rotations with the signs that keep successive quaternions near each other."""
     # A negative product: the next quaternion is nearer with its sign turned.
     flips = np.einsum("fc,fc->f", turns[1:], turns[:-1]) < 0
@@ -310,7 +312,7 @@ def _steady(turns: Floats) -> Floats:
     return np.asarray(turns * signs[:, None], np.float64)
 
 
-def _bones(
+def _build_bone_mesh(
     skeleton: Skeleton, places: Floats
 ) -> tuple[Floats, NDArray[np.int64], NDArray[np.int64]]:
     """Vertices (vertices, 3), faces (faces, 3) and the joint that each vertex hangs on."""
@@ -349,7 +351,7 @@ def _bones(
     return np.array(vertices), np.array(faces), np.array(joints)
 
 
-def _glb(text: bytes, data: bytes) -> bytes:
+def _encode_glb(text: bytes, data: bytes) -> bytes:
     """Both as chunks, whose lengths are multiples of four."""
     text += b" " * (-len(text) % 4)
     chunks = [CHUNK.pack(len(text), JSON), text, CHUNK.pack(len(data), BYTES), data]

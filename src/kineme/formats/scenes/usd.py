@@ -36,13 +36,13 @@ from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import (
     Transform,
     assemble,
-    claim_frames,
-    orthogonal,
+    orthogonalize,
+    require_frame_memory,
 )
-from kineme.formats.scenes.characters import SceneNode, character_of, choose_take, is_end
+from kineme.formats.scenes.characters import SceneNode, choose_take, find_character, is_end
 from kineme.formats.scenes.usd_layers import LONGEST, SUFFIXES, open_stage
 from kineme.formats.scenes.usd_writer import END_SITES, write_usd
-from kineme.formats.units import up_rotation
+from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 
 CENTIMETRE = 0.01
@@ -87,7 +87,7 @@ def read_usd(content: FileContent, options: ReadOptions) -> Motion:
             "the USD library crashed or ran out of memory on it: it is damaged, or nested too deep"
         )
     found = pickle.loads(done.stdout)  # noqa: S301 (written by `serve`)
-    complaints = _complaints(done.stderr)
+    complaints = _summarize_warnings(done.stderr)
     if isinstance(found, Motion):
         return replace(found, provenance=found.provenance.noted(*complaints))
     if type(found) is ReadError:
@@ -102,10 +102,10 @@ def serve() -> None:
     os.dup2(2, 1)  # what the library prints
     path, options = pickle.load(sys.stdin.buffer)  # noqa: S301 (written by `read_usd`)
     with answer:
-        pickle.dump(_answer(path, options), answer)
+        pickle.dump(_try_read(path, options), answer)
 
 
-def _answer(path: Path, options: ReadOptions) -> Motion | KinemeError:
+def _try_read(path: Path, options: ReadOptions) -> Motion | KinemeError:
     from pxr import Tf
 
     try:
@@ -123,7 +123,7 @@ def _answer(path: Path, options: ReadOptions) -> Motion | KinemeError:
         return error
 
 
-def _complaints(printed: bytes) -> list[Note]:
+def _summarize_warnings(printed: bytes) -> list[Note]:
     """Return what the library printed as one warning: its first message, and how many others."""
     texts = dict.fromkeys(_MESSAGE.findall(printed.decode(errors="replace")))
     if not texts:
@@ -138,8 +138,8 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
 
     stage, beside = open_stage(content)
     skeletons = [_Skeleton(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Skeleton)]
-    nodes, homes = _nodes(skeletons)
-    character = character_of(content, nodes, options.person)
+    nodes, homes = _list_nodes(skeletons)
+    character = find_character(content, nodes, options.person)
     skeleton, first = homes[character.joints[0]]
     animations = [
         UsdSkel.Animation(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Animation)
@@ -147,10 +147,12 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
     fitting = skeleton.fitting(animations)
     names = unique(each.GetPrim().GetName() for each in fitting)
     number, notes = choose_take(content, names, range(len(fitting)), options.take)
-    fps, codes, rated = _frames(content, stage, fitting[number], len(nodes), options, beside)
+    fps, codes, rated = _find_frames(content, stage, fitting[number], len(nodes), options, beside)
     pose = skeleton.pose(fitting[number], codes)
     up = options.up or ("z" if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z else "y")
-    carrier, still = (_carrier(UsdGeom.Xformable(skeleton.prim), at) for at in (codes, codes[:1]))
+    carrier, still = (
+        _sample_carrier(UsdGeom.Xformable(skeleton.prim), at) for at in (codes, codes[:1])
+    )
     return assemble(
         content,
         nodes,
@@ -160,7 +162,7 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
         len(codes),
         fps,
         unit=options.unit or max(UsdGeom.GetStageMetersPerUnit(stage), 0.0) or CENTIMETRE,
-        turn=up_rotation(up),
+        turn=make_up_rotation(up),
         provenance=content.provenance("USD", [*notes, *character.notes, *rated])
         .of_take(names[number], names)
         .of_person(character.name, character.people),
@@ -187,7 +189,7 @@ class _Skeleton:
         self.rest = (
             np.array(rest, np.float64) if complete else np.tile(np.eye(4), (len(usual), 1, 1))
         )
-        found = (_transform(matrix[None]) for matrix in self.rest)
+        found = (_to_transform(matrix[None]) for matrix in self.rest)
         self.rest_pose = [Transform(*(part[0] for part in each[:3])) for each in found]
 
     def is_end(self, j: int) -> bool:
@@ -198,17 +200,17 @@ class _Skeleton:
     def fitting(self, animations: Sequence[Any]) -> list[Any]:
         """Return the animations that move joints of it, the one bound to it first."""
         joints = set(self.joints)
-        found = [each for each in animations if joints & set(map(str, _joints(each)))]
+        found = [each for each in animations if joints & set(map(str, _list_joints(each)))]
         # False sorts before True: the bound animation first; the others keep their order.
         return sorted(found, key=lambda each: each.GetPrim() != self.bound)
 
     def pose(self, animation: Any, codes: Floats) -> list[Transform]:
         """Return the transform of each joint at these time codes."""
-        moved = list(map(str, _joints(animation)))
+        moved = list(map(str, _list_joints(animation)))
         places = {joint: number for number, joint in enumerate(moved)}
-        shifts = _values(animation.GetTranslationsAttr(), codes, len(moved), 3)
-        turns = _values(animation.GetRotationsAttr(), codes, len(moved), 4)
-        scales = _values(animation.GetScalesAttr(), codes, len(moved), 3)
+        shifts = _sample_values(animation.GetTranslationsAttr(), codes, len(moved), 3)
+        turns = _sample_values(animation.GetRotationsAttr(), codes, len(moved), 4)
+        scales = _sample_values(animation.GetScalesAttr(), codes, len(moved), 3)
         found = []
         for joint, rest in zip(self.joints, self.rest_pose, strict=True):
             shift, turn, scale = rest[:3]
@@ -221,7 +223,7 @@ class _Skeleton:
         return found
 
 
-def _nodes(
+def _list_nodes(
     skeletons: Sequence[_Skeleton],
 ) -> tuple[list[SceneNode], dict[int, tuple[_Skeleton, int]]]:
     """Return all skeletons as nodes, each below what carries it; for each node whose it is.
@@ -243,7 +245,7 @@ def _nodes(
     return nodes, homes
 
 
-def _frames(
+def _find_frames(
     content: FileContent, stage: Any, animation: Any, joints: int, options: ReadOptions, beside: int
 ) -> tuple[float, Floats, list[str]]:
     """Frames per second, the time code of each frame, and what to say of them."""
@@ -271,15 +273,15 @@ def _frames(
         raise content.error("tells no time that could be: give fps= (--fps)")
     step = a_second / fps
     count = min((times[-1] - times[0]) / step + 1 + _ROUNDED, _MOST_FRAMES)
-    claim_frames(content, joints, int(count), beside=beside)
+    require_frame_memory(content, joints, int(count), beside=beside)
     return fps, times[0] + step * np.arange(int(count)), notes
 
 
-def _joints(animation: Any) -> Sequence[Any]:
+def _list_joints(animation: Any) -> Sequence[Any]:
     return animation.GetJointsAttr().Get() or ()
 
 
-def _values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | None:
+def _sample_values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | None:
     """(frames, joints, width) at these time codes; None where there are none, or not so many."""
     first = attribute.Get(codes[0])
     if first is None or len(first) != joints:
@@ -294,23 +296,23 @@ def _values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | 
     return np.roll(values, 1, axis=-1) if width == 4 else values
 
 
-def _carrier(xformable: Any, codes: Floats) -> Transform:
+def _sample_carrier(xformable: Any, codes: Floats) -> Transform:
     """Return what carries a skeleton, in the world."""
     matrices = np.array([xformable.ComputeLocalToWorldTransform(code) for code in codes.tolist()])
     same = np.abs(matrices - matrices[0]).max() == 0
-    found = _transform(matrices[:1] if same else matrices)
+    found = _to_transform(matrices[:1] if same else matrices)
     shift, turn, scale = (part[0] if same else part for part in found[:3])
     return Transform(shift, turn, scale)
 
 
-def _transform(matrices: Floats) -> Transform:
+def _to_transform(matrices: Floats) -> Transform:
     """Of matrices (frames, 4, 4) that multiply rows, as USD's do."""
     # Rows become columns, as all other code has them.
     axes = matrices[:, :3, :3].transpose(0, 2, 1)
     scale = np.linalg.norm(axes, axis=1)
     # A reflection: it belongs to the scale, so that the axes are a rotation.
     scale = np.where(np.linalg.det(axes)[:, None] < 0, -scale, scale)
-    turns = quaternions(orthogonal(axes / np.where(scale == 0, 1, scale)[:, None, :]))
+    turns = quaternions(orthogonalize(axes / np.where(scale == 0, 1, scale)[:, None, :]))
     return Transform(matrices[:, 3, :3], turns, scale)
 
 

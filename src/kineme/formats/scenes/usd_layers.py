@@ -13,7 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from kineme.formats.files import MOST_EXPANSION, FileContent, find_beside
+from kineme.formats.files import MAX_EXPANSION, FileContent, find_sibling
 
 SUFFIXES = (".usda", ".usdc", ".usd")
 
@@ -62,7 +62,7 @@ def _load_layers(content: FileContent) -> tuple[list[Any], int]:
             plain, _ = Sdf.Layer.SplitIdentifier(name)
             # As the library does: ".." goes back in the text, whether or not a link is there.
             place = os.path.normpath(Path(path).parent / plain)
-            found = find_beside(content, place)
+            found = find_sibling(content, place)
             if found.is_file() and found.suffix.lower() in SUFFIXES:
                 waiting.append(place)
             else:
@@ -115,7 +115,7 @@ def _limit_process(size: int) -> None:
         return
     import resource
 
-    memory = LEAST_MEMORY + MOST_EXPANSION * size
+    memory = LEAST_MEMORY + MAX_EXPANSION * size
     for what, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
         with suppress(OSError, ValueError):  # a limit that is lower already
             resource.setrlimit(what, (most, resource.getrlimit(what)[1]))

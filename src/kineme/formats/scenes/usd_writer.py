@@ -19,7 +19,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra, unique
 from kineme._util.files import atomic_write
 from kineme.errors import WriteError
-from kineme.formats.files import rotations_of, spell_names
+from kineme.formats.files import clean_names, require_rotations
 from kineme.formats.gaps import warn_of_gaps
 from kineme.formats.scenes.assembly import compose
 from kineme.recordings import Motion
@@ -30,12 +30,12 @@ END_SITES = "kineme:endSites"
 
 def write_usd(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in a USD file."""
-    rotations_of(motion, path, "a USD")
+    require_rotations(motion, path, "a USD")
     with require_extra("usd-core", "usd"):
         from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
     warn_of_gaps([motion], path)
     skeleton = motion.skeleton
-    names = spell_names(path, skeleton.names, str.strip)
+    names = clean_names(path, skeleton.names, str.strip)
     # Names in paths are identifiers, and unique.
     words = unique(Tf.MakeValidIdentifier(name) for name in names)
     joints: list[str] = []
@@ -58,8 +58,8 @@ def write_usd(motion: Motion, path: Path) -> None:
     bound.CreateJointNamesAttr(names)
     local = compose(rig.translations, rig.rotations, rig.scales)
     world = compose(*rig.world)
-    bound.CreateRestTransformsAttr([_matrix(Gf, each) for each in local])
-    bound.CreateBindTransformsAttr([_matrix(Gf, each) for each in world])
+    bound.CreateRestTransformsAttr([_to_usd_matrix(Gf, each) for each in local])
+    bound.CreateBindTransformsAttr([_to_usd_matrix(Gf, each) for each in world])
     ends = [names[j] for j in sorted(skeleton.end_sites)]
     bound.GetPrim().SetCustomDataByKey(END_SITES, Vt.StringArray(ends))
     animation = UsdSkel.Animation.Define(stage, bound.GetPath().AppendChild("Animation"))
@@ -81,6 +81,6 @@ def write_usd(motion: Motion, path: Path) -> None:
             raise WriteError(path, "cannot be written as USD") from error
 
 
-def _matrix(gf: Any, matrix: Floats) -> Any:
+def _to_usd_matrix(gf: Any, matrix: Floats) -> Any:
     """Return a matrix that multiplies columns as USD has it, which multiplies rows."""
     return gf.Matrix4d(*matrix.T.ravel().tolist())

@@ -14,7 +14,7 @@ NOT_HERE = -1
 
 
 @njit("int64(uint8[::1], int64)", **OPTIONS)
-def word_at(text, at):
+def find_word(text, at):
     """Where the next word begins, or the text ends; `NOT_HERE` where no space is before it."""
     before = at
     while at < len(text) and (text[at] == SPACE or 9 <= text[at] <= 13):
@@ -23,7 +23,7 @@ def word_at(text, at):
 
 
 @njit("int64(uint8[::1], int64, uint8[::1])", **OPTIONS)
-def after_name(text, at, name):
+def skip_name(text, at, name):
     """Where a name ends that begins here; `NOT_HERE` where another word does."""
     if at + len(name) > len(text):
         return NOT_HERE
@@ -34,7 +34,7 @@ def after_name(text, at, name):
 
 
 @njit("int64(uint8[::1], int64, float64[::1])", **OPTIONS)
-def after_number(text, at, value):
+def parse_number(text, at, value):
     """Where a number ends that begins here; its value is left.
 
     `NOT_HERE` where none does, or one that the quotient of a whole number and a power of ten does
@@ -74,26 +74,26 @@ def read_rows(text, names, ends, counts, rows):
     """
     at, row, value = 0, 0, np.zeros(1)
     while True:
-        at = word_at(text, at)
+        at = find_word(text, at)
         if at == len(text):
             return row
         if at != NOT_HERE:
-            at = after_number(text, at, value)
+            at = parse_number(text, at, value)
         if at == NOT_HERE:
             return NOT_HERE
         rows[row, 0] = value[0]
         column, first = 1, 0
         for bone in range(len(counts)):
-            at = word_at(text, at)
+            at = find_word(text, at)
             if at != NOT_HERE:
-                at = after_name(text, at, names[first : ends[bone]])
+                at = skip_name(text, at, names[first : ends[bone]])
             first = ends[bone]
             for _ in range(counts[bone]):
                 # Once something is missing, the rest of the bone is passed over.
                 if at != NOT_HERE:
-                    at = word_at(text, at)
+                    at = find_word(text, at)
                 if at != NOT_HERE:
-                    at = after_number(text, at, value)
+                    at = parse_number(text, at, value)
                 rows[row, column] = value[0]
                 column += 1
             if at == NOT_HERE:

@@ -30,13 +30,13 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.errors import ReadError
-from kineme.formats.files import FileContent, load, numbers
+from kineme.formats.files import FileContent, load, parse_numbers
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.amc_writer import write_amc
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
-from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
-from kineme.formats.units import blocks, metres
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion
+from kineme.formats.units import iterate_blocks, to_metres
 from kineme.recordings import Motion
 
 Layout = dict[str, int]
@@ -55,23 +55,25 @@ _FRAME = re.compile(rb"^[ \t]*\d+[ \t]*\r?$", re.MULTILINE)
 def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of an AMC file on the skeleton of its ASF."""
     asf = options.skeleton or find_skeleton(content.path)
-    figure = read_asf(load(asf), None if options.unit is None else metres(options.unit))
-    head = _head(content)
+    figure = read_asf(load(asf), None if options.unit is None else to_metres(options.unit))
+    head = _find_head(content)
     keywords = [word.lower() for word in _KEYWORD.findall(head)]
     turn = 1.0 if b"radians" in keywords else radians(1) if b"degrees" in keywords else figure.turn
     values = read_frames(content, len(head), figure)
     notes = [f"skeleton from {asf}"]
-    fps = options.fps or _comment_rate(head)
+    fps = options.fps or _parse_rate_comment(head)
     if fps is None:
         fps = FPS
         notes.append(f"frame rate {FPS:g} Hz assumed: AMC files do not store one")
     n_frames, n_joints = len(next(iter(values.values()))), figure.skeleton.n_joints
-    content.claim(BYTES_PER_JOINT * n_joints * n_frames, f"{n_joints} joints in {n_frames} frames")
+    content.require_memory(
+        BYTES_PER_JOINT * n_joints * n_frames, f"{n_joints} joints in {n_frames} frames"
+    )
     provenance = content.provenance("AMC", notes)
-    content.let_go()
-    rotations, slides = _local(values, figure, turn)
+    content.release()
+    rotations, slides = _compute_local(values, figure, turn)
     del values  # before as much again is made of it
-    return place(
+    return build_motion(
         figure.skeleton,
         rotations,
         slides,
@@ -79,11 +81,11 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
         unit="m",
         up=options.up or "y",
         provenance=provenance,
-        frames=_frames(figure),
+        frames=_collect_bone_frames(figure),
     )
 
 
-def _frames(figure: Figure) -> Floats:
+def _collect_bone_frames(figure: Figure) -> Floats:
     """Return the frame of each joint (joints, 4); an end site has that of its bone."""
     skeleton = figure.skeleton
     frames = np.tile(rot.IDENTITY, (skeleton.n_joints, 1))
@@ -95,7 +97,7 @@ def _frames(figure: Figure) -> Floats:
     return frames
 
 
-def _head(content: FileContent) -> bytes:
+def _find_head(content: FileContent) -> bytes:
     """Return what stands before the first frame."""
     start = _FRAME.search(content.data)
     if start is None:
@@ -135,16 +137,16 @@ def find_skeleton(path: Path) -> Path:
     )
 
 
-def _comment_rate(head: bytes) -> float | None:
+def _parse_rate_comment(head: bytes) -> float | None:
     """Return the frame rate in the comment that `write_amc` leaves, if it is there."""
     comment = _FPS_COMMENT.search(head)
     try:
-        return numbers([comment.group(1)])[0] if comment else None
+        return parse_numbers([comment.group(1)])[0] if comment else None
     except ValueError:
         return None
 
 
-def _local(
+def _compute_local(
     values: dict[str, Floats], figure: Figure, turn: float
 ) -> tuple[Floats, dict[int, Floats]]:
     """Rotations (frames, joints, 4); where joints slide, (frames, 3) each, metres."""
@@ -152,7 +154,7 @@ def _local(
     n = len(next(iter(values.values())))
     rotations = np.empty((n, skeleton.n_joints, 4))
     # In blocks that stay in the cache.
-    for span in blocks(n):
+    for span in iterate_blocks(n):
         turned = np.zeros((skeleton.n_joints, 4, span.stop - span.start))
         turned[:, 0] = 1.0
         for name, bone in figure.bones.items():
@@ -194,18 +196,22 @@ def refuse_asf(content: FileContent, options: ReadOptions) -> Motion:  # noqa: A
 
 def read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
     """Each bone's values, (frames, dofs), from the bytes after ``start``, its first frame."""
-    return _quickly(content, start, figure) or _line_by_line(content, start, figure)
+    return _read_uniform_frames(content, start, figure) or _read_line_by_line(
+        content, start, figure
+    )
 
 
-def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floats] | None:
+def _read_uniform_frames(
+    content: FileContent, start: int, figure: Figure
+) -> dict[str, Floats] | None:
     """Return the values if every frame is laid out as the first, else None."""
     blocks: list[Floats] = []
     layout: Layout | None = None
     following = np.nan
-    for chunk in _chunks(content.data, start):
+    for chunk in _split_chunks(content.data, start):
         text = _COMMENT.sub(b"", chunk) if b"#" in chunk else chunk
-        layout = layout or _layout(text, figure)
-        rows = None if layout is None else _rows(text, layout)
+        layout = layout or _find_layout(text, figure)
+        rows = None if layout is None else _parse_rows(text, layout)
         if rows is None:
             return None
         labels = rows[:, 0]
@@ -218,7 +224,7 @@ def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floa
     return None if layout is None else _split_by_bone(blocks, layout, figure)
 
 
-def _chunks(data: bytes, start: int) -> Iterator[bytes]:
+def _split_chunks(data: bytes, start: int) -> Iterator[bytes]:
     """Yield the text from ``start`` on, in chunks of whole frames."""
     while start < len(data):
         # Cut before a line that is a frame's number.
@@ -228,7 +234,7 @@ def _chunks(data: bytes, start: int) -> Iterator[bytes]:
         start = stop
 
 
-def _layout(text: bytes, figure: Figure) -> Layout | None:
+def _find_layout(text: bytes, figure: Figure) -> Layout | None:
     """That of the first frame; None where a bone is unknown, named twice, or missing."""
     first, second = islice(chain(_FRAME.finditer(text), repeat(None)), 2)
     if first is None:
@@ -246,13 +252,13 @@ def _layout(text: bytes, figure: Figure) -> Layout | None:
     return counts if complete else None
 
 
-def _rows(text: bytes, layout: Layout) -> Floats | None:
+def _parse_rows(text: bytes, layout: Layout) -> Floats | None:
     """A row per frame: its number, and the values of its bones; None where it is laid out else.
 
     By compiled code where there is some already: to load it takes longer than a recording.
     """
     if "numba" in sys.modules:
-        rows = _compiled_rows(text, layout)
+        rows = _parse_rows_compiled(text, layout)
         if rows is not None:
             return rows
     words = text.split()
@@ -277,7 +283,7 @@ def _rows(text: bytes, layout: Layout) -> Floats | None:
     return rows if np.isfinite(rows).all() else None
 
 
-def _compiled_rows(text: bytes, layout: Layout) -> Floats | None:
+def _parse_rows_compiled(text: bytes, layout: Layout) -> Floats | None:
     """Return the same, unless there are numbers among them that only ``float`` reads."""
     from kineme.formats.skeletons._amc_kernels import read_rows
 
@@ -307,8 +313,8 @@ def _split_by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict
     }
 
 
-def _line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
-    """As `_quickly`, for any layout, and with an error that names the line.
+def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
+    """As `_read_uniform_frames`, for any layout, and with an error that names the line.
 
     A fault in the very last line, or bones missing from the last frame, is
     what a truncated file looks like: that frame is left out with a warning.
@@ -370,7 +376,7 @@ def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure)
         raise ValueError(f"bone {name[:40]!r} is not in the skeleton: is it the wrong ASF?")
     if name in frame:
         raise ValueError(f"bone {name!r} stands twice in one frame")
-    values = numbers(words[1:])
+    values = parse_numbers(words[1:])
     dof = figure.bones[name].dof
     if len(values) != len(dof):
         raise ValueError(

@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.errors import WriteError
-from kineme.formats.files import save, spell_names, table
+from kineme.formats.files import clean_names, format_table, save
 from kineme.formats.skeletons.asf import ROOT
-from kineme.formats.skeletons.bvh_writer import RIGID, local_pose
+from kineme.formats.skeletons.bvh_writer import RIGID, compute_local_pose
 from kineme.formats.units import UNITS
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.posing import get_rig
@@ -50,7 +50,7 @@ class Bone:
 
 def write_amc(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in an AMC file and its skeleton in an ASF of the same name."""
-    turns, translations, offsets, slides = local_pose(motion, path, "an AMC")
+    turns, translations, offsets, slides = compute_local_pose(motion, path, "an AMC")
     skeleton = motion.skeleton
     if sum(parent < 0 for parent in skeleton.parents) != 1:
         raise WriteError(path, "an AMC holds one figure, and this motion has several roots")
@@ -63,7 +63,7 @@ def write_amc(motion: Motion, path: Path) -> None:
     frames[0] = rot.IDENTITY
     back = rot.conjugate(frames)
     angles = np.degrees(rot.to_euler_zyx(rot.multiply(rot.multiply(back, turns), frames)))
-    bones = _bones(skeleton, offsets, frames, slides, path)
+    bones = _list_bones(skeleton, offsets, frames, slides, path)
     # Values of translations are what is added to the offsets, but the root has none.
     shift = rot.rotate(back, translations - offsets) / UNIT
     shift[:, 0] = translations[:, 0] / UNIT
@@ -72,20 +72,20 @@ def write_amc(motion: Motion, path: Path) -> None:
         if bone.joint is not None:
             # `rx ry rz`: the columns z, y, x in reverse.
             parts = [shift[:, bone.joint]] * bone.slides + [angles[:, bone.joint, ::-1]]
-            rows = table(np.concatenate(parts, axis=1))
+            rows = format_table(np.concatenate(parts, axis=1))
             blocks.append([f"{bone.name} {row}" for row in rows])
-    save(path.with_suffix(".asf"), _asf(bones))
+    save(path.with_suffix(".asf"), _format_asf(bones))
     head = f"# fps {motion.fps!r}\n:FULLY-SPECIFIED\n:DEGREES\n"
     lines = (f"{i}\n{''.join(each)}" for i, each in enumerate(zip(*blocks, strict=True), 1))
     save(path, [head, *lines])
 
 
-def _bones(
+def _list_bones(
     skeleton: Skeleton, places: Floats, frames: Floats, slides: NDArray[np.bool_], path: Path
 ) -> list[Bone]:
     """Return the root and all bones, parents first."""
     inner = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
-    words = spell_names(path, [ROOT, *(skeleton.names[j] for j in inner[1:])], _word)
+    words = clean_names(path, [ROOT, *(skeleton.names[j] for j in inner[1:])], _to_word)
     names = dict(zip(inner, words, strict=True))
     bones: list[Bone] = []
     hangs_on = {0: ROOT}
@@ -99,12 +99,12 @@ def _bones(
         for child, offset in zip(skeleton.children[j], offsets, strict=True):
             hangs_on[child] = names[j]
             if not shared and offset.any():
-                hangs_on[child] = f"{names[j]}-{_word(skeleton.names[child])}"
+                hangs_on[child] = f"{names[j]}-{_to_word(skeleton.names[child])}"
                 bones.append(Bone(hangs_on[child], names[j], offset, None))
     return bones
 
 
-def _asf(bones: list[Bone]) -> Iterator[str]:
+def _format_asf(bones: list[Bone]) -> Iterator[str]:
     yield ":version 1.10\n:name kineme\n:units\n  mass 1.0\n  length 0.45\n  angle deg\n"
     yield ":root\n  order TX TY TZ RX RY RZ\n  axis XYZ\n  position 0 0 0\n  orientation 0 0 0\n"
     yield ":bonedata\n"
@@ -128,7 +128,7 @@ def _asf(bones: list[Bone]) -> Iterator[str]:
     yield "  end\n"
 
 
-def _word(name: str) -> str:
+def _to_word(name: str) -> str:
     """One word that an ASF does not take for a comment, keyword or number."""
     word = re.sub(r"[\s#:(),\0]+", "_", name)
     return f"_{word}" if word.isdigit() or word.lower() in ("begin", "end", "") else word

@@ -26,7 +26,7 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme.formats.files import FileContent, numbers
+from kineme.formats.files import FileContent, parse_numbers
 from kineme.formats.units import INCH
 from kineme.recordings import Skeleton
 
@@ -52,7 +52,7 @@ class Figure:
 
 def read_asf(content: FileContent, scale: float | None = None) -> Figure:
     """Return the figure in an ASF file; ``scale`` overrides its metres per unit."""
-    sections = _sections(content)
+    sections = _split_sections(content)
     for needed in ("root", "bonedata", "hierarchy"):
         if needed not in sections:
             raise content.error(f"no :{needed} section, so this is not a whole ASF file")
@@ -65,19 +65,22 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
             line, words = units["length"]
             scale /= read_values(content, line, words, 1, positive=True)[0]
     bones = {ROOT: read_root(content, sections["root"], turn)}
-    for block in _blocks(content, sections["bonedata"]):
+    for block in _split_blocks(content, sections["bonedata"]):
         bone = read_bone(content, block, turn)
         if bone.name in bones:
             raise content.error(f"a second bone is called {bone.name!r}", bone.line)
         bones[bone.name] = bone
-    parents = _parents(content, sections["hierarchy"], bones)
-    order = _from_root(content, parents, bones)
+    parents = _parse_parents(content, sections["hierarchy"], bones)
+    order = _order_bones(content, parents, bones)
     return Figure(
-        {name: bones[name] for name in order}, _skeleton(order, parents, bones, scale), scale, turn
+        {name: bones[name] for name in order},
+        _build_skeleton(order, parents, bones, scale),
+        scale,
+        turn,
     )
 
 
-def _skeleton(
+def _build_skeleton(
     order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
 ) -> Skeleton:
     names: list[str] = []
@@ -101,7 +104,7 @@ def _skeleton(
     return Skeleton(tuple(names), tuple(above), scale * np.array(offsets), frozenset(ends))
 
 
-def _sections(content: FileContent) -> dict[str, list[Line]]:
+def _split_sections(content: FileContent) -> dict[str, list[Line]]:
     """Return the lines of each section as words, comments and blank lines left out."""
     sections: dict[str, list[Line]] = {}
     current: list[Line] = []
@@ -117,7 +120,7 @@ def _sections(content: FileContent) -> dict[str, list[Line]]:
     return sections
 
 
-def _blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line]]:
+def _split_blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line]]:
     """Yield the lines between each ``begin`` and ``end``."""
     block: list[Line] | None = None
     for number, words in lines:
@@ -138,7 +141,9 @@ def _blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line]]:
         raise content.error("the last bone has no 'end': the file is truncated", lines[-1][0])
 
 
-def _parents(content: FileContent, lines: list[Line], bones: dict[str, Bone]) -> dict[str, str]:
+def _parse_parents(
+    content: FileContent, lines: list[Line], bones: dict[str, Bone]
+) -> dict[str, str]:
     parents: dict[str, str] = {}
     for number, (parent, *children) in lines:
         if not children and parent.lower() in ("begin", "end"):
@@ -153,7 +158,9 @@ def _parents(content: FileContent, lines: list[Line], bones: dict[str, Bone]) ->
     return parents
 
 
-def _from_root(content: FileContent, parents: dict[str, str], bones: dict[str, Bone]) -> list[str]:
+def _order_bones(
+    content: FileContent, parents: dict[str, str], bones: dict[str, Bone]
+) -> list[str]:
     """Bones depth first, siblings in the order of the hierarchy."""
     children: dict[str, list[str]] = {name: [] for name in bones}
     for name, parent in parents.items():
@@ -204,9 +211,9 @@ def read_bone(content: FileContent, block: list[Line], turn: float) -> Bone:
     bone.direction = np.array(read_values(content, *entries["direction"], 3))
     bone.length = read_values(content, *entries["length"], 1)[0]
     if "axis" in entries:
-        bone.frame = _frame(content, *entries["axis"], turn)
+        bone.frame = _parse_frame(content, *entries["axis"], turn)
     if "dof" in entries:
-        bone.dof = _dof(content, *entries["dof"])
+        bone.dof = _parse_dof(content, *entries["dof"])
     return bone
 
 
@@ -215,17 +222,17 @@ def read_root(content: FileContent, lines: list[Line], turn: float) -> Bone:
     entries = {words[0].lower(): (n, words[1:]) for n, words in lines}
     root = Bone(ROOT, dof=("tx", "ty", "tz", "rx", "ry", "rz"))
     if "order" in entries:
-        root.dof = _dof(content, *entries["order"])
+        root.dof = _parse_dof(content, *entries["order"])
     if "position" in entries:
         root.position = np.array(read_values(content, *entries["position"], 3))
     if "orientation" in entries:
         line, words = entries["orientation"]
         letters = entries.get("axis", (0, ["xyz"]))[1]
-        root.frame = _frame(content, line, words[:3] + letters, turn)
+        root.frame = _parse_frame(content, line, words[:3] + letters, turn)
     return root
 
 
-def _frame(content: FileContent, line: int, words: list[str], turn: float) -> Floats:
+def _parse_frame(content: FileContent, line: int, words: list[str], turn: float) -> Floats:
     letters = (words[3] if len(words) > 3 else "xyz").lower()
     if sorted(letters) != ["x", "y", "z"]:
         raise content.error(f"axis order {letters!r} is not made of X, Y and Z", line)
@@ -237,7 +244,7 @@ def _frame(content: FileContent, line: int, words: list[str], turn: float) -> Fl
     return frame
 
 
-def _dof(content: FileContent, line: int, words: list[str]) -> tuple[str, ...]:
+def _parse_dof(content: FileContent, line: int, words: list[str]) -> tuple[str, ...]:
     dof = tuple(word.lower() for word in words)
     for word in dof:
         if word not in ("tx", "ty", "tz", "rx", "ry", "rz"):
@@ -252,7 +259,7 @@ def read_values(
 ) -> list[float]:
     """So many numbers from the words of a line; an error that names the line where they are not."""
     try:
-        values = numbers(words)
+        values = parse_numbers(words)
     except ValueError as error:
         raise content.error(str(error), line) from None
     if len(values) != count or (positive and min(values) <= 0):

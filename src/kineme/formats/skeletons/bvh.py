@@ -33,12 +33,12 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
 from kineme.errors import ReadError
-from kineme.formats.files import FileContent, numbers
+from kineme.formats.files import FileContent, parse_numbers
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format, Sketch
 from kineme.formats.skeletons.bvh_writer import write_bvh
-from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
-from kineme.formats.units import blocks, rate_from_period
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion
+from kineme.formats.units import infer_rate, iterate_blocks
 from kineme.recordings import Motion, Provenance, Skeleton
 
 CHUNK = 1 << 20
@@ -53,30 +53,30 @@ _JOINED = re.compile(rb"(?<=[0-9.])-")
 
 def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of a BVH file."""
-    head = _head(content, options)
+    head = _parse_head(content, options)
     values = read_frames(content, head.start, head.width, head.declared)
     n_joints = len(head.joints)
     if len(values) != head.declared:
         content.warn(f"{head.declared} frames declared, {len(values)} found and kept", head.line)
-    content.claim(
+    content.require_memory(
         BYTES_PER_JOINT * n_joints * len(values), f"{n_joints} joints in {len(values)} frames"
     )
     provenance = content.provenance("BVH", head.notes)
-    content.let_go()
-    turned = _local(head.joints, values)
+    content.release()
+    turned = _compute_local(head.joints, values)
     del values  # before as much again is made of it
     return _place_joints(head.joints, turned, head.fps, options, provenance)
 
 
 def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch | None:
     """So many frames of a BVH file at most, evenly apart; None where it has no more than those."""
-    head = _head(content, options)
+    head = _parse_head(content, options)
     # Division rounded up.
     every = -(-head.declared // most)
-    values = read_some(content.data, head.start, head.width, every) if every > 1 else None
+    values = sample_frames(content.data, head.start, head.width, every) if every > 1 else None
     if values is None or len(values) != -(-head.declared // every):
         return None
-    turned, provenance = _local(head.joints, values), Provenance(str(content.path), "BVH")
+    turned, provenance = _compute_local(head.joints, values), Provenance(str(content.path), "BVH")
     motion = _place_joints(head.joints, turned, head.fps / every, options, provenance)
     return Sketch(motion, head.declared, head.fps)
 
@@ -96,7 +96,7 @@ class _Head(NamedTuple):
         return sum(len(joint.channels) for joint in self.joints)
 
 
-def _head(content: FileContent, options: ReadOptions) -> _Head:
+def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     split = _MOTION.search(content.data)
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a whole BVH file")
@@ -108,7 +108,7 @@ def _head(content: FileContent, options: ReadOptions) -> _Head:
     notes: list[str] = []
     fps = options.fps
     if fps is None:
-        fps, note = _rate(content, header.group(2), content.line_at(header.start(2)))
+        fps, note = _parse_rate(content, header.group(2), content.line_at(header.start(2)))
         notes += [note] if note else []
     return _Head(joints, int(header.group(1)), fps, notes, line, header.end())
 
@@ -120,7 +120,7 @@ def _place_joints(
     options: ReadOptions,
     provenance: Provenance,
 ) -> Motion:
-    """Return the motion of joints as `_local` gives them."""
+    """Return the motion of joints as `_compute_local` gives them."""
     parents = tuple(joint.parent for joint in joints)
     above = {*parents}
     skeleton = Skeleton(
@@ -129,10 +129,12 @@ def _place_joints(
         np.array([joint.offset for joint in joints]),
         frozenset(i for i, joint in enumerate(joints) if joint.end and i not in above),
     )
-    return place(skeleton, *turned, fps, unit=options.unit, up=options.up, provenance=provenance)
+    return build_motion(
+        skeleton, *turned, fps, unit=options.unit, up=options.up, provenance=provenance
+    )
 
 
-def _local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
+def _compute_local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
     """Rotations (frames, joints, 4); where joints slide, (frames, 3) each, file units."""
     rotations = np.empty((len(values), len(joints), 4))
     slides = {
@@ -141,7 +143,7 @@ def _local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Float
         for j, joint in enumerate(joints)
         if any(kind == "position" for _, kind in joint.channels)
     }
-    for span in blocks(len(values)):
+    for span in iterate_blocks(len(values)):
         # One contiguous row for each channel.
         columns = np.ascontiguousarray(values[span].T)
         turned = np.zeros((len(joints), 4, columns.shape[1]))
@@ -163,14 +165,14 @@ def _local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Float
     return rotations, slides
 
 
-def _rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:
+def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:
     try:
-        (period,) = numbers([word])
+        (period,) = parse_numbers([word])
     except ValueError as error:
         raise content.error(f"Frame Time: {error}; give fps= (--fps)", line) from None
     if not 1e-6 < period < 1e6:
         raise content.error(f"Frame Time is {period:g} s: give fps= (--fps)", line)
-    return rate_from_period(word.decode())
+    return infer_rate(word.decode())
 
 
 @dataclass
@@ -251,7 +253,7 @@ class _Hierarchy:
     def _offset(self, line: int) -> list[float]:
         words = [self._next()[0] for _ in range(3)]
         try:
-            return numbers(words)
+            return parse_numbers(words)
         except ValueError as error:
             raise self.content.error(f"OFFSET: {error}", line) from None
 
@@ -304,12 +306,12 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     fault: ReadError | None = None
     joined = 0
     last = number = content.line_at(start)
-    for number, line in enumerate(_lines(content.data, start), last):
+    for number, line in enumerate(_split_lines(content.data, start), last):
         last = number
         if fault is not None:  # which is pardoned in the last line alone
             raise fault
         try:
-            row, apart = _row(line)
+            row, apart = _parse_row(line)
         except ValueError as error:
             fault = content.error(str(error), number)
             continue
@@ -337,19 +339,19 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     return np.frombuffer(values).reshape(-1, width)
 
 
-def read_some(data: bytes, start: int, width: int, every: int) -> Floats | None:
+def sample_frames(data: bytes, start: int, width: int, every: int) -> Floats | None:
     """Return the values of each ``every``-th frame only; None where lines are not one per frame."""
-    lines = (line for line in _lines(data, start) if line.strip())
+    lines = (line for line in _split_lines(data, start) if line.strip())
     try:
-        rows = [numbers(line.split()) for line in islice(lines, 0, None, every)]
+        rows = [parse_numbers(line.split()) for line in islice(lines, 0, None, every)]
     except ValueError:
         return None
     return np.array(rows) if rows and all(len(row) == width for row in rows) else None
 
 
-def _lines(data: bytes, start: int) -> Iterator[bytes]:
+def _split_lines(data: bytes, start: int) -> Iterator[bytes]:
     """Yield the lines from ``start`` on, without the blank ones at the end; a chunk at a time."""
-    stop = _end(data, start)
+    stop = _find_end(data, start)
     while start < stop:
         # Cut after a line break, so that no line is parted.
         cut = min(data.find(b"\n", start + CHUNK) + 1 or stop, stop)
@@ -357,7 +359,7 @@ def _lines(data: bytes, start: int) -> Iterator[bytes]:
         start = cut
 
 
-def _end(data: bytes, start: int) -> int:
+def _find_end(data: bytes, start: int) -> int:
     """Where blanks and empty lines follow only."""
     # From the end in chunks, since most files end in few blanks.
     for at in range(len(data), start, -CHUNK):
@@ -367,15 +369,15 @@ def _end(data: bytes, start: int) -> int:
     return start
 
 
-def _row(line: bytes) -> tuple[list[float], bool]:
+def _parse_row(line: bytes) -> tuple[list[float], bool]:
     """Return numbers of a line, and whether some were not apart (``0.0-7.5``, as SlimeVR wrote)."""
     try:
-        return numbers(line.split()), False
+        return parse_numbers(line.split()), False
     except ValueError:
         apart = _JOINED.sub(b" -", line)
         if apart == line:
             raise
-        return numbers(apart.split()), True
+        return parse_numbers(apart.split()), True
 
 
 FORMAT = Format(

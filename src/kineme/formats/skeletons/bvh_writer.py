@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme.formats.files import rotations_of, save, spell_names, table
+from kineme.formats.files import clean_names, format_table, require_rotations, save
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import compute_local_translations
 from kineme.recordings.posing import align_to_rest
@@ -38,7 +38,7 @@ it is 0.01 mm.
 def write_bvh(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in a BVH file."""
     skeleton = motion.skeleton
-    turns, translations, offsets, slides = local_pose(motion, path, "a BVH")
+    turns, translations, offsets, slides = compute_local_pose(motion, path, "a BVH")
     slides |= np.array(skeleton.parents) < 0
     unit, back = UNIT, rot.IDENTITY
     own = motion.provenance.format == "BVH"
@@ -49,7 +49,7 @@ def write_bvh(motion: Motion, path: Path) -> None:
     translations, offsets = (rot.rotate(back, each) / unit for each in (translations, offsets))
     angles = np.degrees(rot.to_euler_zyx(turns))
     ends = {j for j in skeleton.end_sites if not slides[j]}
-    order = list(_depth_first(motion))
+    order = list(_order_depth_first(motion))
     columns: list[Floats] = []
     for j in order:
         if j in ends:
@@ -57,12 +57,14 @@ def write_bvh(motion: Motion, path: Path) -> None:
         if slides[j]:
             columns.append(translations[:, j])
         columns.append(angles[:, j])
-    head = "\n".join(_hierarchy(skeleton, offsets, order, slides, _names(motion, ends, path)))
+    head = "\n".join(
+        _format_hierarchy(skeleton, offsets, order, slides, _name_joints(motion, ends, path))
+    )
     timing = f"MOTION\nFrames: {motion.n_frames}\nFrame Time: {1 / motion.fps!r}\n"
-    save(path, [head, "\n", timing, *table(np.concatenate(columns, axis=1))])
+    save(path, [head, "\n", timing, *format_table(np.concatenate(columns, axis=1))])
 
 
-def local_pose(
+def compute_local_pose(
     motion: Motion, path: Path, what: str
 ) -> tuple[Floats, Floats, Floats, NDArray[np.bool_]]:
     """Return rotations and translations for a format that has no rotations at rest.
@@ -81,28 +83,32 @@ def local_pose(
     WriteError
         A motion has no rotations for ``what`` is to be written.
     """
-    rotations_of(motion, path, what)
+    require_rotations(motion, path, what)
     aligned = align_to_rest(motion)
-    turns, offsets = rotations_of(aligned, path, what), aligned.skeleton.offsets
+    turns, offsets = require_rotations(aligned, path, what), aligned.skeleton.offsets
     translations = compute_local_translations(aligned.skeleton, motion.positions, turns)
     return turns, translations, offsets, np.abs(translations - offsets).max(axis=(0, 2)) > RIGID
 
 
-def _names(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
+def _name_joints(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
     """Return the names of joints as a line holds them; end sites have none."""
     named = [j for j in range(motion.skeleton.n_joints) if j not in ends]
     return dict(
-        zip(named, spell_names(path, [motion.skeleton.names[j] for j in named], _line), strict=True)
+        zip(
+            named,
+            clean_names(path, [motion.skeleton.names[j] for j in named], _clean_name),
+            strict=True,
+        )
     )
 
 
-def _line(name: str) -> str:
+def _clean_name(name: str) -> str:
     """No braces, and nothing that the motion begins with."""
     plain = re.sub(r"[{}\s]+", " ", name).strip()
     return re.sub(r"(\bmotion frames) ?:", r"\1", plain, flags=re.IGNORECASE)
 
 
-def _hierarchy(
+def _format_hierarchy(
     skeleton: Skeleton,
     offsets: Floats,
     order: list[int],
@@ -130,7 +136,7 @@ def _hierarchy(
         yield "\t" * depths[open_joints.pop()] + "}"
 
 
-def _depth_first(motion: Motion) -> Iterator[int]:
+def _order_depth_first(motion: Motion) -> Iterator[int]:
     children = motion.skeleton.children
     # Reversed, since the last one is taken first.
     waiting = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0][::-1]

@@ -23,10 +23,10 @@ from kineme._util.arrays import Floats
 from kineme._util.files import NoEntities
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
-from kineme.formats.persons import chosen_person
+from kineme.formats.persons import choose_person
 from kineme.formats.registry import Format
-from kineme.formats.skeletons.placing import place
-from kineme.formats.units import metres, upright
+from kineme.formats.skeletons.placing import build_motion
+from kineme.formats.units import to_metres, turn_upright
 from kineme.recordings import Motion, Skeleton
 
 KINDS = ("position", "orientation")
@@ -57,17 +57,17 @@ class Subject:
 
 def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of a suit in an MVNX file."""
-    people = _subjects(content)
+    people = _parse_subjects(content)
     if not people:
         raise content.error("there is no subject in it")
     called = [each.name for each in people]
-    who = chosen_person(content.path, called, options.person, "subjects")
+    who = choose_person(content.path, called, options.person, "subjects")
     subject = people[called.index(who)]
     names = [name for name in PARENTS if name in subject.segments]
     if "Pelvis" not in names:
         raise content.error("none of its segments is a 'Pelvis'")
     n, chosen = len(subject.segments), [subject.segments.index(name) for name in names]
-    parents = [_parent(name, names) for name in names]
+    parents = [_find_parent(name, names) for name in names]
     positions = _stack_frames(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
     if not np.isfinite(positions).all():
         raise content.error("positions are not all numbers")
@@ -80,7 +80,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     if len(people) > 1:
         provenance = provenance.of_person(who, called)
     if not subject.values["orientation"]:
-        positions = metres(options.unit or "m") * upright(positions, options.up or "z")
+        positions = to_metres(options.unit or "m") * turn_upright(positions, options.up or "z")
         # The frame in which the body is highest.
         tallest = positions[np.ptp(positions[:, :, 1], axis=1).argmax()]  # bones at full length
         offsets = tallest - np.where(np.array(parents)[:, None] < 0, tallest, tallest[parents])
@@ -102,7 +102,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
             apart = rot.rotate(back, positions[:, joint] - positions[:, parent])
             # Bones of a suit change a little: the median is the usual offset.
             offsets[joint] = np.median(apart, axis=0)
-    return place(
+    return build_motion(
         Skeleton(tuple(names), tuple(parents), offsets),
         local,
         {0: positions[:, 0]},
@@ -125,7 +125,7 @@ class _Subjects(NoEntities):
     def start(self, tag: str, attributes: Mapping[str, str]) -> None:
         name = tag.rpartition("}")[2]
         if name == "subject":
-            rate = _number(attributes.get("frameRate", ""))
+            rate = _to_number(attributes.get("frameRate", ""))
             self.people.append(Subject(attributes.get("label", ""), rate))
         elif name == "segment" and self.people:
             self.people[-1].segments.append(attributes.get("label", ""))
@@ -149,7 +149,7 @@ class _Subjects(NoEntities):
             raise self.content.error(f"a frame has a {name} that is no number") from None
 
 
-def _subjects(content: FileContent) -> list[Subject]:
+def _parse_subjects(content: FileContent) -> list[Subject]:
     """Return the people in a file; ReadError where it breaks off."""
     found = _Subjects(content)
     parser = ET.XMLParser(target=found)  # noqa: S314 (see NoEntities)
@@ -170,7 +170,7 @@ def _stack_frames(content: FileContent, subject: Subject, what: str, width: int)
     return np.stack(frames)
 
 
-def _parent(name: str, names: list[str]) -> int:
+def _find_parent(name: str, names: list[str]) -> int:
     """Return the place of the nearest segment that is there of those that one hangs on.
 
     -1 for none.
@@ -181,7 +181,7 @@ def _parent(name: str, names: list[str]) -> int:
     return names.index(parent) if parent else -1
 
 
-def _number(text: str) -> float:
+def _to_number(text: str) -> float:
     try:
         return float(text)
     except ValueError:

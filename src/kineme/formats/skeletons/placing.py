@@ -15,12 +15,12 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.formats.units import (
     BODIES,
-    blocks,
-    height_of,
+    estimate_height,
     infer_unit,
     infer_up,
-    metres,
-    up_rotation,
+    iterate_blocks,
+    make_up_rotation,
+    to_metres,
 )
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
@@ -30,7 +30,7 @@ BYTES_PER_JOINT = 2 * 8 * (4 + 3)
 """What a joint takes in a frame: rotation, position, and as much again."""
 
 
-def place(
+def build_motion(
     skeleton: Skeleton,
     rotations: Floats,
     slides: Mapping[int, Floats],
@@ -55,14 +55,14 @@ def place(
         unit, note = infer_unit(skeleton, means)
         provenance = provenance.noted(note)
     else:
-        height = height_of(skeleton, means) * metres(unit)
+        height = estimate_height(skeleton, means) * to_metres(unit)
         if not BODIES[0] <= height <= BODIES[1]:
             provenance = provenance.noted(
                 f"with unit {unit} the skeleton is about {height:.4g} m tall: look whether it fits"
             )
-    scale, offsets = metres(unit), skeleton.offsets
+    scale, offsets = to_metres(unit), skeleton.offsets
     skeleton = replace(skeleton, offsets=scale * offsets)
-    positions = _positions(skeleton, rotations, slides, scale)
+    positions = _compute_positions(skeleton, rotations, slides, scale)
     if up is None:
         up = infer_up(skeleton, positions)
         if up != "y":
@@ -70,26 +70,26 @@ def place(
                 f"turned: head and feet lie along {up}, so that axis was taken to be up"
             )
     if up != "y":
-        turn = up_rotation(up)
+        turn = make_up_rotation(up)
         skeleton = replace(skeleton, offsets=rot.rotate(turn, skeleton.offsets))
-        for span in blocks(len(rotations)):
+        for span in iterate_blocks(len(rotations)):
             # The turn changes the axes of the world and of the joints alike: conjugation.
             rotations[span] = rot.multiply(rot.multiply(turn, rotations[span]), rot.conjugate(turn))
             positions[span] = rot.rotate(turn, positions[span])
     if skeleton.rig is None:
         rig = make_rig(
-            skeleton.names, skeleton.parents, offsets, frames, unit=scale, turn=up_rotation(up)
+            skeleton.names, skeleton.parents, offsets, frames, unit=scale, turn=make_up_rotation(up)
         )
         skeleton = replace(skeleton, rig=rig)
     return Motion(skeleton, positions, fps, rotations, provenance)
 
 
-def _positions(
+def _compute_positions(
     skeleton: Skeleton, rotations: Floats, slides: Mapping[int, Floats], scale: float
 ) -> Floats:
     """(frames, joints, 3), metres."""
     positions = np.empty((*rotations.shape[:2], 3))
-    for span in blocks(len(rotations)):
+    for span in iterate_blocks(len(rotations)):
         n = span.stop - span.start
         shift = np.repeat(skeleton.offsets[:, :, None], n, axis=2)  # a row per joint and axis
         for joint, places in slides.items():
