@@ -34,16 +34,16 @@ from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.journal import Journal
 from kineme.studio.storage.listed import ListedRecording
 from kineme.studio.storage.sidecars import (
-    keep_reading,
-    listed_in,
-    notes_on_sidecars,
-    options_of,
-    set_offset,
-    share_labels,
-    shared_labels,
-    video_message,
+    list_recordings,
+    list_sidecar_problems,
+    make_video_message,
+    read_saved_options,
+    read_shared_labels,
+    write_reading,
+    write_shared_labels,
+    write_video_offset,
 )
-from kineme.studio.storage.tables import saved_table
+from kineme.studio.storage.tables import find_saved_table
 from kineme.synthesis import motion_graph
 from kineme.synthesis.graph import load_sources, read_graph, write_graph
 
@@ -192,9 +192,9 @@ def _studio(root: Path, motion: Motion, truth: Segmentation) -> None:
     folder = _made(root / "studio")
     formats.write(motion[:60], root / TAKE)
     said = formats.ReadOptions(fps=30.0, unit="cm", up="y")
-    keep_reading(root / TAKE, said, ["Anna", "Bob"])
-    set_offset(root / TAKE, 1.5)
-    share_labels(folder, ["walk", "jump"])
+    write_reading(root / TAKE, said, ["Anna", "Bob"])
+    write_video_offset(root / TAKE, 1.5)
+    write_shared_labels(folder, ["walk", "jump"])
     saved = folder / f"walk{CORRECTED}"
     journal = Journal(saved, truth)
 
@@ -227,9 +227,9 @@ def _build_library(root: Path) -> object:
 
 def _read_beside(root: Path) -> object:
     take = root / TAKE
-    said = notes_on_sidecars(take)
-    found = kineme.read(take, **vars(options_of(take))), listed_in([take])
-    return found, video_message(take), shared_labels(take.parent), said
+    said = list_sidecar_problems(take)
+    found = kineme.read(take, **vars(read_saved_options(take))), list_recordings([take])
+    return found, make_video_message(take), read_shared_labels(take.parent), said
 
 
 def _ask_library(root: Path) -> object:
@@ -255,7 +255,9 @@ def _export_library(root: Path) -> object:
 
 def _open_studio(root: Path) -> object:
     folder = root / "studio"
-    file, table, notes = saved_table(ListedRecording(folder / "walk.bvh"), lambda _: True, set())
+    file, table, notes = find_saved_table(
+        ListedRecording(folder / "walk.bvh"), lambda _: True, set()
+    )
     if table is None:
         return notes
     journal = Journal(file.path, table)

@@ -23,7 +23,7 @@ from kineme.cli.options.reading import READING
 from kineme.formats import ReadOptions
 from kineme.library.planning import read_kept_options
 from kineme.methods.segmenter import SegmentOptions
-from kineme.studio.storage.sidecars import keep_reading, options_of
+from kineme.studio.storage.sidecars import read_saved_options, write_reading
 from kineme.synthesis import MotionGraph, Source, read_graph, write_graph
 from kineme.web.encoding import from_json, to_json
 from kineme.web.requests import ReadRequest
@@ -361,8 +361,8 @@ def test_every_option_is_kept_in_files_and_sent(tmp_path: Path) -> None:
     content = options_to_json(said)
     assert content.keys() == vars(said).keys()
     assert json.loads(json.dumps(content)) == content
-    keep_reading(tmp_path / "walk.amc", said, [])
-    assert options_of(tmp_path / "walk.amc") == said
+    write_reading(tmp_path / "walk.amc", said, [])
+    assert read_saved_options(tmp_path / "walk.amc") == said
     sent = from_json(to_json({"options": content}), ReadRequest)
     assert options_from_json(ReadOptions, sent.options) == said
     source = Source(str(tmp_path / "walk.amc"), "0" * 64, 60, said)

@@ -10,7 +10,7 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme._util.files import atomic_write
-from kineme.cli.messages import progress
+from kineme.cli.messages import show_progress
 from kineme.cli.tables import show_scores
 from kineme.errors import ParameterError, WriteError
 from kineme_reproduction.benchmark import (
@@ -39,13 +39,13 @@ def run_benchmark(
     methods = _methods(names)
     for folder in (plot, figures):
         _make_folder(folder)
-    with progress("cmu86", quiet=quiet) as stage:
+    with show_progress("cmu86", quiet=quiet) as stage:
         folder = find_folder(data)
         loaded = load_trials(folder, trials, progress=stage)
         results = run(loaded, methods, progress=stage)
     if not quiet:
         _show(results)
-    with progress("figures", quiet=quiet) as stage:
+    with show_progress("figures", quiet=quiet) as stage:
         _draw(results, folder, plot, figures, stage)
     return as_records(results)
 

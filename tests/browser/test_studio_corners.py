@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kineme.studio.storage.listed import file_id
+from kineme.studio.storage.listed import make_file_id
 from screen import Screen, box_of, until
 
 ON_TOP = """button => {
@@ -115,7 +115,7 @@ def test_channels_of_the_recording_before_are_not_asked_for(new_tab, server):
     page = new_tab(server.address_of(paths[0]))
     screen = Screen(page)
     screen.wait("k?.n_segments > 0 && !k.finding")
-    ids = [file_id(path) for path in paths]
+    ids = [make_file_id(path) for path in paths]
     screen.wait(f"({ASKED})('{ids[0]}') === 12")  # of each channel its outline, and its values
     page.keyboard.press("PageDown")
     screen.wait(f"k.name === '{paths[1].name}' && ({ASKED})('{ids[1]}') >= 12")

@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 import kineme as package
 from kineme.cli.app import app
-from kineme.cli.options.method import constants_of, format_value
+from kineme.cli.options.method import format_value, parse_constants
 from kineme.datasets import bundled_recording
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
@@ -171,7 +171,7 @@ def test_a_preset_that_is_none_is_answered_with_the_nearest(kineme) -> None:
 @pytest.mark.parametrize("preset", PRESETS.values(), ids=lambda preset: preset.name)
 def test_constants_given_one_by_one_make_the_preset(preset: Preset) -> None:
     texts = [f"{known.name}={typed(known.value)}" for known in preset.constants()]
-    values = constants_of([preset.name], texts)
+    values = parse_constants([preset.name], texts)
     assert preset.replace(**values) == preset
     assert set(values) == {known.name for known in preset.constants()}
 

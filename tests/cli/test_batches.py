@@ -13,7 +13,7 @@ import pytest
 
 import kineme as package
 from kineme._util import files as _files
-from kineme.cli.options.targets import files_for
+from kineme.cli.options.targets import choose_files
 from kineme.datasets import bundled_recording
 from kineme.recordings.operations import cut
 
@@ -79,10 +79,10 @@ def test_links_to_nothing_are_said_and_standard_input_is_refused(kineme, tmp_pat
 
 def test_folders_deeper_down_and_their_like_are_told_apart_too() -> None:
     inputs = [Path("/y/a/take.bvh"), Path("/y/a/take.trc"), Path("/y/b.trc")]
-    named = [path.name for path in files_for("-o", Path("{name}.csv"), inputs)]
+    named = [path.name for path in choose_files("-o", Path("{name}.csv"), inputs)]
     assert named == ["take_bvh.csv", "take_trc.csv", "b.csv"]
     two = [Path("/x/a/take.bvh"), Path("/y/a/take.bvh")]
-    assert files_for("-o", Path("{parent}/{name}.csv"), two) == [
+    assert choose_files("-o", Path("{parent}/{name}.csv"), two) == [
         Path("x_a/take.csv"),
         Path("y_a/take.csv"),
     ]

@@ -15,7 +15,7 @@ import pytest
 from rich.console import Console
 from rich.text import Text
 
-from kineme.cli.tables import new_table
+from kineme.cli.tables import make_table
 from kineme.datasets import bundled_recording
 
 Kineme = Callable[..., object]
@@ -122,7 +122,7 @@ def test_a_build_from_nothing_leaves_nothing(tmp_path: Path, kineme) -> None:
 
 
 def test_long_names_of_recordings_are_told_apart_in_a_narrow_terminal() -> None:
-    table = new_table("#", "recording", "start s", "stop s", "distance", "cluster", "label")
+    table = make_table("#", "recording", "start s", "stop s", "distance", "cluster", "label")
     names = [f"HuGaDB_v2_various_{number:02d}_07.txt" for number in (1, 2)]
     for number, name in enumerate(names):
         table.add_row(str(number), Text(name), "12.25", "13.50", "0.42", "3", "walking")

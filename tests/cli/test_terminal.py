@@ -8,15 +8,15 @@ from pathlib import Path
 from rich.table import Table
 from rich.text import Text
 
-from kineme.cli.messages import say_error
-from kineme.cli.tables import new_table
-from kineme.cli.terminal import Console, harmless
+from kineme.cli.messages import print_error
+from kineme.cli.tables import make_table
+from kineme.cli.terminal import Console, escape_controls
 
 STEERS = "\x1b[2J\x1b]0;owned\x07\x9b1A\u202e"
 
 
 def test_errors_spell_out_what_would_steer(capsys) -> None:
-    say_error(f"{Path('walk' + STEERS)}: is damaged\nline\ttwo")
+    print_error(f"{Path('walk' + STEERS)}: is damaged\nline\ttwo")
     told = capsys.readouterr().err
     assert not set("\x07\x9b\u202e") & set(told)
     assert "\x1b[2J" not in told
@@ -40,7 +40,7 @@ def test_tables_spell_it_out_and_keep_their_own_colours() -> None:
 
 def test_a_row_is_a_line_where_there_is_no_edge() -> None:
     label = "warming up " * 30
-    table = new_table("#", "label")
+    table = make_table("#", "label")
     table.add_row("0", label)
     file = io.StringIO()
     Console(file=file).print(table)
@@ -51,4 +51,4 @@ def test_a_row_is_a_line_where_there_is_no_edge() -> None:
 
 
 def test_a_text_without_them_stays() -> None:
-    assert harmless("Hüfte\t1\n") == "Hüfte\t1\n"
+    assert escape_controls("Hüfte\t1\n") == "Hüfte\t1\n"

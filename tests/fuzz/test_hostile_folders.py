@@ -31,7 +31,7 @@ from kineme.studio.app import create_app
 from kineme.studio.folder import Folder
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.storage.listed import file_id
+from kineme.studio.storage.listed import make_file_id
 
 pytestmark = [
     pytest.mark.slow,
@@ -182,7 +182,7 @@ def use_studio(home: Path, rng: random.Random) -> None:
     headers = {"x-kineme-token": "t"}
     base = "http://127.0.0.1:8750"
     with TestClient(server, base, headers=headers, raise_server_exceptions=False) as client:
-        one = f"/api/recordings/{file_id(home / 'takes' / 'a.csv')}"
+        one = f"/api/recordings/{make_file_id(home / 'takes' / 'a.csv')}"
         asked: list[Callable[[], Any]] = [
             lambda: client.get("/api/state"),
             lambda: client.get(one),

@@ -13,7 +13,7 @@ from typing import Any
 import httpx2 as httpx
 
 import kineme
-from kineme.studio.storage.listed import file_id
+from kineme.studio.storage.listed import make_file_id
 from screen import Screen
 from studio_server import StudioServer
 
@@ -228,7 +228,7 @@ class Robot:
 
     def ask(self, address: str) -> Any:
         """What the server answers of the present recording."""
-        asked = f"{self.server.root}api/recordings/{file_id(self.take)}{address}"
+        asked = f"{self.server.root}api/recordings/{make_file_id(self.take)}{address}"
         headers = {"x-kineme-token": self.server.token, "connection": "close"}  # it is killed here
         return self.client.get(asked, headers=headers).json()
 

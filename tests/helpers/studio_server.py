@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Self
 
 import kineme
-from kineme.studio.storage.listed import file_id
+from kineme.studio.storage.listed import make_file_id
 
 ADDRESS = re.compile(r"(http://127\.0\.0\.1:(\d+)/)\?token=(\S+)")
 
@@ -75,7 +75,7 @@ class StudioServer:
 
     def address_of(self, *recordings: Path) -> str:
         """The address that opens recordings of the folder."""
-        return self.address + "".join(f"&open={file_id(path)}" for path in recordings)
+        return self.address + "".join(f"&open={make_file_id(path)}" for path in recordings)
 
 
 def saved_table(recording: Path) -> kineme.Segmentation:

@@ -24,7 +24,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
 from kineme.web.display import display_motion
 from kineme.web.matrix import make_report_tiles
-from kineme.web.page_data import page_data, recording_message
+from kineme.web.page_data import make_page_data, make_recording_message
 
 RECORDING = kineme.read(bundled_recording())
 SEGMENTS = kineme.segment(RECORDING)
@@ -92,8 +92,8 @@ def test_the_page_asks_for_nothing_from_elsewhere(tmp_path: Path) -> None:
 
 
 def test_texts_stay_inside_their_element() -> None:
-    shown = page_data(RECORDING)
-    message = recording_message(shown, labelled(NASTY), name=NASTY + BREAKS)
+    shown = make_page_data(RECORDING)
+    message = make_recording_message(shown, labelled(NASTY), name=NASTY + BREAKS)
     page = fill_template(TEMPLATE, message, shown.binary, {})
     assert page.isascii()
     parsed = Scripts(page)
@@ -111,8 +111,8 @@ def test_names_that_are_not_unicode_are_shown(tmp_path: Path) -> None:
 
 
 def test_a_name_like_a_place_for_data_is_not_filled() -> None:
-    shown = page_data(RECORDING)
-    message = recording_message(shown, SEGMENTS, name="<!--kineme:tiles-->")
+    shown = make_page_data(RECORDING)
+    message = make_recording_message(shown, SEGMENTS, name="<!--kineme:tiles-->")
     page = Scripts(fill_template(TEMPLATE, message, shown.binary, {"0/0/0": b"tile"}))
     assert json.loads(page.texts["kineme-recording"])["name"] == "<!--kineme:tiles-->"
     assert page.tags.count("script") == 3
@@ -170,12 +170,12 @@ def test_only_pages_are_written(tmp_path: Path) -> None:
 
 def test_arrays_need_a_frame_rate() -> None:
     with pytest.raises(ParameterError, match="give fps"):
-        page_data(np.ones((5, 2)))
+        make_page_data(np.ones((5, 2)))
 
 
 def test_a_lowered_rate_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    shown = page_data(RECORDING)
-    assert recording_message(shown, SEGMENTS, name="x").warnings == []
+    shown = make_page_data(RECORDING)
+    assert make_recording_message(shown, SEGMENTS, name="x").warnings == []
     slow = replace(shown, motion=msgspec.structs.replace(shown.motion, sample_fps=12.0))
-    (said,) = recording_message(slow, SEGMENTS, name="x").warnings
+    (said,) = make_recording_message(slow, SEGMENTS, name="x").warnings
     assert "12 times a second" in said

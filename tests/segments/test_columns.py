@@ -37,7 +37,7 @@ from kineme.labels import read_segments, write_segments
 from kineme.library.storage.tables import DESCRIBED
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
-from kineme.web.page_data import segments_message
+from kineme.web.page_data import make_segments_message
 from kineme.web.encoding import to_json
 
 folder, pages, docs = map(Path, sys.argv[1:])
@@ -59,8 +59,8 @@ print(json.dumps({
     "row": made.table[1].effort,
     "renamed": editing.name_segment(made, "activity", 4, "hop").table.effort.tolist(),
     "schema": [schema["properties"]["effort"], "effort" in schema["required"]],
-    "message": json.loads(to_json(segments_message(made)))["segments"][1]["effort"],
-    "types": runpy.run_path(str(pages / "make_messages.py"))["messages_typescript"](),
+    "message": json.loads(to_json(make_segments_message(made)))["segments"][1]["effort"],
+    "types": runpy.run_path(str(pages / "make_messages.py"))["format_messages"](),
     "docs": filling["columns_table"](),
     "library": "effort" in DESCRIBED["segments"],
 }))

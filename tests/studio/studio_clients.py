@@ -9,7 +9,7 @@ from typing import Any
 
 import httpx2 as httpx
 
-from kineme.studio.storage.listed import file_id
+from kineme.studio.storage.listed import make_file_id
 from studio_server import StudioServer
 
 TOKEN, PORT = "the token", 8750
@@ -23,7 +23,7 @@ class Studio:
         self.client, self.folder = client, folder
         self.path = folder / "take.bvh"
         self.table = folder / "take.segments.json"
-        self.id = file_id(self.path)
+        self.id = make_file_id(self.path)
 
     def get(self, address: str, **options: Any) -> Answer:
         return self.client.get(address, **options)

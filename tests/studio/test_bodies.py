@@ -21,4 +21,4 @@ def test_a_request_that_does_not_go_on_is_given_up(monkeypatch: pytest.MonkeyPat
         return pieces.pop()
 
     with pytest.raises(bodies.TooSlowError, match="nothing came for 0.05 s"):
-        asyncio.run(bodies.body(Request({"type": "http"}, receive)))
+        asyncio.run(bodies.read_body(Request({"type": "http"}, receive)))

@@ -26,7 +26,7 @@ from kineme.segments import editing
 from kineme.segments.history import LONGEST, History
 from kineme.studio import server
 from kineme.studio.folder import Folder
-from kineme.studio.http.bodies import FORGOTTEN, Upload, forget_drafts
+from kineme.studio.http.bodies import FORGOTTEN, Upload, remove_abandoned_drafts
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
 
@@ -265,7 +265,7 @@ def test_what_a_killed_server_left_of_uploads_goes(tmp_path: Path) -> None:
         path.write_bytes(b"x")
     for path in (old, other):
         os.utime(path, (time.time() - 2 * FORGOTTEN,) * 2)
-    forget_drafts(tmp_path)
+    remove_abandoned_drafts(tmp_path)
     assert sorted(tmp_path.iterdir()) == [new, other]
 
 
@@ -275,7 +275,7 @@ def test_an_upload_that_pauses_for_hours_is_not_swept_by_another_server(tmp_path
         upload.write(b"HIERARCHY")
         (draft,) = tmp_path.iterdir()
         os.utime(draft, (time.time() - 2 * FORGOTTEN,) * 2)
-        forget_drafts(tmp_path)
+        remove_abandoned_drafts(tmp_path)
         assert draft.exists()
         assert upload.finish().read_bytes() == b"HIERARCHY"
 
@@ -311,11 +311,11 @@ def test_what_fails_after_the_end_is_not_said(
     def failing(ended: threading.Event) -> None:
         raise RuntimeError("cannot schedule new futures after interpreter shutdown")
 
-    monkeypatch.setattr(server, "load_code", failing)
+    monkeypatch.setattr(server, "load_compiled_code", failing)
     documents = OpenRecordings(Folder(folder, None), lambda name, revision: None)
     hub, ended = Hub(), threading.Event()
     hub.listened.set()
     with pytest.raises(RuntimeError):
-        server.make_ready(documents, hub, ended)
+        server.warm_up(documents, hub, ended)
     ended.set()
-    server.make_ready(documents, hub, ended)
+    server.warm_up(documents, hub, ended)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from kineme.studio.storage.sidecars import offset_of
+from kineme.studio.storage.sidecars import read_video_offset
 
 ACTS: dict[str, Callable[..., object]] = {
     "labels.json": lambda studio: studio.client.post("/api/labels", json={"labels": ["walk"]}),
@@ -80,4 +80,4 @@ def test_a_linked_folder_gets_nothing(studio, folder: Path, name: str, there: bo
 def test_without_links_all_of_it_is_kept(studio, folder: Path) -> None:
     assert ACTS["labels.json"](studio).status_code == 200
     assert ACTS["take.bvh.video.json"](studio).status_code == 200
-    assert offset_of(folder / "take.bvh") == 2.0
+    assert read_video_offset(folder / "take.bvh") == 2.0

@@ -28,7 +28,7 @@ from kineme.studio.reading import RecordingCache
 from kineme.studio.running import SHARES, Run
 from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
-from kineme.web.tables import table_change
+from kineme.web.tables import make_table_change
 
 COST = kineme.PRESETS["kineme"].segment_cost
 News = queue.Queue[tuple[str, int]]
@@ -289,7 +289,7 @@ def test_an_answer_has_few_rows_whatever_the_length(tmp_path):
         (editing.name_cluster(table, 3, "hop"), 0, n // 8),
         (editing.check(table, "activity", [510], checked=True), 0, 1),
     ]:
-        change = table_change(table, now, revision=1)
+        change = make_table_change(table, now, revision=1)
         assert (len(change.removed), len(change.rows)) == (removed, count)
 
 

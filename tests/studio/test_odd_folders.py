@@ -13,7 +13,7 @@ from starlette.testclient import TestClient
 from studio_clients import Studio
 
 from kineme.studio.storage import sidecars
-from kineme.studio.storage.listed import file_id
+from kineme.studio.storage.listed import make_file_id
 
 ODD = os.fsdecode(b"w\xe9")
 
@@ -23,7 +23,7 @@ def test_a_name_that_is_not_utf8_is_shown_and_downloaded(make_studio, folder: Pa
     (folder / "take.bvh").rename(folder / f"{ODD}.bvh")
     shutil.copy(Path(__file__).parents[1] / "browser" / "clock.webm", folder / f"{ODD}.webm")
     client: TestClient = make_studio().client
-    one = f"/api/recordings/{file_id(folder / f'{ODD}.bvh')}"
+    one = f"/api/recordings/{make_file_id(folder / f'{ODD}.bvh')}"
     formats = [each["name"] for each in client.get("/api/state").json()["export_formats"]]
     asked = [f"export/{name}" for name in (*formats, "motions", "report")]
     for address in ("", *(f"/{each}" for each in (*asked, "video", "versions"))):
@@ -51,7 +51,7 @@ def test_a_folder_that_nothing_can_be_written_to_is_said(studio: Studio, folder:
     ):
         answer = studio.client.post(address, json=sent)
         assert "cannot be made" in answer.json()["error"], address
-    assert sidecars.offset_of(folder / "take.bvh") == 0.0
+    assert sidecars.read_video_offset(folder / "take.bvh") == 0.0
 
 
 @pytest.mark.parametrize(

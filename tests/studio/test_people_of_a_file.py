@@ -12,10 +12,10 @@ from typer.testing import CliRunner
 import kineme
 from kineme._util import json as _json
 from kineme.cli.app import app
-from kineme.cli.studio import _tell_apart
+from kineme.cli.studio import _split_people
 from kineme.formats import ReadOptions
 from kineme.studio.storage import sidecars
-from kineme.studio.storage.listed import ListedRecording, file_id
+from kineme.studio.storage.listed import ListedRecording, make_file_id
 from people_files import write_people
 
 NAME = {"level": "activity", "frame": 0}
@@ -26,7 +26,7 @@ def duet(studio: Studio) -> Studio:
     """A studio, its recording a file with two people."""
     path = write_people(studio.folder / "duet.trc", {"Anna": 0, "Bob": 300})
     found = Studio(studio.client, studio.folder)
-    found.path, found.id = path, file_id(path)
+    found.path, found.id = path, make_file_id(path)
     return found
 
 
@@ -122,7 +122,7 @@ def test_the_side_file_of_people_is_read_once_for_a_list(duet: Studio, monkeypat
         return _json.load_json(path, shape)
 
     monkeypatch.setattr(sidecars, "load_json", loaded)
-    assert [each.person for each in sidecars.listed_in([duet.path])] == ["Anna", "Bob"]
+    assert [each.person for each in sidecars.list_recordings([duet.path])] == ["Anna", "Bob"]
     assert len(read) == 1
 
 
@@ -174,7 +174,7 @@ def test_commands_take_all_people(duet: Studio, monkeypatch: pytest.MonkeyPatch)
 
 
 def test_everybody_can_be_asked_for_at_the_start(duet: Studio) -> None:
-    _tell_apart([duet.path, duet.folder / "take.bvh"], ReadOptions())
+    _split_people([duet.path, duet.folder / "take.bvh"], ReadOptions())
     assert [*ids_of(duet)] == ["duet.trc · Anna", "duet.trc · Bob"]
     asked = ["studio", "--no-browser", str(duet.folder), "--person", "all"]
     done = CliRunner().invoke(app, asked)

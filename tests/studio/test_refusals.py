@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from studio_clients import PORT, TOKEN
 
 from kineme.errors import ParameterError
-from kineme.studio.http.bodies import LONGEST, safe_name
+from kineme.studio.http.bodies import LONGEST, make_safe_name
 from kineme.studio.http.security import DEVELOPMENT, HEADERS
 from kineme.web.encoding import from_json, to_json
 from kineme.web.requests import EditRequest
@@ -172,11 +172,11 @@ def test_an_upload_that_is_no_recording_is_refused(studio, name) -> None:
 
 @given(st.text(max_size=300))
 def test_names_stay_in_the_folder_and_fit_on_any_disk(name: str) -> None:
-    safe = safe_name(name)
+    safe = make_safe_name(name)
     assert not set(safe) & set('/\\<>:"|?*\0')
     assert not safe.startswith(".")
     assert len(safe.encode(errors="replace")) <= LONGEST + 1
-    assert safe_name(safe) == safe
+    assert make_safe_name(safe) == safe
 
 
 def test_an_upload_never_takes_the_place_of_a_file(studio) -> None:

@@ -17,8 +17,8 @@ import kineme
 from kineme.clips.loops import Carry
 from kineme.formats.scenes.gltf_writer import write_animations
 from kineme.recordings.operations import turn
-from kineme.studio.overview import brief_of, saved_brief
-from kineme.studio.storage.listed import file_id
+from kineme.studio.overview import read_brief, summarize_table
+from kineme.studio.storage.listed import make_file_id
 from kineme.web.encoding import to_json
 
 
@@ -99,7 +99,7 @@ def test_the_folder_tells_of_tables_without_reading_recordings(studio: Studio) -
     said = {"level": rows[0]["level"], "frame": frame, "text": "slips"}
     studio.done(revision, "comment", **said)
     table = next(studio.folder.glob("*.segments.json"))
-    assert to_json(saved_brief(table)) == to_json(brief_of(kineme.read_segments(table)))
+    assert to_json(read_brief(table)) == to_json(summarize_table(kineme.read_segments(table)))
     (studio.folder / "take.bvh").write_text("no recording any more")
     (told,) = studio.get("/api/tables").json()["recordings"]
     assert (told["table"]["checked"], told["table"]["comments"]) == ([0], 1)
@@ -119,7 +119,7 @@ def test_a_table_that_is_not_as_it_was_written_is_read_as_every_table(
     else:
         content["segments"][0]["stop_frame"] -= 1
         table.write_text(json.dumps(content))
-    assert saved_brief(table) is None
+    assert read_brief(table) is None
 
 
 def test_what_is_called_otherwise_in_one_recording_is_in_all(studio: Studio) -> None:
@@ -129,7 +129,7 @@ def test_what_is_called_otherwise_in_one_recording_is_in_all(studio: Studio) -> 
     cluster = next(
         row["cluster"] for row in message["segmentation"]["segments"] if row["cluster"] >= 0
     )
-    address = f"/api/recordings/{file_id(other)}"
+    address = f"/api/recordings/{make_file_id(other)}"
     edit = {"kind": "name_cluster", "cluster": cluster, "label": "walk"}
     revision = studio.get(address).json()["revision"]
     studio.client.post(f"{address}/edits", json={"revision": revision, "edit": edit})
@@ -259,7 +259,7 @@ def test_one_of_several_people_is_chosen_from_a_list(studio: Studio) -> None:
     ]
     path = studio.folder / "two.csv"
     path.write_text("\n".join([*head, *rows]))
-    address = f"/api/recordings/{file_id(path)}"
+    address = f"/api/recordings/{make_file_id(path)}"
     said = studio.get(address).json()
     assert said["reading"] is True
     assert said["people"] == ["ann", "bob"]
@@ -281,7 +281,7 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
     motions = {"walk": motion, "turned": turn(motion, 1.0), "short": motion[:200]}
     write_animations(motions, path)
     takes = Studio(studio.client, studio.folder)
-    takes.id = file_id(path)
+    takes.id = make_file_id(path)
     address = f"/api/recordings/{takes.id}/reading"
 
     def named(take: str) -> tuple[str | None, set[str]]:

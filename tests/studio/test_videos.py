@@ -14,7 +14,7 @@ from starlette.testclient import TestClient
 
 from kineme.pose import Pose, register
 from kineme.pose.estimators import ESTIMATORS
-from kineme.studio.storage.listed import file_id
+from kineme.studio.storage.listed import make_file_id
 from squats import drawn_estimator, squat, write_squats, write_video
 
 AT_30_HZ = np.arange(90) / 30
@@ -61,7 +61,7 @@ def test_keypoints_lie_over_the_picture(make_studio, folder: Path) -> None:
     video = folder / "squats.mp4"
     video.write_bytes(b"\0\0\0\x18ftypmp42 and more")
     write_poses_of(video, lambda time: [squat(time)] if time < 3 else [])
-    client, one = make_studio().client, f"/api/recordings/{file_id(video)}"
+    client, one = make_studio().client, f"/api/recordings/{make_file_id(video)}"
     listed = [each["name"] for each in client.get("/api/state").json()["recordings"]]
     assert listed == ["squats.mp4", "take.bvh"]  # the table is read with its video
     told = client.get(one).json()["video"]
@@ -78,7 +78,7 @@ def test_keypoints_lie_over_the_picture(make_studio, folder: Path) -> None:
 
 
 def test_a_video_is_served_in_parts_to_those_who_know_the_token(make_studio, video: Path) -> None:
-    client, one = make_studio().client, f"/api/recordings/{file_id(video)}/video"
+    client, one = make_studio().client, f"/api/recordings/{make_file_id(video)}/video"
     part = client.get(one, headers={"range": "bytes=4-7"})
     assert (part.status_code, part.content) == (206, b"ftyp")
     assert part.headers["content-type"] == "video/mp4"
@@ -88,7 +88,7 @@ def test_a_video_is_served_in_parts_to_those_who_know_the_token(make_studio, vid
 
 
 def test_poses_are_estimated_when_they_are_asked_for(make_studio, video: Path, watch) -> None:
-    client, name = make_studio().client, file_id(video)
+    client, name = make_studio().client, make_file_id(video)
     refused = client.get(f"/api/recordings/{name}")
     assert refused.status_code == 400
     assert refused.json()["poses"]
@@ -103,7 +103,7 @@ def test_poses_are_estimated_when_they_are_asked_for(make_studio, video: Path, w
 
 
 def test_what_is_cancelled_goes_on_later(make_studio, video: Path, watch) -> None:
-    client, name = make_studio().client, file_id(video)
+    client, name = make_studio().client, make_file_id(video)
     seen: list[float] = []
     watch.append(lambda time_s: (seen.append(time_s), time.sleep(0.02)))
     client.post("/api/poses", json={"recordings": [name]})
@@ -121,12 +121,12 @@ def test_a_video_that_fails_costs_itself_only(make_studio, video: Path, watch) -
     bad = video.with_name("a.mp4")
     bad.write_bytes(video.read_bytes()[:300])
     client = make_studio().client
-    client.post("/api/poses", json={"recordings": [file_id(bad), file_id(video)]})
+    client.post("/api/poses", json={"recordings": [make_file_id(bad), make_file_id(video)]})
     done = wait(client, is_idle)
     assert done["done"] == 2
     assert len(done["failed"]) == 1
     assert "a.mp4" in done["failed"][0]
-    assert client.get(f"/api/recordings/{file_id(video)}").status_code == 200
+    assert client.get(f"/api/recordings/{make_file_id(video)}").status_code == 200
 
 
 def test_without_an_estimator_the_install_line_is_said(
@@ -135,6 +135,6 @@ def test_without_an_estimator_the_install_line_is_said(
     monkeypatch.setattr("kineme.pose.estimators.find_spec", lambda name: None)
     client = make_studio().client
     assert "pip install 'kineme[video]'" in client.get("/api/state").json()["install"]
-    refused = client.post("/api/poses", json={"recordings": [file_id(video)]})
+    refused = client.post("/api/poses", json={"recordings": [make_file_id(video)]})
     assert refused.status_code == 400
     assert "pip install" in refused.json()["error"]

@@ -7,16 +7,23 @@ import numpy as np
 import kineme
 from kineme.cycles import channels_of
 from kineme.recordings import Signals
-from kineme.web.curves import FACTOR, TILE, Curves, curves_of, level_sizes, levels_of
+from kineme.web.curves import (
+    FACTOR,
+    TILE,
+    Curves,
+    build_levels,
+    compute_level_sizes,
+    make_report_curves,
+)
 
 
 def test_no_peak_is_lost_at_any_level() -> None:
     values = np.random.default_rng(0).normal(size=9001)
     values[4321] = 50.0
     values[5000:5600] = np.nan
-    for level, pairs in enumerate(levels_of(values)):
+    for level, pairs in enumerate(build_levels(values)):
         wide = FACTOR**level
-        assert len(pairs) == level_sizes(len(values))[level]
+        assert len(pairs) == compute_level_sizes(len(values))[level]
         assert np.nanmax(pairs[:, 1]) == 50.0
         for i in (0, 4321 // wide):
             part = values[i * wide : (i + 1) * wide]
@@ -39,7 +46,7 @@ def test_curves_of_a_body() -> None:
 
 def test_a_report_has_the_channels_of_signals() -> None:
     signals = Signals(np.arange(6000.0).reshape(3000, 2), 50.0, ["a", "b"], gaps=[(10, 20)])
-    head, pieces = curves_of(signals, 50.0)
+    head, pieces = make_report_curves(signals, 50.0)
     assert [each.name for each in head.curves] == ["a", "b"]
     first = np.frombuffer(pieces["0/0/0"], "<f4")
     assert np.isnan(first[20:40]).all()

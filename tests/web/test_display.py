@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.recordings import Motion, Skeleton
-from kineme.web.display import bones, display_motion, encode, sample_poses
+from kineme.web.display import display_motion, encode_positions, list_bones, sample_poses
 from kineme.web.messages import MotionHead
 
 RECORDING = kineme.read(bundled_recording())
@@ -88,7 +88,7 @@ def test_gaps_show_nothing() -> None:
     )
 )
 def test_points_come_back_and_missing_ones_stay_missing(positions: np.ndarray) -> None:
-    origin, step, data = encode(positions, 1e-4)
+    origin, step, data = encode_positions(positions, 1e-4)
     head = MotionHead(
         n_samples=len(positions),
         sample_fps=30.0,
@@ -123,9 +123,9 @@ def test_what_has_no_body_is_still_drawn() -> None:
 
 def test_bones_join_the_joints_of_a_body_and_no_markers() -> None:
     joints = [
-        (RECORDING.skeleton.names[a], RECORDING.skeleton.names[b]) for a, b in bones(RECORDING)
+        (RECORDING.skeleton.names[a], RECORDING.skeleton.names[b]) for a, b in list_bones(RECORDING)
     ]
     assert len(joints) == RECORDING.skeleton.n_joints - 1
     names = ("pelvis", "left_hip", "right_hip", "LBWT", "RBWT")
     skeleton = Skeleton(names, (-1, 0, 0, 0, 0), np.ones((5, 3)))
-    assert bones(Motion(skeleton, np.ones((1, 5, 3)), 100.0)) == [(0, 1), (0, 2)]
+    assert list_bones(Motion(skeleton, np.ones((1, 5, 3)), 100.0)) == [(0, 1), (0, 2)]

@@ -36,7 +36,7 @@ def test_typescript_is_up_to_date(maker: dict[str, Any]) -> None:
 
 
 def test_what_becomes_of_each_kind_of_type(maker: dict[str, Any]) -> None:
-    assert maker["typescript"]({"Side": Side, "Foot": Foot}).endswith(
+    assert maker["format_typescript"]({"Side": Side, "Foot": Foot}).endswith(
         """\
 export type Side = "left" | "right";
 
@@ -60,7 +60,7 @@ def test_unknown_types_are_refused(maker: dict[str, Any]) -> None:
         data: bytes
 
     with pytest.raises(TypeError, match="Bytes"):
-        maker["typescript"]({"Bytes": Bytes})
+        maker["format_typescript"]({"Bytes": Bytes})
 
 
 @pytest.mark.parametrize(

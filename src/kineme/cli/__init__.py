@@ -36,9 +36,9 @@ def main() -> None:
 
 def _run() -> None:
     from kineme.cli.app import app
-    from kineme.cli.messages import short_warnings
+    from kineme.cli.messages import shorten_warnings
 
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="backslashreplace")
-    short_warnings()
+    shorten_warnings()
     app(prog_name="kineme")

@@ -12,7 +12,7 @@ from kineme.cli.help import INPUT, LABELS, OUTPUT, option
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Recursive
 from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.targets import make_folder_of
+from kineme.cli.options.targets import make_parent_folder
 from kineme.errors import WriteError
 from kineme.formats.options import ReadOptions
 from kineme.labels import read_segments, write_segments
@@ -20,7 +20,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
 
-def _checked_format(name: str | None) -> str | None:
+def _check_format(name: str | None) -> str | None:
     if name is None:
         return None
     from kineme.labels import label_formats
@@ -36,11 +36,11 @@ def _is_recording(path: Path) -> bool:
 
     suffix = path.suffix.lower()
     if suffix == ".txt":
-        return _names_channels(path)
+        return _is_channel_table(path)
     return path.is_dir() or holds_recording(path) or suffix in (".asf", ".dat")
 
 
-def _names_channels(path: Path) -> bool:
+def _is_channel_table(path: Path) -> bool:
     """Whether a text file is a table of channels: these name columns, labels begin with a time."""
     from kineme.errors import ReadError
     from kineme.formats.dialects import hold_channels, recognise_table
@@ -76,7 +76,7 @@ def convert(
             f"Format of labels to read, by default by the suffix: {LABELS}.",
             "--from",
             metavar="FORMAT",
-            callback=_checked_format,
+            callback=_check_format,
         ),
     ] = None,
     to_format: Annotated[
@@ -86,7 +86,7 @@ def convert(
             "Format of labels to write, one of the same.",
             "--to",
             metavar="FORMAT",
-            callback=_checked_format,
+            callback=_check_format,
         ),
     ] = None,
     level: Annotated[
@@ -122,7 +122,7 @@ def convert(
             if place.exists():
                 raise WriteError(place, "is there already: remove it or name another file")
             if several:
-                make_folder_of(place)
+                make_parent_folder(place)
             is_table = read_options.columns is not None
             if from_format is None and (is_table or _is_recording(path)):
                 _convert_recording(read_options, path, place)
@@ -132,13 +132,13 @@ def convert(
                 )
                 write_segments(segments, place, format=to_format, level=level)
                 if not quiet and level is None:
-                    _tell_of_primitives(segments, place, to_format)
+                    _note_missing_primitives(segments, place, to_format)
             if not quiet:
                 typer.echo(f"{path} written as {place}")
     batch.exit()
 
 
-def _tell_of_primitives(segments: Segmentation, place: Path, name: str | None) -> None:
+def _note_missing_primitives(segments: Segmentation, place: Path, name: str | None) -> None:
     """Say on standard error what a file of one level does not hold."""
     from kineme.labels.registry import format_to_write
 

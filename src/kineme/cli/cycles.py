@@ -139,14 +139,14 @@ def cycles(
     failures = Failures()
     if recordings:
         with failures.caught(""):
-            analog = _analog(batch.paths, recordings, read_options) if names else []
+            analog = _read_analog_channels(batch.paths, recordings, read_options) if names else []
             if sides is not None:
                 names = _choose_channels(recordings, names)
             found = measured(
                 recordings, tables, channels=names, anchor=anchor, beside=analog, common=common,
                 align=align,
             )  # fmt: skip
-            found = _count_excluded(found, exclude or [])
+            found = _exclude_cycles(found, exclude or [])
             # The cycles of each recording that has some.
             owners = found.columns["recording"]
             named = dict.fromkeys(owners.tolist()) if compare is not None else ()
@@ -186,7 +186,7 @@ def _keep_common_channels(parts: list[_Part], batch: Batch) -> list[_Part]:
     return [each for each in parts if each.channels == most]
 
 
-def _analog(
+def _read_analog_channels(
     paths: list[Path], recordings: list[Motion | Signals], options: ReadOptions
 ) -> list[Signals]:
     """Channels in the file of a single body, such as force plates, which may be measured, too."""
@@ -216,7 +216,7 @@ def _check_targets(
             raise typer.BadParameter(f"{path} must end in {', '.join(suffixes)}", param_hint=name)
 
 
-def _count_excluded(cycles: Cycles, rules: list[str]) -> Cycles:
+def _exclude_cycles(cycles: Cycles, rules: list[str]) -> Cycles:
     for rule in rules:
         if rule == FAR:
             cycles = cycles.exclude_far()
@@ -310,16 +310,16 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
     """Print a line for each group, of two sessions for each of both, and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import OF_COUNTS, PER_CENT, format_per_cent, keep_if_filled, new_table
+    from kineme.cli.tables import OF_COUNTS, PER_CENT, format_per_cent, keep_if_filled, make_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
-    shown = cycles.channels[:SHOWN] if chosen else _liveliest(cycles, ends=ends)
+    shown = cycles.channels[:SHOWN] if chosen else _choose_shown_channels(cycles, ends=ends)
     units = dict(zip(cycles.channels, cycles.units, strict=True))
     ranges = [f"{name} range {units[name]}".strip() for name in shown]
     first = ["recording"] if sessions else []
     names = "label", "cycles", PER_CENT, "n", "duration s", "sd", "cv %", "per min"
-    table = new_table(*first, *names, *ranges)
+    table = make_table(*first, *names, *ranges)
     without: list[str] = []
     for each in sessions or [cycles]:
         values = _tabulate_measures(each, ends=ends)
@@ -368,7 +368,7 @@ def _tabulate_measures(
     return {(group, measure): (n, mean, sd, cv) for group, measure, n, mean, sd, cv in rows}
 
 
-def _liveliest(cycles: Cycles, *, ends: bool) -> list[str]:
+def _choose_shown_channels(cycles: Cycles, *, ends: bool) -> list[str]:
     """Return the channels to show: those that go farthest in a group, with the other side of each.
 
     Of several units, which cannot be compared, the first ones.

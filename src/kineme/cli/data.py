@@ -59,13 +59,13 @@ def data(
 
     For example: kineme data cmu 86 --trials 1,2
     """
-    numbers = _numbers(trials)
+    numbers = _parse_numbers(trials)
     from kineme.datasets.cmu import ANNOTATIONS, SITE, fetch_subject
 
     failures = Failures()
     start = time.perf_counter()
     files: list[Fetched] = []
-    with failures.caught(f"subject {subject}"), _bars(quiet=quiet) as (shown, say):
+    with failures.caught(f"subject {subject}"), _show_progress(quiet=quiet) as (shown, say):
         for file in fetch_subject(
             subject,
             numbers,
@@ -76,13 +76,13 @@ def data(
             timeout_s=timeout,
         ):
             files.append(file)
-            say(_line(file))
+            say(_describe_file(file))
     if files and not quiet:
-        typer.echo(_summary(files, time.perf_counter() - start))
+        typer.echo(_summarize(files, time.perf_counter() - start))
     failures.exit()
 
 
-def _numbers(text: str | None) -> list[int] | None:
+def _parse_numbers(text: str | None) -> list[int] | None:
     """``1,2,9-11`` as numbers."""
     if text is None:
         return None
@@ -100,7 +100,7 @@ def _numbers(text: str | None) -> list[int] | None:
 
 
 @contextmanager
-def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], None]]]:
+def _show_progress(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], None]]]:
     """What shows the progress of a file, and what prints a line above it."""
     from rich import progress as rich_progress
 
@@ -130,7 +130,7 @@ def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], Non
         yield show, console.print
 
 
-def _line(file: Fetched) -> str:
+def _describe_file(file: Fetched) -> str:
     from rich.filesize import decimal
 
     length = "" if file.frames is None else f"{format_count(file.frames, 'frame')}, "
@@ -138,7 +138,7 @@ def _line(file: Fetched) -> str:
     return f"{file.path.name}: {length}{decimal(file.size)}, {how}"
 
 
-def _summary(files: list[Fetched], seconds: float) -> str:
+def _summarize(files: list[Fetched], seconds: float) -> str:
     from rich.filesize import decimal
 
     new = [file for file in files if file.new]

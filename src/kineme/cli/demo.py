@@ -8,9 +8,9 @@ from typing import Annotated
 import typer
 
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.messages import Failures, progress
+from kineme.cli.messages import Failures, show_progress
 from kineme.cli.options.reading import Quiet
-from kineme.cli.options.targets import check_place, check_writable
+from kineme.cli.options.targets import check_target_folder, check_writable
 from kineme.cli.segment import read_and_segment, write_results
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
@@ -37,10 +37,10 @@ def demo(
     table, picture = (output / f"{path.stem}{suffix}" for suffix in (".csv", ".png"))
     failures = Failures()
     with failures.caught(path):
-        check_place(table)
+        check_target_folder(table)
         check_writable(table, picture)
         options = SegmentOptions()
-        with progress(path.name, quiet=quiet) as stage:
+        with show_progress(path.name, quiet=quiet) as stage:
             recording, result = read_and_segment(path, ReadOptions(), None, options, stage)
         write_results(result, recording, options, table, picture)
         if not quiet:

@@ -117,19 +117,19 @@ def _show(path: Path, events: Events, gait: Columns, written: list[Path | None])
     """Print how many events there are, and what they tell of the gait."""
     from rich.text import Text
 
-    from kineme.cli.tables import new_table, show_written
+    from kineme.cli.tables import make_table, show_written
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
     console.print(Text.assemble((path.name, "bold"), f"  {format_count(len(events), 'event')}"))
     for side, source in events.sources.items():
         console.print(Text(f"{side} foot: from {source}"))
-    table = new_table("measure", "left", "n", "right", "n", "asymmetry %")
+    table = make_table("measure", "left", "n", "right", "n", "asymmetry %")
     table.columns[0].justify = "left"
     for name, *values in zip(*(column.tolist() for column in gait.values()), strict=True):
         n, mean, sd, other_n, other, other_sd, asymmetry = values
         table.add_row(
-            name, _number(mean, sd), str(n), _number(other, other_sd), str(other_n),
+            name, _format_mean(mean, sd), str(n), _format_mean(other, other_sd), str(other_n),
             "" if isnan(asymmetry) else f"{asymmetry:+.1f}",
         )  # fmt: skip
     if len(gait["measure"]):
@@ -137,6 +137,6 @@ def _show(path: Path, events: Events, gait: Columns, written: list[Path | None])
     show_written(console, written)
 
 
-def _number(mean: float, deviation: float) -> str:
+def _format_mean(mean: float, deviation: float) -> str:
     """Return a mean with its deviation; nothing where there is none."""
     return f"{mean:.3f} ± {deviation:.3f}".replace(" ± nan", "").replace("nan", "")

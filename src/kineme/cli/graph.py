@@ -10,12 +10,12 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import METHOD, OUTPUT, option
-from kineme.cli.messages import Failures, progress
+from kineme.cli.messages import Failures, show_progress
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import BODY, Quiet
-from kineme.cli.options.targets import check_place, check_writable
+from kineme.cli.options.targets import check_target_folder, check_writable
 from kineme.cli.segment import load_or_find_segments
 from kineme.formats import read_motion
 from kineme.formats.options import ReadOptions
@@ -66,7 +66,7 @@ def graph(
     tables = batch.tables("--segments", segments, read_options.person or "")
     failures = Failures()
     with failures.caught(output):
-        check_place(output)
+        check_target_folder(output)
         check_writable(output, plot)
     failures.exit()
     motions: list[Motion] = []
@@ -83,7 +83,7 @@ def graph(
             motions.append(motion)
     if not motions:
         batch.exit()
-    with failures.caught(output), progress(output.name, quiet=quiet) as stage:
+    with failures.caught(output), show_progress(output.name, quiet=quiet) as stage:
         from kineme.synthesis import motion_graph, write_graph
 
         stage("jumps")

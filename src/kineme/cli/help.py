@@ -87,7 +87,7 @@ class _Homes(Mapping[str, "_click.Command"]):
         self._homes = dict(homes)
 
     def __getitem__(self, name: str) -> _click.Command:
-        return _command(self._homes[name], name)
+        return _load_command(self._homes[name], name)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._homes)
@@ -97,7 +97,7 @@ class _Homes(Mapping[str, "_click.Command"]):
 
 
 @cache
-def _command(module: str, name: str) -> _click.Command:
+def _load_command(module: str, name: str) -> _click.Command:
     """Import a command or a group of commands."""
     found = getattr(import_module(module), name)
     if isinstance(found, typer.Typer):

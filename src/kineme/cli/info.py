@@ -46,9 +46,9 @@ def info(
     for path in batch.paths:
         with batch.caught(path):
             recording = read(path, **vars(read_options))
-            facts = _facts(recording, segment_options.effectors)
+            facts = _collect_facts(recording, segment_options.effectors)
             if channels:
-                facts["measures"] = _measures(path, recording, read_options)
+                facts["measures"] = _list_measures(path, recording, read_options)
             if json:
                 typer.echo(dumps(facts))
             else:
@@ -56,7 +56,7 @@ def info(
     batch.exit()
 
 
-def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
+def _collect_facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
     """What is told of a recording, by name: of its file, then of its body or its channels."""
     from kineme.recordings import Motion
 
@@ -76,7 +76,7 @@ def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
     return facts | {"channels": list(recording.names)}
 
 
-def _measures(path: Path, recording: Motion | Signals, options: ReadOptions) -> list[Facts]:
+def _list_measures(path: Path, recording: Motion | Signals, options: ReadOptions) -> list[Facts]:
     """Return what can be measured in a recording: see `kineme.cycles.channels_of`."""
     from kineme.cycles.channels import channels_of
     from kineme.recordings import Motion
@@ -111,7 +111,7 @@ def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
 
 def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
     """Print the facts for people."""
-    from kineme.cli.tables import columns_of, show_facts
+    from kineme.cli.tables import make_columns, show_facts
     from kineme.formats.points import BODY
     from kineme.recordings import Motion
 
@@ -131,7 +131,7 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
             f"and {format_count(len(facts['end_sites']), 'end site')}",
             "end effectors": effectors or "not found",
         }
-        below = _tree(recording) if joints else None
+        below = _build_tree(recording) if joints else None
     else:
         names = facts["channels"]
         many = len(names) > IN_A_LINE
@@ -140,16 +140,16 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
             "length": length,
             "channels": f"{len(names)}, below" if many else f"{len(names)}: {', '.join(names)}",
         }
-        below = columns_of(names) if many else None
+        below = make_columns(names) if many else None
     if "measures" in facts:
-        below = _list_names(facts["measures"])
+        below = _tabulate_measures(facts["measures"])
     show_facts(facts | {"notes": notes}, lines | {"SHA-256": facts["sha256"]}, below=below)
 
 
-def _list_names(measures: list[Facts]) -> Any:
-    from kineme.cli.tables import new_table
+def _tabulate_measures(measures: list[Facts]) -> Any:
+    from kineme.cli.tables import make_table
 
-    table = new_table("channel", "unit", "group", "from")
+    table = make_table("channel", "unit", "group", "from")
     for column in table.columns:
         column.justify = "left"
     for each in measures:
@@ -157,7 +157,7 @@ def _list_names(measures: list[Facts]) -> Any:
     return table
 
 
-def _tree(motion: Motion) -> Any:
+def _build_tree(motion: Motion) -> Any:
     from rich.text import Text
     from rich.tree import Tree
 

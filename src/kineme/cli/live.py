@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
-from kineme.cli.messages import one_line, say_error, say_skipped
+from kineme.cli.messages import format_line, print_error, print_skipped
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.method import SEGMENTING
 from kineme.cli.options.reading import READING, Quiet
@@ -100,8 +100,8 @@ def live(
             typer.echo(f"wrote {recover_journal(recover)}")
             return
         check_writable(output)
-        source = _open(replay, speed, lsl, (osc, osc_host), read_options)
-        stream = _stream_of(source, segment_options, delay, interval)
+        source = _open_source(replay, speed, lsl, (osc, osc_host), read_options)
+        stream = _make_stream(source, segment_options, delay, interval)
         kept = None if record is None else Journal(record, source.channels, source.fps)
         with ExitStack() as opened:
             opening = [OUTPUTS[name].open(value) for name, value in outputs.items()]
@@ -109,14 +109,14 @@ def live(
             sends = [opened.enter_context(each) for each in opening]
             with (
                 nullcontext() if kept is None else closing(kept),
-                _printer(json=json, quiet=quiet) as show,
+                _open_printer(json=json, quiet=quiet) as show,
             ):
                 is_stopped = _push_all(source, stream, kept, [*sends, show])
             _write(stream, output, kept, quiet=json or quiet)
             if page and not is_stopped:
                 _wait_for_interrupt()
     except KinemeError as error:
-        say_error(one_line(error))
+        print_error(format_line(error))
         raise typer.Exit(1) from error
 
 
@@ -130,7 +130,7 @@ def _push_all(source: Source, stream: Stream, kept: Journal | None, sends: Seque
     try:
         for rows in source.rows if kept is None else kept.write_ahead(source.rows):
             for remark in rows.remarks:
-                say_skipped(remark)
+                print_skipped(remark)
             tell(stream.push(rows.values, rows.seconds))
     except KeyboardInterrupt:
         return True
@@ -173,7 +173,7 @@ def _wait_for_interrupt() -> None:
             sleep(1)
 
 
-def _open(
+def _open_source(
     replayed: Path | None,
     speed: float,
     lsl: str | None,
@@ -196,7 +196,7 @@ def _open(
     return source if source.fps else sources.measure_rate(source)
 
 
-def _stream_of(source: Source, options: SegmentOptions, delay: float, interval: float) -> Stream:
+def _make_stream(source: Source, options: SegmentOptions, delay: float, interval: float) -> Stream:
     from kineme.live.stream import Stream, as_keywords
 
     return Stream(
@@ -210,7 +210,7 @@ def _stream_of(source: Source, options: SegmentOptions, delay: float, interval: 
 
 
 @contextmanager
-def _printer(*, json: bool, quiet: bool) -> Iterator[Send]:
+def _open_printer(*, json: bool, quiet: bool) -> Iterator[Send]:
     """Show events as lines of JSON, as a view that changes in a terminal, or as lines of text."""
     if json or quiet or not sys.stdout.isatty():
         yield _print_json if json else partial(_print_lines, quiet=quiet)
@@ -242,7 +242,7 @@ def _print_json(events: Sequence[Event]) -> None:
 def _print_lines(events: Sequence[Event], *, quiet: bool) -> None:
     for event in events:
         if isinstance(event, Notice):
-            say_skipped(event.text)
+            print_skipped(event.text)
         elif event.is_final and not quiet:
             sys.stdout.write(describe(event) + "\n")
     sys.stdout.flush()
@@ -257,9 +257,9 @@ def describe(event: Event) -> str:
     '    3.50 s  cluster 0: 3'
     """
     if isinstance(event, ActivityStarted):
-        return f"{event.start_s:8.2f} s  {_name(event)} begins"
+        return f"{event.start_s:8.2f} s  {_format_name(event)} begins"
     if isinstance(event, ActivityEnded):
-        return f"{event.stop_s:8.2f} s  {_name(event)} ends, {event.repetitions} repetitions"
+        return f"{event.stop_s:8.2f} s  {_format_name(event)} ends, {event.repetitions} repetitions"
     if isinstance(event, Repetition):
         return f"{event.stop_s:8.2f} s  cluster {event.cluster}: {event.number}"
     if isinstance(event, Gap):
@@ -267,7 +267,7 @@ def describe(event: Event) -> str:
     return ""
 
 
-def _name(event: ActivityStarted | ActivityEnded) -> str:
+def _format_name(event: ActivityStarted | ActivityEnded) -> str:
     return event.label or f"cluster {event.cluster}"
 
 
@@ -283,7 +283,7 @@ class View:
     def add(self, event: Event) -> None:
         """Take an event in."""
         if isinstance(event, ActivityStarted) and not event.is_final:
-            self.name, self.count, self.stops = _name(event), 0, []
+            self.name, self.count, self.stops = _format_name(event), 0, []
         elif isinstance(event, Repetition) and not event.is_final:
             self.count = event.number
             self.stops = [*self.stops[-4:], event.stop_s]
@@ -302,11 +302,11 @@ class View:
 
     def table(self) -> Table:
         """Return what is shown."""
-        from kineme.cli.tables import new_table
+        from kineme.cli.tables import make_table
 
-        table = new_table("activity", "from s", "to s", "repetitions", "a minute")
+        table = make_table("activity", "from s", "to s", "repetitions", "a minute")
         for event in self.over:
-            row = _name(event), f"{event.start_s:.1f}", f"{event.stop_s:.1f}"
+            row = _format_name(event), f"{event.start_s:.1f}", f"{event.stop_s:.1f}"
             table.add_row(*row, str(event.repetitions), "", style="dim")
         tempo = f"{self.tempo:.0f}" if self.tempo else ""
         table.add_row(self.name, "", "", str(self.count), tempo, style="bold")

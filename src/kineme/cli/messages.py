@@ -28,7 +28,7 @@ class Failures:
             yield
         except KinemeError as error:
             self.count += 1
-            say_error(one_line(error, subject=subject))
+            print_error(format_line(error, subject=subject))
 
     def exit(self) -> None:
         """End with code 1 if anything failed."""
@@ -36,20 +36,20 @@ class Failures:
             raise typer.Exit(1)
 
 
-def short_warnings() -> None:
+def shorten_warnings() -> None:
     """Show every KinemeWarning, and any warning as one line without its source."""
     warnings.simplefilter("always", KinemeWarning)
     warnings.showwarning = _show_warning
 
 
 @contextmanager
-def progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
+def show_progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     """A function to name the stage at work; shown on a terminal once a second has passed."""
     from kineme.cli.terminal import Console
 
     status = Console(stderr=True).status(str(what))
     if quiet or not status.console.is_terminal:
-        yield _no_progress
+        yield _ignore_stage
         return
     timer = threading.Timer(PATIENCE, status.start)
     timer.daemon = True
@@ -63,32 +63,32 @@ def progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
         status.stop()
 
 
-def _no_progress(_: str) -> None:
+def _ignore_stage(_: str) -> None:
     """Says nothing."""
 
 
-def say_error(text: str) -> None:
+def print_error(text: str) -> None:
     """A line about what failed."""
-    _say("error", text, typer.colors.RED)
+    _print_message("error", text, typer.colors.RED)
 
 
-def say_skipped(text: str) -> None:
+def print_skipped(text: str) -> None:
     """A line about what was left out, though nobody had asked for it by name."""
-    _say("skipped", text, typer.colors.YELLOW)
+    _print_message("skipped", text, typer.colors.YELLOW)
 
 
-def one_line(message: object, *, subject: object = "") -> str:
+def format_line(message: object, *, subject: object = "") -> str:
     """Return a message without line breaks, and what it is about if that is not in it."""
     text = " ".join(str(message).split())
     return text if str(subject) in text else f"{subject}: {text}"
 
 
 def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
-    _say("warning", one_line(message), typer.colors.YELLOW)
+    _print_message("warning", format_line(message), typer.colors.YELLOW)
 
 
-def _say(what: str, text: str, color: str) -> None:
-    from kineme.cli.terminal import harmless
+def _print_message(what: str, text: str, color: str) -> None:
+    from kineme.cli.terminal import escape_controls
 
     typer.secho(f"{what}: ", fg=color, bold=True, err=True, nl=False)
-    typer.echo(harmless(text), err=True)
+    typer.echo(escape_controls(text), err=True)

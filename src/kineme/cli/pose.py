@@ -10,10 +10,10 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import METHOD, OUTPUT, option
-from kineme.cli.messages import say_error
+from kineme.cli.messages import print_error
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Json, Quiet
-from kineme.cli.options.targets import make_folder_of
+from kineme.cli.options.targets import make_parent_folder
 from kineme.errors import ParameterError
 
 
@@ -63,17 +63,17 @@ def pose(
     batch = Batch(files, recursive=recursive, quiet=quiet)
     batch.paths = [path for path in batch.paths if is_video(path) or path in files]
     if not batch.paths:
-        say_error(f"there is no video in {', '.join(map(str, files))}")
+        print_error(f"there is no video in {', '.join(map(str, files))}")
     for path, table in zip(batch.paths, batch.targets("--output", output, ".parquet"), strict=True):
         with batch.caught(path):
             if table is not None:
-                make_folder_of(table)
+                make_parent_folder(table)
             with batch.progress(path):
                 facts = _estimate(path, table, estimator, pose_model)
             if json:
                 typer.echo(dumps(facts))
             elif not quiet:
-                typer.echo(_line(facts))
+                typer.echo(_describe_poses(facts))
     batch.exit()
 
 
@@ -94,7 +94,7 @@ def _estimate(
     return {"path": str(path), **told, "seen": poses.seen, "people": people, "poses": str(place)}
 
 
-def _line(facts: dict[str, Any]) -> str:
+def _describe_poses(facts: dict[str, Any]) -> str:
     return (
         f"{facts['path']}: {format_count(facts['people'], 'person')} in {facts['seen']} of "
         f"{format_count(facts['frames'], 'frame')} ({facts['duration']:.1f} s), by "

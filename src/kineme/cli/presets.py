@@ -61,7 +61,7 @@ def _write_rows(constants: Sequence[Constant]) -> None:
     """A line for each constant, with tabs between the cells."""
     typer.echo("constant\tvalue\tunit\trange\tdefault\tfine\tmeaning")
     for each in constants:
-        cells = format_value(each.value), each.unit, each.allowed, _default(each)
+        cells = format_value(each.value), each.unit, each.allowed, _format_default(each)
         typer.echo("\t".join((each.name, *cells, "fine" if each.fine else "", each.help)))
 
 
@@ -72,7 +72,7 @@ def _show(title: str, constants: Sequence[Constant]) -> None:
             each.name,
             f"{format_value(each.value)} {each.unit}",
             each.allowed,
-            "" if each.value == each.default else _default(each),
+            "" if each.value == each.default else _format_default(each),
         )
         for each in constants
     ]
@@ -91,6 +91,6 @@ def _show(title: str, constants: Sequence[Constant]) -> None:
         typer.echo(textwrap.fill(each.help, edge, initial_indent=BELOW, subsequent_indent=BELOW))
 
 
-def _default(constant: Constant) -> str:
+def _format_default(constant: Constant) -> str:
     """Return what the method has where a preset says nothing; empty where each preset has to."""
     return "" if constant.default is MISSING else format_value(constant.default)

@@ -14,8 +14,8 @@ from kineme.cli.options.clips import CLIPS
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import EVERYTHING, READING, Quiet, options_by_name
-from kineme.cli.options.targets import make_folder_of
+from kineme.cli.options.reading import EVERYTHING, READING, Quiet, expand_read_options
+from kineme.cli.options.targets import make_parent_folder
 from kineme.cli.segment import read_and_segment
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
@@ -76,7 +76,7 @@ def split(
         from kineme.clips.split import split_all
 
         if not batch.single:
-            make_folder_of(folder)
+            make_parent_folder(folder)
         clips = split_all(
             found,
             folder,
@@ -105,7 +105,7 @@ def split(
                 write(
                     [
                         find(path, options, batch.table(path, *tables, options.take or ""))
-                        for _, options in options_by_name(path, read_options)
+                        for _, options in expand_read_options(path, read_options)
                     ],
                     folder,
                 )

@@ -63,13 +63,13 @@ def studio(
     """
     failures = Failures()
     with failures.caught("studio"):
-        root, recordings = _open_folder(files or [Path()])
+        root, recordings = _choose_folder(files or [Path()])
         from kineme.library.storage.layout import HEAD
         from kineme.studio.server import serve
 
         if read_options.person == EVERYTHING:
             read_options = replace(read_options, person=None)
-            _tell_apart(recordings, read_options)
+            _split_people(recordings, read_options)
 
         library = None
         if recordings is None and (root / HEAD).is_file():
@@ -90,21 +90,21 @@ def studio(
     failures.exit()
 
 
-def _tell_apart(recordings: list[Path] | None, options: ReadOptions) -> None:
+def _split_people(recordings: list[Path] | None, options: ReadOptions) -> None:
     """Have each of the people in the files that were named be a recording of its own."""
     if recordings is None:
         raise ParameterError("--person all is for files: name them, or choose in the page")
     from kineme.studio.folder import Folder
     from kineme.studio.open_recordings import OpenRecordings
-    from kineme.studio.storage.sidecars import options_of
+    from kineme.studio.storage.sidecars import read_saved_options
 
     present = OpenRecordings(Folder(Path(), recordings), lambda *_: None, options)
     for listed in present.folder.recordings().values():
         if not listed.person:
-            present.read_as(listed.id, options_of(listed.path), everybody=True)
+            present.read_as(listed.id, read_saved_options(listed.path), everybody=True)
 
 
-def _open_folder(given: list[Path]) -> tuple[Path, list[Path] | None]:
+def _choose_folder(given: list[Path]) -> tuple[Path, list[Path] | None]:
     """Return the folder, and the recordings where not all of it are wanted."""
     for path in given:
         if not path.exists():

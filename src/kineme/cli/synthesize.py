@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.messages import Failures, progress
+from kineme.cli.messages import Failures, show_progress
 from kineme.cli.options.reading import Quiet
 from kineme.errors import ParameterError
 
@@ -56,7 +56,7 @@ def synthesize(
     if (actions is None and path is None) == (duration is None):
         raise typer.BadParameter("give --actions, --path or both, or --duration")
     failures = Failures()
-    with failures.caught(graph), progress(output.name, quiet=quiet) as stage:
+    with failures.caught(graph), show_progress(output.name, quiet=quiet) as stage:
         stage("reading")
         from kineme import synthesis
         from kineme.formats import write

@@ -72,7 +72,7 @@ def show_segments(
             f"at {segmentation.fps:g} Hz, {segmentation.provenance['preset']}",
         )
     )
-    rows = _activity_rows if level == "activity" else _primitive_rows
+    rows = _tabulate_activities if level == "activity" else _tabulate_primitives
     console.print(rows(segmentation))
     console.print(f"{segmentation.describe()}.")
     for note in segmentation.provenance["notes"]:
@@ -117,11 +117,11 @@ def show_table(
         console.print(Text(note, style="dim"))
 
 
-def _activity_rows(segmentation: Segmentation) -> Table:
+def _tabulate_activities(segmentation: Segmentation) -> Table:
     """Activities and transitions with their repetitions counted."""
     from kineme.cycles.table import count_confidence
 
-    table = new_table(
+    table = make_table(
         "#",
         "kind",
         "start s",
@@ -136,12 +136,12 @@ def _activity_rows(segmentation: Segmentation) -> Table:
     for number, row in enumerate(segmentation.activities):
         repeated = (primitives.activity == number) & (primitives.kind == "primitive")
         inside = primitives.cluster[repeated].tolist()
-        count = _repetitions(inside, row.cluster) if row.kind == "activity" else ""
+        count = _format_repetitions(inside, row.cluster) if row.kind == "activity" else ""
         probability = count_confidence(
             primitives.confidence[repeated], primitives.border_confidence[repeated]
         )
-        cells = count, format_per_cent(probability), cluster_cell(row.cluster), row.label
-        table.add_row(*_span(number, row), *cells, style=_style(row))
+        cells = count, format_per_cent(probability), format_cluster(row.cluster), row.label
+        table.add_row(*_format_span(number, row), *cells, style=_choose_style(row))
     if any("+" in str(cell) for cell in table.columns[5].cells):
         captions.append("(+n): primitives of the activity that are in other clusters, or in none")
     if keep_if_filled(table, PER_CENT):
@@ -156,7 +156,7 @@ def format_per_cent(probability: float) -> str:
     return "" if isnan(probability) else f"{100 * probability:.0f}"
 
 
-def _repetitions(clusters: list[int], main: int) -> str:
+def _format_repetitions(clusters: list[int], main: int) -> str:
     """How many primitives are in the activity's cluster, else in the largest; how many are not."""
     if main not in clusters:
         # Most frequent of the clusters of its primitives.
@@ -166,23 +166,23 @@ def _repetitions(clusters: list[int], main: int) -> str:
     return f"{count} (+{others})" if others else str(count)
 
 
-def _primitive_rows(segmentation: Segmentation) -> Table:
-    table = new_table("#", "kind", "start s", "stop s", "frames", "activity", "cluster", "label")
+def _tabulate_primitives(segmentation: Segmentation) -> Table:
+    table = make_table("#", "kind", "start s", "stop s", "frames", "activity", "cluster", "label")
     for number, row in enumerate(segmentation.primitives):
-        cells = str(row.activity), cluster_cell(row.cluster), row.label
-        table.add_row(*_span(number, row), *cells, style=_style(row))
+        cells = str(row.activity), format_cluster(row.cluster), row.label
+        table.add_row(*_format_span(number, row), *cells, style=_choose_style(row))
     keep_if_filled(table, "label")
     return table
 
 
-def columns_of(names: Iterable[str]) -> RenderableType:
+def make_columns(names: Iterable[str]) -> RenderableType:
     """Names side by side; in a file or a pipe each on a line of its own."""
     texts = [Text(name) for name in names]
     on_terminal = Console().is_terminal
     return Columns(texts, padding=(0, 2), column_first=True) if on_terminal else Group(*texts)
 
 
-def new_table(*names: str) -> Table:
+def make_table(*names: str) -> Table:
     """Return a table with these columns: words to the left, numbers to the right."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for name in names:
@@ -201,15 +201,15 @@ def keep_if_filled(table: Table, name: str) -> bool:
     return filled
 
 
-def _span(number: int, row: Segment) -> tuple[str, ...]:
+def _format_span(number: int, row: Segment) -> tuple[str, ...]:
     frames = f"{row.start_frame}:{row.stop_frame}"
     return str(number), row.kind, f"{row.start_s:.2f}", f"{row.stop_s:.2f}", frames
 
 
-def cluster_cell(cluster: int) -> RenderableType:
+def format_cluster(cluster: int) -> RenderableType:
     """Return a cluster with its colour; nothing for none."""
     return Text.assemble(("■ ", cluster_color(cluster)), str(cluster)) if cluster >= 0 else ""
 
 
-def _style(row: Segment) -> str:
+def _choose_style(row: Segment) -> str:
     return "dim" if row.kind == "transition" else ""

@@ -39,16 +39,16 @@ class Console(rich.console.Console):
         Rich's own control codes are segments of their own.
         """
         for segment in super().render(renderable, options):
-            text = segment.text if segment.control else harmless(segment.text)
+            text = segment.text if segment.control else escape_controls(segment.text)
             yield segment if text == segment.text else segment._replace(text=text)
 
 
-def harmless(text: str) -> str:
+def escape_controls(text: str) -> str:
     """Return a text whose control characters, which could steer a terminal, are spelled out.
 
     Examples
     --------
-    >>> harmless("a" + chr(7) + "b") == "a" + chr(92) + "x07b"
+    >>> escape_controls("a" + chr(7) + "b") == "a" + chr(92) + "x07b"
     True
     """
     return _STEERS.sub(lambda found: found[0].encode("unicode_escape").decode(), text)

@@ -92,7 +92,7 @@ def transfer(
             with batch.progress(path) as stage:
                 stage("reading")
                 motion = read_motion(path, **vars(read_options))
-                result = _name_segments(motion, segment_options, base, options, stage)
+                result = _label_segments(motion, segment_options, base, options, stage)
             if table is not None:
                 from kineme.labels import write_segments
 
@@ -101,7 +101,7 @@ def transfer(
     batch.exit()
 
 
-def _name_segments(
+def _label_segments(
     motion: Motion,
     segment_options: SegmentOptions,
     base: KnowledgeBase,

@@ -9,7 +9,7 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme.cycles.table import Columns, Cycles
 from kineme.errors import ParameterError
-from kineme.plot.timeline import new_axes
+from kineme.plot.timeline import make_axes
 from kineme.segments.colors import PALETTE, cluster_color
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def plot_curves(
     """
     if channel not in cycles.channels:
         raise ParameterError(f"no channel {channel!r}; there are {', '.join(cycles.channels)}")
-    axes = ax if ax is not None else new_axes(6, 3.5)
+    axes = ax if ax is not None else make_axes(6, 3.5)
     numbers = zip(cycles.columns["group"].tolist(), cycles.columns["cluster"].tolist(), strict=True)
     clusters = dict(numbers)
     # Colours of clusters tell groups apart only if each group has a cluster of its own.
@@ -64,7 +64,7 @@ def plot_curves(
         curves = cycles.layout(channel, group, ends=ends)
         color = cluster_color(clusters[group] if many else place)
         _add_mean(axes, curves, color, f"{group} (n = {len(curves)})")
-    _name_axes(axes, cycles, channel, channel)
+    _label_axes(axes, cycles, channel, channel)
     return axes
 
 
@@ -109,12 +109,12 @@ def plot_sides(
     >>> cycles = kineme.cycles(motion, kineme.read_segments(bundled_truth()))
     >>> axes = plot_sides(cycles, "knee_l", "knee_r", "squat", ax=Figure().add_subplot())
     """
-    axes = ax if ax is not None else new_axes(6, 3.5)
+    axes = ax if ax is not None else make_axes(6, 3.5)
     for channel, color, style in ((left, PALETTE[0], "-"), (right, PALETTE[4], "--")):
         curves = cycles.layout(channel, group, ends=ends)
         _add_mean(axes, curves, color, f"{channel} (n = {len(curves)})", style)
     axes.set_title(group, loc="left", fontsize="medium")
-    _name_axes(axes, cycles, left, f"{left}, {right}")
+    _label_axes(axes, cycles, left, f"{left}, {right}")
     return axes
 
 
@@ -152,7 +152,7 @@ def plot_sessions(
     >>> axes = plot_sessions(both, "knee_l", "walk", ax=Figure().add_subplot())
     """
     rows = (curves["channel"] == channel) & (curves["group"] == group)
-    axes = ax if ax is not None else new_axes(6, 3.5)
+    axes = ax if ax is not None else make_axes(6, 3.5)
     percent = curves["percent"][rows]
     for session, color, style in (("first", FIRST, "--"), ("second", SECOND, "-")):
         mean, sd = (curves[f"{session}_{name}"][rows] for name in ("mean", "sd"))
@@ -186,7 +186,7 @@ def _add_band(
         axes.fill_between(percent, mean - sd, mean + sd, color=color, alpha=0.2, linewidth=0)
 
 
-def _name_axes(axes: Axes, cycles: Cycles, channel: str, name: str) -> None:
+def _label_axes(axes: Axes, cycles: Cycles, channel: str, name: str) -> None:
     unit = cycles.units[cycles.channels.index(channel)]
     axes.set_xlabel("cycle (%)")
     axes.set_ylabel(f"{name} ({unit})" if unit else name)

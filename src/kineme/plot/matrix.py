@@ -29,7 +29,7 @@ from kineme._util.files import as_display_name, atomic_write
 from kineme.errors import ParameterError, WriteError
 from kineme.features.effectors import Names
 from kineme.features.similarity import compare_frames
-from kineme.plot.timeline import new_axes
+from kineme.plot.timeline import make_axes
 from kineme.recordings import Motion, Signals
 from kineme.segments.colors import NO_CLUSTER, cluster_color, label_colors
 from kineme.segments.html import segment_color
@@ -87,7 +87,7 @@ def plot_matrix(
     """
     check_type(segmentation, Segmentation, "plot_matrix", "kineme.segment gives one")
     _check_recording(recording, segmentation)
-    axes = new_axes(9.4, 8.2) if ax is None else ax
+    axes = make_axes(9.4, 8.2) if ax is None else ax
     seconds = segmentation.n_frames / segmentation.fps
     bar = 0.022 * seconds
     matrix = compare_frames(recording, effectors=effectors)
@@ -113,7 +113,7 @@ def plot_matrix(
     axes.spines[:].set_visible(False)
     axes.tick_params(color="#888888", labelsize=9)
     axes.legend(
-        handles=_legend(segmentation),
+        handles=_make_legend(segmentation),
         title="cluster",
         loc="upper left",
         bbox_to_anchor=(1.01, 1.0),
@@ -169,7 +169,7 @@ def plot_segmentation(
     axes = figure.add_axes((0.085, 0.075, 0.74, 0.86))
     plot_matrix(segmentation, recording, effectors=effectors, ax=axes)
     axes.set_title(
-        _title(segmentation) if title is None else title, loc="left", fontsize=10, pad=10
+        _make_title(segmentation) if title is None else title, loc="left", fontsize=10, pad=10
     )
     with atomic_write(path) as draft:
         figure.savefig(draft, dpi=200)
@@ -198,18 +198,18 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
         line
         for row in primitives
         if row.start_s > activities.start_s[row.activity] and wide[row.activity]
-        for line in _cross(row.start_s, activities[row.activity])
+        for line in _make_cross_lines(row.start_s, activities[row.activity])
     ]
     axes.add_collection(LineCollection(cuts, colors=BORDER, linewidths=0.5, alpha=0.75))
     shown = activities[activities.kind == "activity"]
-    squares = _boxes(shown.start_s, shown.stop_s, shown.start_s, shown.stop_s)
+    squares = _make_boxes(shown.start_s, shown.stop_s, shown.start_s, shown.stop_s)
     width = 1.4 if len(activities) * NARROW < 0.2 else 0.7
     axes.add_collection(
         PolyCollection(squares, facecolor="none", edgecolor=BORDER, linewidth=width, clip_on=False)
     )
 
 
-def _cross(at: float, within: Segment) -> list[list[tuple[float, float]]]:
+def _make_cross_lines(at: float, within: Segment) -> list[list[tuple[float, float]]]:
     """Return a line across an activity in each direction."""
     return [
         [(at, within.start_s), (at, within.stop_s)],
@@ -222,8 +222,8 @@ def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
     rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
     labels = label_colors(segmentation)
     colors = [segment_color(row, labels) for row in rows]
-    below = _boxes(rows.start_s, rows.stop_s, seconds + 0.4 * width, seconds + 1.4 * width)
-    left = _boxes(-1.4 * width, -0.4 * width, rows.start_s, rows.stop_s)
+    below = _make_boxes(rows.start_s, rows.stop_s, seconds + 0.4 * width, seconds + 1.4 * width)
+    left = _make_boxes(-1.4 * width, -0.4 * width, rows.start_s, rows.stop_s)
     gap = 0.6 if len(rows) < MAX_GAPS else 0.0
     for bars in (below, left):
         axes.add_collection(
@@ -231,7 +231,7 @@ def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
         )
 
 
-def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.float64]]:
+def _make_boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.float64]]:
     """Corners (4, 2) of upright rectangles; a number stands for as many as needed."""
     # Clockwise from the upper left corner: eight columns of numbers become four points.
     left, right, top, bottom = np.broadcast_arrays(left, right, top, bottom)
@@ -239,7 +239,7 @@ def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.floa
     return list(np.stack(corners, axis=-1).reshape(-1, 4, 2))
 
 
-def _legend(segmentation: Segmentation) -> list[Patch]:
+def _make_legend(segmentation: Segmentation) -> list[Patch]:
     """Return the largest clusters by number of primitives, in the order of their numbers."""
     counts = segmentation.repetitions()
     # The largest clusters, shown by number.
@@ -255,7 +255,7 @@ def _legend(segmentation: Segmentation) -> list[Patch]:
     return handles
 
 
-def _title(segmentation: Segmentation) -> str:
+def _make_title(segmentation: Segmentation) -> str:
     source = segmentation.provenance.get("input", {}).get("path") or "recording"
     preset = segmentation.provenance.get("preset")
     parts = [

@@ -15,7 +15,7 @@ from matplotlib.collections import LineCollection
 from kineme._util.arrays import Floats
 from kineme._util.checks import check_type, is_number
 from kineme.errors import ParameterError
-from kineme.plot.timeline import new_axes
+from kineme.plot.timeline import make_axes
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
 from kineme.segments.colors import cluster_color
@@ -79,15 +79,15 @@ def plot_strip(
         check_type(recording, Motion, "plot_strip", "kineme.read gives one")
     if not (is_number(poses) and poses == int(poses) and poses >= 1):
         raise ParameterError(f"poses must be a whole number above 0, not {poses!r:.60}")
-    first, last = _frames(recording, start_s, stop_s)
+    first, last = _find_frames(recording, start_s, stop_s)
     drawn = cluster_color(0) if color is None else color
-    axes = new_axes(6.0, 1.4) if ax is None else ax
+    axes = make_axes(6.0, 1.4) if ax is None else ax
     if isinstance(recording, Motion):
         at = np.linspace(first, last - 1, int(poses)).round().astype(np.int64)
         # A root bone stays on the floor, or anywhere: only the body is drawn.
         body, parents = list(recording.skeleton.body), recording.skeleton.parents
         places = recording.positions[:, body]
-        outlines = _from_the_side(places[first:last], places[at])
+        outlines = _project_poses(places[first:last], places[at])
         above = [body.index(parents[j]) if parents[j] in body else -1 for j in body]
         _draw_poses(axes, outlines, above, drawn)
     else:
@@ -96,7 +96,9 @@ def plot_strip(
     return axes
 
 
-def _frames(recording: Motion | Signals, start_s: float, stop_s: float | None) -> tuple[int, int]:
+def _find_frames(
+    recording: Motion | Signals, start_s: float, stop_s: float | None
+) -> tuple[int, int]:
     """First frame and end of a span; ParameterError where it is none."""
     lasts = recording.n_frames / recording.fps
     stop = lasts if stop_s is None else stop_s
@@ -108,7 +110,7 @@ def _frames(recording: Motion | Signals, start_s: float, stop_s: float | None) -
     return to_samples((start_s, stop), recording.fps, recording.n_frames)
 
 
-def _from_the_side(span: Floats, poses: Floats) -> Floats:
+def _project_poses(span: Floats, poses: Floats) -> Floats:
     """Poses (poses, joints, 2): across and up, each around its own middle.
 
     The line of sight is the level one along which the joints move least about their middle.

@@ -110,7 +110,7 @@ def compare(
         check_type(result, Segmentation, "compare", "kineme.segment gives one")
     if not is_one_of(level, get_args(Level)):
         raise ParameterError(f"level must be 'activity' or 'primitive', not {level!r:.60}")
-    shown = _names(results) if names is None else as_texts(names, "names")
+    shown = _choose_names(results) if names is None else as_texts(names, "names")
     if len(shown) != len(results) or len(set(shown)) != len(shown):
         raise ParameterError(
             f"names {list(shown)} for {len(results)} results: give a different one for each"
@@ -138,7 +138,7 @@ def draw_timeline(
     ax: Axes | None = None,
 ) -> Axes:
     """Draw rows of segments below each other, each with its name at the left."""
-    axes = new_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
+    axes = make_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
     if colors is None:
         labels = label_colors(segment for table in rows.values() for segment in table)
         colors = [[segment_color(segment, labels) for segment in table] for table in rows.values()]
@@ -163,7 +163,7 @@ def draw_timeline(
     return axes
 
 
-def new_axes(width: float, height: float) -> Axes:
+def make_axes(width: float, height: float) -> Axes:
     """Return the axes of a new figure of pyplot, so many inches wide and high."""
     from matplotlib import pyplot as plt  # its figures a notebook shows unasked
 
@@ -198,7 +198,7 @@ def match_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
     # Between two of these times nothing changes in either table.
     times = np.unique(np.concatenate([first.start_s, first.stop_s, other.start_s, other.stop_s]))
     middles, lengths = (times[1:] + times[:-1]) / 2, np.diff(times)
-    a, b = _clusters_at(first, middles), _clusters_at(other, middles)
+    a, b = _find_clusters(first, middles), _find_clusters(other, middles)
     both = (a >= 0) & (b >= 0)
     shared = np.zeros((len(first_clusters), len(other_clusters)))
     # Row and column of each interval's pair of clusters.
@@ -216,7 +216,7 @@ def match_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
     return numbers | {cluster: following + i for i, cluster in enumerate(rest)}
 
 
-def _clusters_at(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[np.int64]:
+def _find_clusters(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[np.int64]:
     """Return the cluster at each time; -1 where there is none."""
     # The segment that begins last before each time.
     row = np.searchsorted(table.start_s, times, side="right") - 1
@@ -228,7 +228,7 @@ def _renumber(table: SegmentTable, numbers: dict[int, int]) -> list[Segment]:
     return [replace(segment, cluster=numbers.get(segment.cluster, -1)) for segment in table]
 
 
-def _names(results: Sequence[Segmentation]) -> list[str]:
+def _choose_names(results: Sequence[Segmentation]) -> list[str]:
     """Return what tells the results apart: presets, else files, else their numbers."""
     numbers = [f"result {number}" for number in range(1, len(results) + 1)]
     presets = [result.provenance.get("preset") for result in results]

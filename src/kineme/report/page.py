@@ -26,13 +26,13 @@ from kineme.errors import WriteError
 from kineme.features import Names
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
-from kineme.web.curves import as_recording, curves_of
+from kineme.web.curves import as_recording, make_report_curves
 from kineme.web.cycle_curves import CycleCurves
 from kineme.web.encoding import to_json
 from kineme.web.film import describe_video, draw_picture
 from kineme.web.matrix import make_report_tiles
 from kineme.web.messages import Recording, ReportCurves
-from kineme.web.page_data import PageData, Shown, page_data, recording_message
+from kineme.web.page_data import PageData, Shown, make_page_data, make_recording_message
 
 SUFFIXES = (".html", ".htm")
 
@@ -82,19 +82,21 @@ def write_report(
         check_type(name, str, "name", "give a text, or leave it out")
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"reports are written as {', '.join(SUFFIXES)}")
-    data = page_data(recording, fps=segmentation.fps, effectors=effectors)
+    data = make_page_data(recording, fps=segmentation.fps, effectors=effectors)
     tiles = make_report_tiles(data.matrix)
-    message = recording_message(data, segmentation, name=name or _name(segmentation), levels=True)
+    message = make_recording_message(
+        data, segmentation, name=name or _find_name(segmentation), levels=True
+    )
     source = as_recording(recording, data.fps)
     message, keypoints = _add_video(message, recording, Path(path))
     others = [segmentation.at_detail(level.detail) for level in message.levels]
     with atomic_write(path) as draft:
         page = fill_template(
-            _template(),
+            _read_template(),
             message,
             data.binary,
             tiles,
-            _curves(recording, data),
+            _make_curves(recording, data),
             CycleCurves(lambda: source).report(segmentation, others),
             keypoints,
         )
@@ -115,14 +117,17 @@ def fill_template(
     Tiles are PNGs by "level/row/column"; ``curves`` has ``list`` and ``tiles``, where there are
     any; ``cycles`` are the curves of repetitions, ``keypoints`` those drawn over a video.
     """
-    pictures = {place: _base64(tile) for place, tile in tiles.items()}
+    pictures = {place: _encode_base64(tile) for place, tile in tiles.items()}
     parts = {
-        "recording": ("application/json", _json(message)),
-        "motion": ("application/octet-stream;base64", _base64(binary)),
-        "tiles": ("application/json", _json(pictures)),
-        "curves": ("application/json", _json(curves)),
-        "keypoints": ("application/octet-stream;base64", _base64(keypoints)),
-        "cycles": ("application/json;deflate;base64", _base64(zlib.compress(to_json(cycles)))),
+        "recording": ("application/json", _encode_json(message)),
+        "motion": ("application/octet-stream;base64", _encode_base64(binary)),
+        "tiles": ("application/json", _encode_json(pictures)),
+        "curves": ("application/json", _encode_json(curves)),
+        "keypoints": ("application/octet-stream;base64", _encode_base64(keypoints)),
+        "cycles": (
+            "application/json;deflate;base64",
+            _encode_base64(zlib.compress(to_json(cycles))),
+        ),
     }
     for part, (kind, text) in parts.items():
         element = f'<script type="{kind}" id="kineme-{part}">{text}</script>'
@@ -149,31 +154,31 @@ def _add_video(message: Recording, recording: Shown, page: Path) -> tuple[Record
     return structs.replace(message, video=video), drawn.binary if drawn else b""
 
 
-def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
+def _make_curves(recording: Shown, data: PageData) -> dict[str, object] | None:
     """Return the channels of what has no figure."""
     if data.motion is not None:
         return None
-    head, curves = curves_of(recording, data.fps)
-    return {"list": head, "tiles": {place: _base64(data) for place, data in curves.items()}}
+    head, curves = make_report_curves(recording, data.fps)
+    return {"list": head, "tiles": {place: _encode_base64(data) for place, data in curves.items()}}
 
 
-def _name(segmentation: Segmentation) -> str:
+def _find_name(segmentation: Segmentation) -> str:
     """Return the file's name if the provenance has one: foreign tables may hold anything there."""
     source = segmentation.provenance.get("input")
     path = source.get("path") if isinstance(source, dict) else None
     return Path(str(path or "recording")).name
 
 
-def _json(value: object) -> str:
+def _encode_json(value: object) -> str:
     """JSON that stays inside its script element, whatever the texts in it hold."""
     text = json.dumps(json.loads(to_json(value)), separators=(",", ":"))  # which is ASCII
     # Neither a tag nor an entity can begin in it.
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
-def _base64(data: bytes) -> str:
+def _encode_base64(data: bytes) -> str:
     return b64encode(data).decode("ascii")
 
 
-def _template() -> str:
+def _read_template() -> str:
     return (files("kineme") / "web" / "static" / "report.html").read_text(encoding="utf-8")

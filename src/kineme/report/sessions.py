@@ -97,7 +97,7 @@ def write_sessions(
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"a page is written as {', '.join(SUFFIXES)}")
     sheet = Sheet(
-        names or (_name(first), _name(second)),
+        names or (_choose_name(first), _choose_name(second)),
         (first, second),
         compare_sessions(first, second, ends=ends),
         compare_curves(first, second, ends=ends),
@@ -105,28 +105,28 @@ def write_sessions(
         ends,
     )
     with atomic_write(path) as draft:
-        draft.write_text(_page(sheet), encoding="utf-8")
+        draft.write_text(_format_page(sheet), encoding="utf-8")
 
 
-def _name(cycles: Cycles) -> str:
+def _choose_name(cycles: Cycles) -> str:
     names = list(dict.fromkeys(cycles.columns["recording"].tolist()))
     return names[0] if len(names) == 1 else format_count(len(names), "recording")
 
 
-def _page(sheet: Sheet) -> str:
+def _format_page(sheet: Sheet) -> str:
     before, after = (escape(name) for name in sheet.names)
-    groups = _groups(sheet)
+    groups = _list_groups(sheet)
     shown = groups[:MOST_GROUPS]
     # Lines of each group's table, less its head and the times.
     n_channels = LINES[len(shown)] // len(shown) - HEADS - len(TIMES)
-    channels = {group: _channels(sheet, group)[:n_channels] for group in shown}
+    channels = {group: _sort_channels(sheet, group)[:n_channels] for group in shown}
     body = [
         f"<h1>{before} → {after}</h1>",
-        f'<p class="quiet">{_counts(sheet)}. {MEANING}</p>',
-        *(_numbers(sheet, group, channels[group]) for group in shown),
-        _pictures(sheet, _panels(channels)[: PANELS[len(shown)]]),
-        _sides(sheet, shown),
-        f'<p class="quiet">{escape(_rest(sheet, groups, n_channels))}</p>',
+        f'<p class="quiet">{_format_counts(sheet)}. {MEANING}</p>',
+        *(_format_numbers(sheet, group, channels[group]) for group in shown),
+        _format_pictures(sheet, _list_panels(channels)[: PANELS[len(shown)]]),
+        _format_sides(sheet, shown),
+        f'<p class="quiet">{escape(_format_footer(sheet, groups, n_channels))}</p>',
     ]
     return (
         '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8" />\n'
@@ -139,7 +139,7 @@ def _page(sheet: Sheet) -> str:
     )
 
 
-def _counts(sheet: Sheet) -> str:
+def _format_counts(sheet: Sheet) -> str:
     kind = "all repetitions" if sheet.ends else "inner repetitions, without first and last ones"
     left_out = "".join(
         f"; {count} of {escape(name)} left out ({escape(reason)})"
@@ -150,35 +150,37 @@ def _counts(sheet: Sheet) -> str:
     return f"Means ± standard deviations of {kind}{left_out}"
 
 
-def _groups(sheet: Sheet) -> list[str]:
+def _list_groups(sheet: Sheet) -> list[str]:
     """Return the groups that are in both sessions, those with most repetitions first."""
     groups = list(dict.fromkeys(sheet.numbers["group"].tolist()))
     # A group that is rare in one session is rare in the comparison.
-    return sorted(groups, key=lambda group: -min(_count(each, group) for each in sheet.sessions))
+    return sorted(
+        groups, key=lambda group: -min(_count_cycles(each, group) for each in sheet.sessions)
+    )
 
 
-def _count(cycles: Cycles, group: str) -> int:
+def _count_cycles(cycles: Cycles, group: str) -> int:
     return int((cycles.columns["group"] == group).sum())
 
 
-def _count_and_confidence(cycles: Cycles, group: str) -> str:
+def _format_group_count(cycles: Cycles, group: str) -> str:
     probability = cycles.count_confidence(group)
     sure = "" if isnan(probability) else f" ({100 * probability:.0f} % sure)"
-    return f"{_count(cycles, group)}{sure}"
+    return f"{_count_cycles(cycles, group)}{sure}"
 
 
-def _row(sheet: Sheet, group: str, measure: str) -> dict[str, float]:
+def _find_row(sheet: Sheet, group: str, measure: str) -> dict[str, float]:
     numbers = sheet.numbers
     at = np.flatnonzero((numbers["group"] == group) & (numbers["measure"] == measure))[0]
     return {name: float(column[at]) for name, column in numbers.items()
             if name not in ("group", "measure")}  # fmt: skip
 
 
-def _channels(sheet: Sheet, group: str) -> list[str]:
+def _sort_channels(sheet: Sheet, group: str) -> list[str]:
     """Return the channels, those first whose range changed most surely."""
 
     def certainty(channel: str) -> float:
-        row = _row(sheet, group, f"{channel}.range")
+        row = _find_row(sheet, group, f"{channel}.range")
         width = row["high"] - row["low"]
         # How many times as large as its bounds are wide.
         return abs(row["difference"]) / width if width > 0 else -1.0
@@ -186,7 +188,7 @@ def _channels(sheet: Sheet, group: str) -> list[str]:
     return sorted(sheet.sessions[0].channels, key=certainty, reverse=True)
 
 
-def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
+def _format_numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
     """Return a table of what changed in a group."""
     units = dict(zip(sheet.sessions[0].channels, sheet.sessions[0].units, strict=True))
     labels = NAMES | {
@@ -195,12 +197,12 @@ def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
     }
     lines = []
     for measure, label in labels.items():
-        row = _row(sheet, group, measure)
+        row = _find_row(sheet, group, measure)
         # Bounds that leave out 0; False where they are nan.
         clear = row["low"] > 0 or row["high"] < 0
         verdict = ("more" if row["difference"] > 0 else "less") if clear else "not clear"
-        digits = _digits(row["first_mean"], row["second_mean"])
-        text = {name: _text(value, digits) for name, value in row.items()}
+        digits = _choose_digits(row["first_mean"], row["second_mean"])
+        text = {name: _format_number(value, digits) for name, value in row.items()}
         bounds = f"{text['low']} to {text['high']}"
         cells = [
             label,
@@ -210,26 +212,26 @@ def _numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
             bounds if np.isfinite(row["low"]) else MISSING,
             verdict if np.isfinite(row["low"]) else "too few",
         ]  # fmt: skip
-        lines.append(f"<tr{' class=clear' if clear else ''}>{_cells(cells)}</tr>")
+        lines.append(f"<tr{' class=clear' if clear else ''}>{_format_cells(cells)}</tr>")
     heads = ["", *sheet.names, "difference", "95 %", "changed"]
-    counts = " → ".join(_count_and_confidence(each, group) for each in sheet.sessions)
-    duration = _row(sheet, group, "duration_s")
+    counts = " → ".join(_format_group_count(each, group) for each in sheet.sessions)
+    duration = _find_row(sheet, group, "duration_s")
     used = " and ".join(f"{duration[f'{session}_n']:.0f}" for session in ("first", "second"))
     return (
         f'<section><h2>{escape(group)}: {counts} repetitions <span class="quiet">(means of {used})'
-        f"</span></h2>\n<table><tr>{_cells(heads, 'th')}</tr>\n" + "\n".join(lines)
+        f"</span></h2>\n<table><tr>{_format_cells(heads, 'th')}</tr>\n" + "\n".join(lines)
         + "</table></section>"
     )  # fmt: skip
 
 
-def _panels(channels: dict[str, list[str]]) -> list[tuple[str, str]]:
+def _list_panels(channels: dict[str, list[str]]) -> list[tuple[str, str]]:
     """Return which curves are drawn first: of each group in turn the channel that changed most."""
     # One panel of each group before any group gets a second: all groups have the same channels.
     columns = ([(group, name) for name in names] for group, names in channels.items())
     return [panel for turn in zip(*columns, strict=True) for panel in turn]
 
 
-def _pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
+def _format_pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
     """Mean curves of both sessions over each other."""
     units = dict(zip(sheet.sessions[0].channels, sheet.sessions[0].units, strict=True))
     several = len({group for group, _ in panels}) > 1
@@ -237,7 +239,7 @@ def _pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
     for group, channel in panels:
         unit = f" ({units[channel]})" if units[channel] else ""
         caption = escape(f"{group}: {channel}{unit}" if several else f"{channel}{unit}")
-        picture = b64encode(_picture(sheet.curves, group, channel)).decode("ascii")
+        picture = b64encode(_draw_picture(sheet.curves, group, channel)).decode("ascii")
         figures.append(
             f"<figure><figcaption>{caption}</figcaption>"
             f'<img alt="Mean curves of {caption}" src="data:image/svg+xml;base64,{picture}" />'
@@ -253,7 +255,7 @@ def _pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
     )
 
 
-def _picture(curves: Columns, group: str, channel: str) -> bytes:
+def _draw_picture(curves: Columns, group: str, channel: str) -> bytes:
     """Return an SVG without names: fonts of the page have more letters."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
@@ -269,9 +271,9 @@ def _picture(curves: Columns, group: str, channel: str) -> bytes:
     return drawn.getvalue()
 
 
-def _sides(sheet: Sheet, groups: Sequence[str]) -> str:
+def _format_sides(sheet: Sheet, groups: Sequence[str]) -> str:
     """Left against right in both sessions, where channels have sides."""
-    first, second = (_ranges(columns) for columns in sheet.sides)
+    first, second = (_collect_ranges(columns) for columns in sheet.sides)
     keys = [key for key in first if key in second and key[0] in groups]
     if not keys:
         return ""
@@ -283,21 +285,25 @@ def _sides(sheet: Sheet, groups: Sequence[str]) -> str:
         group, left, right = key
         cells = [f"{group}: {left}, {right}"]
         for of_left, of_right, index in (first[key], second[key]):
-            digits = _digits(of_left, of_right)
-            cells += [_text(of_left, digits), _text(of_right, digits), _text(index, 1)]
-        lines.append(f"<tr>{_cells(cells)}</tr>")
+            digits = _choose_digits(of_left, of_right)
+            cells += [
+                _format_number(of_left, digits),
+                _format_number(of_right, digits),
+                _format_number(index, 1),
+            ]
+        lines.append(f"<tr>{_format_cells(cells)}</tr>")
     names = "".join(f'<th colspan="3">{escape(name)}</th>' for name in sheet.names)
     heads = ["mean range", *2 * ["left", "right", "index (%)"]]
     return (
         f"<section><h2>Left beside right</h2>\n<table><tr><th></th>{names}</tr>\n"
-        f"<tr>{_cells(heads, 'th')}</tr>\n"
+        f"<tr>{_format_cells(heads, 'th')}</tr>\n"
         + "\n".join(lines)
         + '</table>\n<p class="quiet">Symmetry index: the difference of left and right in per '
         "cent of their mean; 0 where they are equal. All pairs: --sides NAME.csv.</p></section>"
     )
 
 
-def _ranges(sides: Columns) -> dict[tuple[str, str, str], tuple[float, float, float]]:
+def _collect_ranges(sides: Columns) -> dict[tuple[str, str, str], tuple[float, float, float]]:
     """By group, left and right channel: both ranges and their symmetry index."""
     keys, values = (
         zip(*(sides[name][sides["measure"] == "range"].tolist() for name in names), strict=True)
@@ -307,7 +313,7 @@ def _ranges(sides: Columns) -> dict[tuple[str, str, str], tuple[float, float, fl
     return dict(zip(keys, values, strict=True))
 
 
-def _rest(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
+def _format_footer(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
     """Return what the sheet has no room for, and what made it."""
     channels = len(sheet.sessions[0].channels)
     omitted = []
@@ -319,18 +325,18 @@ def _rest(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
     return f"{more if omitted else ''}Made by kineme {__version__}."
 
 
-def _cells(texts: Sequence[str], tag: str = "td") -> str:
+def _format_cells(texts: Sequence[str], tag: str = "td") -> str:
     return "".join(f"<{tag}>{escape(text)}</{tag}>" for text in texts)
 
 
-def _digits(*values: float) -> int:
+def _choose_digits(*values: float) -> int:
     """Return how many digits after the point numbers of this size are told with."""
     size = max((abs(value) for value in values if np.isfinite(value)), default=0.0)
     # Three digits of the largest number, one after the point at least.
     return max(1, 2 - floor(log10(size))) if size > 0 else 1
 
 
-def _text(value: float, digits: int) -> str:
+def _format_number(value: float, digits: int) -> str:
     if not np.isfinite(value):
         return MISSING
     text = f"{value:.{digits}f}"

@@ -14,8 +14,8 @@ from pathlib import Path
 from kineme.errors import KinemeError, ParameterError
 from kineme.labels.collections import LabelSource, find_labels
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.storage.listed import ListedRecording, file_id
-from kineme.studio.storage.tables import usual_table
+from kineme.studio.storage.listed import ListedRecording, make_file_id
+from kineme.studio.storage.tables import find_table_path
 from kineme.web.annotator_messages import (
     Agreement,
     AgreementPair,
@@ -38,7 +38,7 @@ class Annotator:
     sources: Mapping[Path, LabelSource]
 
 
-def annotators_of(recordings: OpenRecordings) -> dict[str, Annotator]:
+def find_annotators(recordings: OpenRecordings) -> dict[str, Annotator]:
     """Return the people who labelled recordings of the folder by id; whoever works here last."""
     listed = _index_by_file(recordings)
     paths = [*listed]
@@ -52,34 +52,36 @@ def annotators_of(recordings: OpenRecordings) -> dict[str, Annotator]:
         except (KinemeError, OSError):
             continue  # of other recordings, or of one that it does not name
         name = place.stem if place.is_file() else place.name
-        found[file_id(place)] = Annotator(name, sources)
+        found[make_file_id(place)] = Annotator(name, sources)
     beside: dict[str, dict[Path, LabelSource]] = {}
     for path in files:
-        if file_id(path) not in found and (named := _parse_label_name(path, paths)):
+        if make_file_id(path) not in found and (named := _parse_label_name(path, paths)):
             beside.setdefault(named[0], {})[named[1]] = LabelSource(path)
     found |= {f"beside {name}": Annotator(name, sources) for name, sources in beside.items()}
     saved = {
-        path: LabelSource(table) for path, each in listed.items() if (table := usual_table(each))
+        path: LabelSource(table)
+        for path, each in listed.items()
+        if (table := find_table_path(each))
     }
     if saved:
         found[TABLES_HERE] = Annotator("Tables of this studio", saved)
     return found
 
 
-def annotator_choices(recordings: OpenRecordings) -> list[AnnotatorChoice]:
+def list_annotators(recordings: OpenRecordings) -> list[AnnotatorChoice]:
     """Who there is to compare."""
     return [
         AnnotatorChoice(id=name, name=each.name, recordings=len(each.sources))
-        for name, each in annotators_of(recordings).items()
+        for name, each in find_annotators(recordings).items()
     ]
 
 
-def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
+def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
     """Return how far some of them agree, over all recordings for which two of them have labels."""
     from kineme.evaluation.annotators import annotator_agreement, gather_labels
     from kineme.evaluation.score import to_finite
 
-    people = _chosen(recordings, chosen)
+    people = _select_annotators(recordings, chosen)
     listed = _index_by_file(recordings)
     labelled, failures = gather_labels(
         {who.name: who.sources for who in people},
@@ -117,9 +119,11 @@ def agreement_of(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement
     )
 
 
-def lanes_of(recordings: OpenRecordings, name: str, chosen: Sequence[str]) -> list[LabelLane]:
+def make_label_lanes(
+    recordings: OpenRecordings, name: str, chosen: Sequence[str]
+) -> list[LabelLane]:
     """Return what some of them say of a recording, one lane each."""
-    from kineme.web.tables import segments_message
+    from kineme.web.tables import make_segments_message
 
     listed = recordings.get(name).listed
     path = listed.called
@@ -127,11 +131,11 @@ def lanes_of(recordings: OpenRecordings, name: str, chosen: Sequence[str]) -> li
     return [
         LabelLane(
             name=who.name,
-            segmentation=segments_message(
+            segmentation=make_segments_message(
                 who.sources[path].of(n_frames=n_frames, fps=fps, clock=clock)
             ),
         )
-        for who in _chosen(recordings, chosen)
+        for who in _select_annotators(recordings, chosen)
         if path in who.sources
     ]
 
@@ -141,9 +145,9 @@ def _index_by_file(recordings: OpenRecordings) -> dict[Path, ListedRecording]:
     return {each.called: each for each in recordings.folder.recordings().values()}
 
 
-def _chosen(recordings: OpenRecordings, chosen: Sequence[str]) -> list[Annotator]:
+def _select_annotators(recordings: OpenRecordings, chosen: Sequence[str]) -> list[Annotator]:
     """Those of that id, with names that tell them apart."""
-    present = annotators_of(recordings)
+    present = find_annotators(recordings)
     if not set(chosen) <= present.keys():
         raise UnknownError("one of these people has no labels any more; look who there is now")
     found: dict[str, Annotator] = {}

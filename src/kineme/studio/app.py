@@ -65,31 +65,31 @@ def create_app(
         folder = "folder" in request.query_params
         path = static / (PAGE if library is None or names or folder else LIBRARY_PAGE)
         if not path.is_file():
-            return _failure("this page has not been built: npm run build", 404)
+            return _make_failure("this page has not been built: npm run build", 404)
         answer = FileResponse(path)
         if is_trusted(request):  # the recordings are read while the browser sets up the page
             answer.background = BackgroundTask(recordings.prepare, names)
         return answer
 
-    handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _answer_refused)
+    handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _answer_known_error)
     app = Starlette(
         routes=[
-            *library_routes(library, recordings),
+            *make_library_routes(library, recordings),
             *Api(recordings, hub, limit=limit).routes(),
             Route("/", page),
             Mount("/assets", StaticFiles(directory=static / "assets", check_dir=False)),
         ],
         exception_handlers={
             **handlers,
-            ClientDisconnect: _answer_disconnected,
-            HTTPException: _http_error,
-            Exception: _answer_failed,
+            ClientDisconnect: _answer_disconnect,
+            HTTPException: _answer_http_error,
+            Exception: _answer_unexpected_error,
         },
     )
     return Guard(app, token=token, port=port, development=development)
 
 
-def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> list[Route]:
+def make_library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> list[Route]:
     """Return the addresses of a library, if there is one."""
     if library is None:
         return []
@@ -98,7 +98,7 @@ def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> 
     return LibraryApi(library, recordings).routes()
 
 
-def _answer_refused(_: Request, error: Exception) -> Response:
+def _answer_known_error(_: Request, error: Exception) -> Response:
     status = next(STATUS[kind] for kind in type(error).__mro__ if kind in STATUS)
     people = error.people if isinstance(error, SeveralPeopleError) else ()
     poses = isinstance(error, PosesNeededError)
@@ -107,19 +107,19 @@ def _answer_refused(_: Request, error: Exception) -> Response:
     return MessageResponse(failure, status)
 
 
-def _answer_disconnected(_: Request, __: Exception) -> Response:
+def _answer_disconnect(_: Request, __: Exception) -> Response:
     return Response(status_code=400)  # nobody is there to read it
 
 
-def _http_error(_: Request, error: Exception) -> Response:
+def _answer_http_error(_: Request, error: Exception) -> Response:
     status = error.status_code if isinstance(error, HTTPException) else 500
     what = "this address takes other methods" if status == 405 else "there is nothing here"
-    return _failure(what, status)
+    return _make_failure(what, status)
 
 
-def _answer_failed(_: Request, __: Exception) -> Response:
-    return _failure("the server failed; its terminal says how", 500)
+def _answer_unexpected_error(_: Request, __: Exception) -> Response:
+    return _make_failure("the server failed; its terminal says how", 500)
 
 
-def _failure(reason: str, status: int) -> Response:
+def _make_failure(reason: str, status: int) -> Response:
     return MessageResponse(Failure(error=reason), status)

@@ -32,31 +32,31 @@ UNITS = {"body sizes": "body heights"}
 """What a page calls units that need knowledge of the package; a body's size is about its height."""
 
 
-def presets() -> list[PresetChoice]:
+def list_presets() -> list[PresetChoice]:
     """Return the presets, the default first."""
     return [
         PresetChoice(
             name=name,
             help=preset.help,
-            parameters=_parameters(name, signals=False),
-            signal_parameters=_parameters(name, signals=True),
+            parameters=_list_parameters(name, signals=False),
+            signal_parameters=_list_parameters(name, signals=True),
         )
         for name, preset in PRESETS.items()
     ]
 
 
-def details() -> list[float]:
+def list_details() -> list[float]:
     """Return the levels of detail that a segmentation can have, the coarsest first."""
     return sorted({*DETAILS, DEFAULT_DETAIL})
 
 
-def check_offered(preset: str, parameters: Mapping[str, float], *, signals: bool) -> None:
+def check_parameters(preset: str, parameters: Mapping[str, float], *, signals: bool) -> None:
     """ParameterError for constants that a page is not offered, or not with such values.
 
     Lengths are in the unit that they have for such a recording.
     """
     resolve_preset(preset)
-    offered = {each.name: each for each in _parameters(preset, signals=signals)}
+    offered = {each.name: each for each in _list_parameters(preset, signals=signals)}
     for name, value in parameters.items():
         if name not in offered:
             raise ParameterError(f"{preset} offers {', '.join(offered)}, not {name!r:.40}")
@@ -65,7 +65,7 @@ def check_offered(preset: str, parameters: Mapping[str, float], *, signals: bool
             raise ParameterError(f"{name} can be {low:.4g} to {high:.4g}, not {value:.4g}")
 
 
-def same_again(table: Segmentation, *, signals: bool) -> SegmentAgain:
+def make_repeat_request(table: Segmentation, *, signals: bool) -> SegmentAgain:
     """To segment as a table was: by its preset, with what is offered of its constants.
 
     By the default preset where it does not say by which; nothing of the table is kept.
@@ -77,7 +77,7 @@ def same_again(table: Segmentation, *, signals: bool) -> SegmentAgain:
     given = values if isinstance(values, Mapping) else {}
     parameters = {
         each.name: float(given[each.name])
-        for each in _parameters(preset, signals=signals)
+        for each in _list_parameters(preset, signals=signals)
         if isinstance(given.get(each.name), int | float)
         and each.minimum <= given[each.name] <= each.maximum
     }
@@ -89,7 +89,7 @@ def same_again(table: Segmentation, *, signals: bool) -> SegmentAgain:
     )
 
 
-def export_formats() -> list[ExportFormat]:
+def list_export_formats() -> list[ExportFormat]:
     """Return every format that segments can be downloaded in."""
     return [
         *(
@@ -104,19 +104,19 @@ def export_formats() -> list[ExportFormat]:
     ]
 
 
-def _parameters(preset: str, *, signals: bool) -> list[Parameter]:
+def _list_parameters(preset: str, *, signals: bool) -> list[Parameter]:
     chosen, other = resolve_preset(preset), resolve_preset(preset, signals=signals)
     constants = other.constants()
     if type(chosen) is type(other):
         constants = tuple(map(_adapt_to_signals, chosen.constants(), constants))
     return [
-        _parameter(each, each.slider)
+        _make_parameter(each, each.slider)
         for each in constants
         if each.slider is not None and each.value is not None
     ]
 
 
-def _parameter(declared: Constant, slider: Slider) -> Parameter:
+def _make_parameter(declared: Constant, slider: Slider) -> Parameter:
     """Return a constant with a slider that can stand at the preset's own value."""
     below = math.floor((declared.value - slider.minimum) / slider.step + 1e-6)
     return Parameter(

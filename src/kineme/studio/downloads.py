@@ -25,10 +25,10 @@ from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
-from kineme.studio.http.bodies import safe_name
-from kineme.studio.loading import drop_others
+from kineme.studio.http.bodies import make_safe_name
+from kineme.studio.loading import drop_other_people
 from kineme.studio.open_recording import OpenRecording
-from kineme.studio.storage.sidecars import offset_of
+from kineme.studio.storage.sidecars import read_video_offset
 
 LEVELS: Mapping[Level | None, str] = {
     None: "segments",
@@ -43,20 +43,22 @@ def export_download(opened: OpenRecording, kind: str, level: Level | None) -> tu
 
     ``kind`` is a label format, or one of `kineme.studio.choices`: motion files, a page.
     """
-    loaded, table, stem = opened.loaded, opened.table, _stem_of(opened)
+    loaded, table, stem = opened.loaded, opened.table, _choose_stem(opened)
     if kind == CLIPS:
         motion, of_level = loaded.motion, level or "activity"
-        found = _written(stem, lambda to: split(motion, table, to / stem, level=of_level))
-        return _name_download(stem, _what(kind, of_level), found)
+        found = _write_to_bytes(stem, lambda to: split(motion, table, to / stem, level=of_level))
+        return _name_download(stem, _describe_content(kind, of_level), found)
     if kind == REPORT:
         name = opened.listed.name
-        shown = drop_others(loaded.recording)
+        shown = drop_other_people(loaded.recording)
         page = partial(write_report, shown, table, name=name, effectors=loaded.effectors)
-        return _name_download(stem, kind, _written(stem, lambda to: page(to / f"{stem}.html")))
-    return table_file(_add_video(opened), stem, kind, level)
+        return _name_download(
+            stem, kind, _write_to_bytes(stem, lambda to: page(to / f"{stem}.html"))
+        )
+    return make_table_file(_add_video(opened), stem, kind, level)
 
 
-def exported_together(
+def export_several(
     opened: Sequence[OpenRecording], stem: str, kind: str, level: Level | None
 ) -> tuple[str, bytes]:
     """Name and bytes of a ZIP with what is downloaded of each of some recordings.
@@ -64,15 +66,15 @@ def exported_together(
     Of tables as CSV there is one of all of them, too, with a column ``recording``.
     """
     files = [export_download(each, kind, level) for each in opened]
-    what = files[0][0].removeprefix(_stem_of(opened[0])).removesuffix(PACKED)
+    what = files[0][0].removeprefix(_choose_stem(opened[0])).removesuffix(PACKED)
     if kind == "csv":
         names = [each.listed.called.name for each in opened]
         tables = [content for _, content in files]
-        files.append((f"{stem}.all{what}", table_of_all(names, tables)))
-    return together(files, f"{stem}.checked{what}")
+        files.append((f"{stem}.all{what}", join_csv_tables(names, tables)))
+    return make_archive(files, f"{stem}.checked{what}")
 
 
-def table_of_all(names: Sequence[str], tables: Sequence[bytes]) -> bytes:
+def join_csv_tables(names: Sequence[str], tables: Sequence[bytes]) -> bytes:
     """Tables in CSV as one, the name of its recording in each row."""
     joined = StringIO()
     writer = csv.writer(joined, lineterminator="\n")
@@ -83,7 +85,7 @@ def table_of_all(names: Sequence[str], tables: Sequence[bytes]) -> bytes:
     return joined.getvalue().encode()
 
 
-def table_file(
+def make_table_file(
     segmentation: Segmentation, stem: str, name: str, level: Level | None
 ) -> tuple[str, bytes]:
     """Name and bytes of the segments in a label format; a ZIP where that is several files.
@@ -101,22 +103,24 @@ def table_file(
         write_segments(segmentation, place / file, format=name, level=of_level)
 
     # Where it is one file, that holds as provenance what else lies there.
-    content = _written(stem, write, None if found.several else file)
+    content = _write_to_bytes(stem, write, None if found.several else file)
     shown = "activity" if found.holds == "level" and of_level is None else of_level
-    return _name_download(stem, _what(name, shown), content)
+    return _name_download(stem, _describe_content(name, shown), content)
 
 
-def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tuple[str, bytes]:
+def make_clip_archive(
+    opened: OpenRecording, rows: Sequence[int], *, loops: bool
+) -> tuple[str, bytes]:
     """Name and bytes of a ZIP with a motion file for each of some rows of the table."""
-    table, stem = opened.table, _stem_of(opened)
+    table, stem = opened.table, _choose_stem(opened)
     if not rows or not all(0 <= row < len(table) for row in rows):
         raise ParameterError("choose the segments to write: some of these are not in the table")
     clips = [(opened.loaded.recording, [table.table[row] for row in rows])]
-    found = _written(stem, lambda to: write_clips(clips, to / stem, loops=loops))
+    found = _write_to_bytes(stem, lambda to: write_clips(clips, to / stem, loops=loops))
     return _name_download(stem, "loops" if loops else "clips", found)
 
 
-def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]:
+def make_archive(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]:
     """Several files as one ZIP; a name that comes again gets a number."""
     packed, names = BytesIO(), set[str]()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as parts:
@@ -130,10 +134,10 @@ def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]
     return f"{stem}{PACKED}", packed.getvalue()
 
 
-def _stem_of(opened: OpenRecording) -> str:
+def _choose_stem(opened: OpenRecording) -> str:
     """Return what downloads are called after: the recording, in letters that archives can hold."""
     stem = opened.listed.called.stem
-    return stem if is_text(stem) else safe_name(stem)
+    return stem if is_text(stem) else make_safe_name(stem)
 
 
 def _add_video(opened: OpenRecording) -> Segmentation:
@@ -141,11 +145,11 @@ def _add_video(opened: OpenRecording) -> Segmentation:
     video = find_video(opened.path)
     if video is None:
         return opened.table
-    place = {"path": str(video), "offset_s": offset_of(opened.path)}
+    place = {"path": str(video), "offset_s": read_video_offset(opened.path)}
     return replace(opened.table, provenance={**opened.table.provenance, "video": place})
 
 
-def _what(kind: str, level: Level | None) -> str:
+def _describe_content(kind: str, level: Level | None) -> str:
     """What a download holds: which segments, and the format where its suffix is also another's."""
     formats = label_formats()
     suffix = formats[kind].download_suffix if kind in formats else PACKED
@@ -160,7 +164,7 @@ def _name_download(stem: str, what: str, file: tuple[str, bytes]) -> tuple[str, 
     return f"{stem}.{what}{Path(name).suffix}", content
 
 
-def _written(
+def _write_to_bytes(
     stem: str, write: Callable[[Path], object], name: str | None = None
 ) -> tuple[str, bytes]:
     """Name and bytes of what is written to a folder, or of the file of that name alone.
@@ -174,4 +178,4 @@ def _written(
         if len(paths) == 1:
             return paths[0].name, paths[0].read_bytes()
         files = ((path.relative_to(folder).as_posix(), path.read_bytes()) for path in paths)
-        return together(files, stem)
+        return make_archive(files, stem)

@@ -77,7 +77,7 @@ def apply_edit(
         return Outcome(table)
     if type(edit) in BY_HAND:
         after = _correct_table(table, edit)
-        return Outcome(after, _cluster_notes(table, after, edit))
+        return Outcome(after, _describe_cluster_change(table, after, edit))
     if isinstance(edit, sent.SegmentAgain):
         keep = True if edit.keep is UNSET else edit.keep
         detail = DEFAULT_DETAIL if edit.detail is UNSET else edit.detail
@@ -109,7 +109,7 @@ def _correct_table(table: Segmentation, edit: Struct) -> Segmentation:
     return replace(after, annotation=replace(after.annotation, corrections=count))
 
 
-def _cluster_notes(before: Segmentation, after: Segmentation, edit: Struct) -> list[str]:
+def _describe_cluster_change(before: Segmentation, after: Segmentation, edit: Struct) -> list[str]:
     """How many segments a change of a cluster reached, and how many keep a name of their own."""
     if not isinstance(edit, sent.NameCluster | sent.MergeClusters):
         return []

@@ -12,13 +12,13 @@ from kineme.segments.editing import cluster_names
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.overview import saved_brief
-from kineme.studio.storage.tables import usual_table
+from kineme.studio.overview import read_brief
+from kineme.studio.storage.tables import find_table_path
 from kineme.web.library_messages import CallEverywhere, TablesChanged
 from kineme.web.requests import ByHand, EditRequest, NameCluster, NameSegment, Together
 
 
-def call_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> TablesChanged:
+def rename_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> TablesChanged:
     """Call what is called ``before`` in other recordings otherwise, in each as one step of undo.
 
     ParameterError where it had no name before, by which it would be known elsewhere.
@@ -27,13 +27,13 @@ def call_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> TablesC
         raise ParameterError("the cluster had no name before, by which others would be known")
     changed, left = 0, []
     for name, listed in recordings.folder.recordings().items():
-        at = usual_table(listed)
-        table = saved_brief(at) if at and name != sent.recording else None
+        at = find_table_path(listed)
+        table = read_brief(at) if at and name != sent.recording else None
         if table is None or sent.before not in table.label:
             continue
         try:
             opened = recordings.get(name)
-            edits = _edits(opened.table, sent.before, sent.label)
+            edits = _make_edits(opened.table, sent.before, sent.label)
             if edits:
                 edit = EditRequest(revision=opened.revision, edit=Together(edits=edits))
                 recordings.edit(name, edit)
@@ -43,7 +43,7 @@ def call_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> TablesC
     return TablesChanged(tables=changed, others=0, left=left)
 
 
-def _edits(table: Segmentation, before: str, label: str) -> list[ByHand]:
+def _make_edits(table: Segmentation, before: str, label: str) -> list[ByHand]:
     """Names for the clusters that are called so, and for segments that are called so alone."""
     clusters = [cluster for cluster, name in cluster_names(table).items() if name == before]
     alone = [row for row in table if row.label == before and row.cluster not in clusters]

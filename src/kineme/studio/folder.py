@@ -16,10 +16,10 @@ from kineme._util.files import CORRECTED
 from kineme.formats.listing import drop_duplicates, holds_recording, list_files
 from kineme.labels import holds_labels
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.overview import saved_brief
-from kineme.studio.storage.listed import ListedRecording, file_id
-from kineme.studio.storage.sidecars import listed_in
-from kineme.studio.storage.tables import usual_table, usual_tables
+from kineme.studio.overview import read_brief
+from kineme.studio.storage.listed import ListedRecording, make_file_id
+from kineme.studio.storage.sidecars import list_recordings
+from kineme.studio.storage.tables import find_table_path, list_default_table_paths
 
 
 class Folder:
@@ -43,7 +43,7 @@ class Folder:
         else:
             present = (path for path in self._listed() if not path.name.endswith(CORRECTED))
             files = drop_duplicates([path for path in present if holds_recording(path)])
-        return {each.id: each for each in listed_in(files)}
+        return {each.id: each for each in list_recordings(files)}
 
     def knowledge_bases(self) -> dict[str, Path]:
         """Return the knowledge bases by id."""
@@ -52,7 +52,7 @@ class Folder:
             return {}
         from kineme.transfer.knowledge import holds_knowledge  # half a second of imports
 
-        return {file_id(path): path for path in archives if holds_knowledge(path)}
+        return {make_file_id(path): path for path in archives if holds_knowledge(path)}
 
     def annotations(self, recordings: Iterable[ListedRecording] | None = None) -> dict[str, Path]:
         """Return the label files by id, without the tables that the studio itself saves.
@@ -60,9 +60,9 @@ class Folder:
         ``recordings`` are those of the folder, where they have been listed already.
         """
         listed = self.recordings().values() if recordings is None else recordings
-        tables = {table for each in listed for table in usual_tables(each)}
+        tables = {table for each in listed for table in list_default_table_paths(each)}
         found = [path for path in self._listed() if path not in tables and holds_labels(path)]
-        return {file_id(path): path for path in found}
+        return {make_file_id(path): path for path in found}
 
     def folders(self) -> list[Path]:
         """Return the folders in it, where people may keep their labels."""
@@ -93,10 +93,10 @@ class Progress:
     to_name: int
 
 
-def progress(listed: ListedRecording) -> Progress | None:
+def count_progress(listed: ListedRecording) -> Progress | None:
     """Return how far a recording is; None where it has no table, or one that cannot be read."""
-    path = usual_table(listed)
-    table = saved_brief(path) if path else None
+    path = find_table_path(listed)
+    table = read_brief(path) if path else None
     if table is None:
         return None
     named = sum(label != "" for label in table.label)

@@ -33,14 +33,18 @@ from kineme.library.storage.places import is_remote
 from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
-from kineme.studio.folder import Folder, progress
+from kineme.studio.folder import Folder, count_progress
 from kineme.studio.library_history import LibraryHistory
-from kineme.studio.library_tables import LibraryTables, as_in_library, select_library_clusters
+from kineme.studio.library_tables import (
+    LibraryTables,
+    apply_library_clusters,
+    match_library_clusters,
+)
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
-from kineme.studio.reading import stamp_of
-from kineme.studio.storage.listed import ListedRecording, file_id
-from kineme.studio.storage.tables import usual_table
+from kineme.studio.reading import read_stamp
+from kineme.studio.storage.listed import ListedRecording, make_file_id
+from kineme.studio.storage.tables import find_table_path
 from kineme.web.library_messages import (
     CallCluster,
     CallEverywhere,
@@ -129,9 +133,10 @@ class ShownLibrary:
             folder=str(self._folder.absolute()),
             hours=library.hours,
             recordings=[
-                _recording(name, Path(path), kind, lasts) for name, path, kind, lasts in rows
+                _describe_recording(name, Path(path), kind, lasts)
+                for name, path, kind, lasts in rows
             ],
-            clusters=_clusters(library),
+            clusters=_list_clusters(library),
             failed=library.failed,
             undo=self._history.last(),
         )
@@ -157,18 +162,20 @@ class ShownLibrary:
         changed, kept, left = 0, 0, []
         edits = read_edits(self._folder)
         for path in self.files():
-            of_library = self.table_of(path) if usual_table(ListedRecording(path)) else None
+            of_library = self.table_of(path) if find_table_path(ListedRecording(path)) else None
             if of_library is None:
                 continue
             others = 0
 
             def make(table: Segmentation, of_library: Segmentation = of_library) -> Segmentation:
                 nonlocal others
-                after, others = as_in_library(table, of_library, edits, replace_names=names)
+                after, others = apply_library_clusters(
+                    table, of_library, edits, replace_names=names
+                )
                 return after
 
             try:
-                changed += recordings.take(file_id(path), make)
+                changed += recordings.take(make_file_id(path), make)
                 kept += others
             except (KinemeError, UnknownError, ConflictError) as error:
                 left.append(f"{path.name}: {error}")
@@ -179,7 +186,7 @@ class ShownLibrary:
         opened = recordings.get(sent.recording)
         of_library = self.table_of(opened.path)
         place = (
-            select_library_clusters(opened.table, of_library).get(sent.cluster)
+            match_library_clusters(opened.table, of_library).get(sent.cluster)
             if of_library
             else None
         )
@@ -201,7 +208,7 @@ class ShownLibrary:
 
     def _with_name(self, hit: LibraryHit) -> LibraryHit:
         path = self._file(hit.recording)
-        name = name_of(path, hit.start_s, hit.stop_s) if path else ""
+        name = find_segment_name(path, hit.start_s, hit.stop_s) if path else ""
         return structs.replace(hit, name=name) if name else hit
 
     def _file(self, recording: str) -> Path | None:
@@ -236,7 +243,10 @@ class LibraryFolder(Folder):
         Of several people the library has one.
         """
         files = [path for path in self._shown.files() if path.is_file()]
-        return {**{file_id(path): ListedRecording(path) for path in files}, **super().recordings()}
+        return {
+            **{make_file_id(path): ListedRecording(path) for path in files},
+            **super().recordings(),
+        }
 
 
 class Searches:
@@ -263,9 +273,9 @@ class Searches:
         with self._searching:
             check()
             hits = library.search(
-                _examples(sent.like, names),
+                _make_examples(sent.like, names),
                 cluster=None if sent.cluster is UNSET else sent.cluster,
-                unlike=_examples(sent.unlike, names),
+                unlike=_make_examples(sent.unlike, names),
                 threshold=sent.threshold,
                 top=sent.top,
                 mirror=sent.mirror,
@@ -291,7 +301,7 @@ class Interruptible:
                 yield from zip(some, map_threads(work, some), strict=True)
 
 
-def segment_of(table: Segmentation, start_s: float, stop_s: float) -> Segment | None:
+def find_segment(table: Segmentation, start_s: float, stop_s: float) -> Segment | None:
     """Return the segment that a span shows, of the level that fits it best.
 
     None where none does.
@@ -305,11 +315,11 @@ def segment_of(table: Segmentation, start_s: float, stop_s: float) -> Segment | 
     return best if best is not None and share(best) >= SAME else None
 
 
-def name_of(recording: Path, start_s: float, stop_s: float) -> str:
+def find_segment_name(recording: Path, start_s: float, stop_s: float) -> str:
     """What the segment that a span shows is called in the table beside its recording, if at all."""
-    path = usual_table(ListedRecording(recording))
-    table = _table(path, *stamp_of(path)) if path else None
-    row = segment_of(table, start_s, stop_s) if table is not None else None
+    path = find_table_path(ListedRecording(recording))
+    table = _read_table(path, *read_stamp(path)) if path else None
+    row = find_segment(table, start_s, stop_s) if table is not None else None
     return row.label if row is not None else ""
 
 
@@ -328,8 +338,8 @@ def name_hits(
             failures.append(f"{where}: its file is not there")
             continue
         try:
-            opened = recordings.get(file_id(path))
-            row = segment_of(opened.table, span.start_s, span.stop_s)
+            opened = recordings.get(make_file_id(path))
+            row = find_segment(opened.table, span.start_s, span.stop_s)
             if row is None:
                 failures.append(f"{where}: no segment lies there")
                 continue
@@ -369,25 +379,25 @@ def _read_modified(path: Path) -> int:
         return 0
 
 
-def _recording(name: str, path: Path, vocabulary: str, lasts: float) -> LibraryRecording:
+def _describe_recording(name: str, path: Path, vocabulary: str, lasts: float) -> LibraryRecording:
     exists = path.is_file()
     return LibraryRecording(
         recording=name,
-        id=file_id(path) if exists else "",
-        status=_status(path) if exists else "gone",
+        id=make_file_id(path) if exists else "",
+        status=_find_status(path) if exists else "gone",
         vocabulary=vocabulary,
         duration_s=lasts,
     )
 
 
-def _status(path: Path) -> Literal["as found", "corrected", "checked"]:
-    counts = progress(ListedRecording(path))
+def _find_status(path: Path) -> Literal["as found", "corrected", "checked"]:
+    counts = count_progress(ListedRecording(path))
     if counts is None:
         return "as found"
     return "checked" if counts.segments and counts.checked == counts.segments else "corrected"
 
 
-def _clusters(library: Library) -> list[LibraryCluster]:
+def _list_clusters(library: Library) -> list[LibraryCluster]:
     rows = {name: row for row, name in enumerate(library.recordings["recording"])}
     local = library.table("local_clusters").select(["cluster", "recording"]).to_pydict()
     where: dict[int, set[int]] = {}
@@ -404,7 +414,7 @@ def _clusters(library: Library) -> list[LibraryCluster]:
 
 
 @lru_cache(MOST_TABLES)
-def _table(path: Path, *_: int) -> Segmentation | None:
+def _read_table(path: Path, *_: int) -> Segmentation | None:
     """Of the file as it was at that time; None where it is no table."""
     try:
         return read_segments(path, format="json")
@@ -412,7 +422,7 @@ def _table(path: Path, *_: int) -> Segmentation | None:
         return None
 
 
-def _examples(spans: Sequence[Span], names: set[str]) -> list[Example]:
+def _make_examples(spans: Sequence[Span], names: set[str]) -> list[Example]:
     """Spans as examples, each of a recording of the library and of no other file."""
     for span in spans:
         if span.recording not in names:

@@ -46,12 +46,14 @@ class LibraryHistory:
         """Keep what was there before an edit that has been made."""
         after = self.present()
         if after != before:
-            self._write([*self._steps(), Step(what, before, _digest(after))])
+            self._write([*self._steps(), Step(what, before, _compute_digest(after))])
 
     def last(self) -> str:
         """Return the edit that can be taken back, in words; empty where there is none."""
         steps = self._steps()
-        return steps[-1].what if steps and steps[-1].after == _digest(self.present()) else ""
+        return (
+            steps[-1].what if steps and steps[-1].after == _compute_digest(self.present()) else ""
+        )
 
     def undo(self) -> None:
         """Take the last edit back; ParameterError where there is none, or others came since."""
@@ -75,5 +77,5 @@ class LibraryHistory:
         write_file(self._path, json.dumps(content[-MOST_STEPS:], indent=1).encode())
 
 
-def _digest(content: dict[str, Any]) -> str:
+def _compute_digest(content: dict[str, Any]) -> str:
     return sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()

@@ -14,10 +14,10 @@ from starlette.routing import Route
 from kineme.errors import KinemeError, ParameterError
 from kineme.library import Library
 from kineme.recordings import Motion, Signals
-from kineme.studio.http.bodies import route
+from kineme.studio.http.bodies import make_route
 from kineme.studio.library import ShownLibrary
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.reading import Stamp, stamp_of
+from kineme.studio.reading import Stamp, read_stamp
 from kineme.web.display import display_motion
 from kineme.web.library_messages import (
     CallEverywhere,
@@ -48,13 +48,13 @@ class LibraryApi:
 
     def routes(self) -> list[Route]:
         return [
-            route("/api/library", self.state),
-            route("/api/library/edits", self.edit, LibraryEdit),
-            route("/api/library/tables", self.tables, TablesRequest),
-            route("/api/library/everywhere", self.everywhere, CallEverywhere),
-            route("/api/library/search", self.search, SearchRequest),
-            route("/api/library/names", self.names, CallHits),
-            route("/api/library/figure", self.figure),
+            make_route("/api/library", self.state),
+            make_route("/api/library/edits", self.edit, LibraryEdit),
+            make_route("/api/library/tables", self.tables, TablesRequest),
+            make_route("/api/library/everywhere", self.everywhere, CallEverywhere),
+            make_route("/api/library/search", self.search, SearchRequest),
+            make_route("/api/library/names", self.names, CallHits),
+            make_route("/api/library/figure", self.figure),
         ]
 
     def state(self, _: Request) -> LibraryState:
@@ -105,7 +105,7 @@ class Figures:
         stop_s = min(stop_s, start_s + LONGEST)
         span = self._read(library, name).seconds(start_s, stop_s)
         if isinstance(span, Signals):
-            return LibraryFigure(motion=None, numbers="", curves=_curves(span))
+            return LibraryFigure(motion=None, numbers="", curves=_sample_curves(span))
         names = library.segment_options.effectors
         try:
             head, numbers = display_motion(span, effectors=names)
@@ -116,7 +116,7 @@ class Figures:
     def _read(self, library: Library, name: str) -> Motion | Signals:
         path = library.path_of(name)
         with self._lock:  # many figures of a recording are asked for at once
-            key = path, stamp_of(path)
+            key = path, read_stamp(path)
             if key not in self._recent:
                 self._recent[key] = library.read(name)
             self._recent.move_to_end(key)
@@ -125,7 +125,7 @@ class Figures:
             return self._recent[key]
 
 
-def _curves(signals: Signals) -> list[list[float]]:
+def _sample_curves(signals: Signals) -> list[list[float]]:
     """Return the first channels, thinned, each between 0 and 1; not seen is in the middle."""
     every = max(1, signals.n_frames // POINTS)
     shown = signals.values[::every, :CHANNELS].astype(float)

@@ -80,7 +80,7 @@ class LibraryTables:
         )
 
 
-def select_library_clusters(table: Segmentation, of_library: Segmentation) -> dict[int, int]:
+def match_library_clusters(table: Segmentation, of_library: Segmentation) -> dict[int, int]:
     """Return the clusters of a table that are clusters of the library, with its numbers.
 
     A cluster is the one of the library that most of its frames lie in.
@@ -106,7 +106,7 @@ def select_library_clusters(table: Segmentation, of_library: Segmentation) -> di
     }
 
 
-def as_in_library(
+def apply_library_clusters(
     table: Segmentation, of_library: Segmentation, edits: Edits, *, replace_names: bool = False
 ) -> tuple[Segmentation, int]:
     """A table with the numbers and names of the library, and how many clusters keep another name.
@@ -115,8 +115,8 @@ def as_in_library(
     two, since people may have parted them: the larger has its number, both its name. A cluster that
     has another name keeps it unless ``replace_names``, and so does each segment with its own.
     """
-    places, names = select_library_clusters(table, of_library), collect_names(of_library)
-    numbers = _numbers(table, places, edits, {*of_library.table.cluster.tolist()})
+    places, names = match_library_clusters(table, of_library), collect_names(of_library)
+    numbers = _assign_numbers(table, places, edits, {*of_library.table.cluster.tolist()})
     after = renumber_clusters(table, numbers)
     former = collect_names(table)
     # Reversed: of clusters that get one number the first one's name wins.
@@ -136,7 +136,7 @@ def as_in_library(
     return (replace(after, hierarchy=table.hierarchy) if same else after), kept
 
 
-def _numbers(
+def _assign_numbers(
     table: Segmentation, places: dict[int, int], edits: Edits, present: set[int]
 ) -> dict[int, int]:
     """Return the numbers that the clusters of a table get, the largest first."""

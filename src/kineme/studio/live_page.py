@@ -21,8 +21,8 @@ from starlette.responses import FileResponse, StreamingResponse
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from kineme.studio.http.security import Guard, new_token
-from kineme.studio.server import HOST, PATIENCE, configure, listening
+from kineme.studio.http.security import Guard, make_token
+from kineme.studio.server import HOST, PATIENCE, make_server_config, open_socket
 from kineme.web import STATIC
 from kineme.web.encoding import to_json
 from kineme.web.live_messages import LiveEvent, LiveHead, LiveUpdate
@@ -86,7 +86,7 @@ class LivePage:
             if not self._head.bones:
                 self._samples += sampled[:, :CURVES].tolist()
             elif np.isfinite(frames[-1]).any():
-                self._pose = _flatten(frames[-1].reshape(-1, 3)).ravel().tolist()
+                self._pose = _project_pose(frames[-1].reshape(-1, 3)).ravel().tolist()
 
     async def stream(self) -> AsyncIterator[str]:
         """Yield updates as ``text/event-stream``."""
@@ -106,19 +106,19 @@ class LivePage:
                 now_s=self.n_frames / self._fps,
                 silent_s=self._silent_s,
                 has_ended=self.has_ended,
-                events=_last(self._events, self._n_events - n_events),
+                events=_get_last(self._events, self._n_events - n_events),
                 first_s=(self._n_samples - n_new) * self._step / self._fps,
-                samples=_last(self._samples, n_new),
+                samples=_get_last(self._samples, n_new),
                 pose=self._pose,
             )
             return update, self._n_events, self._n_samples
 
 
-def _last(items: deque[Any], n: int) -> list[Any]:
+def _get_last(items: deque[Any], n: int) -> list[Any]:
     return list(islice(items, max(len(items) - n, 0), None))
 
 
-def _flatten(pose: NDArray[Any]) -> NDArray[Any]:
+def _project_pose(pose: NDArray[Any]) -> NDArray[Any]:
     """Return a pose as it is seen from half left: right and up, the body in the middle."""
     right = (pose[:, 0] - pose[:, 2]) / np.sqrt(2)
     return np.round(np.column_stack([right - np.nanmean(right), pose[:, 1]]), 3)
@@ -134,11 +134,13 @@ def serve_page(page: LivePage, announce: Callable[[str], None]) -> Iterator[None
     async def tell(_: Request) -> StreamingResponse:
         return StreamingResponse(page.stream(), media_type="text/event-stream")
 
-    with listening(0) as opened:
-        token, port = new_token(), opened.getsockname()[1]
+    with open_socket(0) as opened:
+        token, port = make_token(), opened.getsockname()[1]
         assets = StaticFiles(directory=STATIC / "assets")
         routes = [Route("/", show), Route("/api/events", tell), Mount("/assets", assets)]
-        server = uvicorn.Server(configure(Guard(Starlette(routes=routes), token=token, port=port)))
+        server = uvicorn.Server(
+            make_server_config(Guard(Starlette(routes=routes), token=token, port=port))
+        )
         thread = threading.Thread(target=server.run, args=[[opened]], daemon=True)
         thread.start()
         address = f"http://{HOST}:{port}/?token={token}"

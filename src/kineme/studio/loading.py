@@ -19,8 +19,8 @@ from kineme.recordings import Motion, Skeleton
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind
-from kineme.studio.choices import check_offered
-from kineme.studio.reading import RecordingCache, stamp_of
+from kineme.studio.choices import check_parameters
+from kineme.studio.reading import RecordingCache, read_stamp
 from kineme.studio.running import Run, Runs
 from kineme.studio.storage.listed import ListedRecording
 
@@ -47,7 +47,7 @@ class LoadedRecording:
         self.listed, self.path = listed, listed.path
         self._cache = cache
         self.effectors = cache.segment_options.effectors
-        self._stamp = stamp_of(self.path)
+        self._stamp = read_stamp(self.path)
         found = cache.read(listed)
         self.n_frames, self.fps = found.n_frames, found.fps
         self.is_motion = isinstance(found, Motion)
@@ -79,7 +79,7 @@ class LoadedRecording:
     def changed(self) -> bool:
         """Return whether the file is another now, or gone."""
         try:
-            return stamp_of(self.path) != self._stamp
+            return read_stamp(self.path) != self._stamp
         except ReadError:
             return True
 
@@ -90,12 +90,12 @@ class LoadedRecording:
 
     def page_data(self) -> PageData:
         """Return all that a page draws but the segments."""
-        from kineme.web.page_data import page_data
+        from kineme.web.page_data import make_page_data
 
         with self._lock:
             if self._page_data is None:
-                shown = drop_others(self.recording)
-                self._page_data = page_data(shown, effectors=self.effectors)
+                shown = drop_other_people(self.recording)
+                self._page_data = make_page_data(shown, effectors=self.effectors)
             return self._page_data
 
     def picture(self) -> DrawnPicture | None:
@@ -156,7 +156,7 @@ class LoadedRecording:
         from kineme.methods.segmenter import segment_with_options
 
         changed = dict[str, Any](parameters or {})
-        check_offered(preset, changed, signals=not self.is_motion)
+        check_parameters(preset, changed, signals=not self.is_motion)
         key = preset, *sorted(changed.items())
         former = self._found
         # Another detail of the same segments needs no new run.
@@ -211,7 +211,7 @@ class LoadedRecording:
         """Whether a table is of this recording: as long, and made from it if it says from what."""
         if segmentation.n_frames != self.n_frames or self.is_of_another(segmentation):
             return False
-        digest = digest_in(segmentation)
+        digest = get_digest(segmentation)
         if not digest:
             return True
         name = Path(str(segmentation.provenance["input"].get("path") or "")).name
@@ -219,7 +219,7 @@ class LoadedRecording:
 
     def is_of_another(self, segmentation: Segmentation) -> bool:
         """Return whether a table says that it is of another take or person of the file."""
-        file, read = _input_of(segmentation), self.provenance
+        file, read = _get_input(segmentation), self.provenance
         names = {"take": read.take, "person": read.person}
         return any(file.get(option, name) != name for option, name in names.items())
 
@@ -229,10 +229,10 @@ class LoadedRecording:
             "input": read.input,
             "notes": [*read.notes],
         }
-        return one_segment(kind, self.n_frames, self.fps, provenance)
+        return make_single_segment(kind, self.n_frames, self.fps, provenance)
 
 
-def drop_others(recording: Motion | Signals) -> Motion | Signals:
+def drop_other_people(recording: Motion | Signals) -> Motion | Signals:
     """Return the recording without the markers of the other people in its file."""
     provenance = recording.provenance
     others = {*provenance.people} - {provenance.person}
@@ -252,18 +252,18 @@ def drop_others(recording: Motion | Signals) -> Motion | Signals:
     return replace(recording, skeleton=alone, positions=recording.positions[:, kept])
 
 
-def digest_in(segmentation: Segmentation) -> str:
+def get_digest(segmentation: Segmentation) -> str:
     """Return the digest of the recording that a table was made from, empty if it does not say."""
-    return str(_input_of(segmentation).get("sha256") or "")
+    return str(_get_input(segmentation).get("sha256") or "")
 
 
-def _input_of(segmentation: Segmentation) -> dict[str, Any]:
+def _get_input(segmentation: Segmentation) -> dict[str, Any]:
     """Return what a table says of the file it was made from."""
     read: Any = segmentation.provenance.get("input")
     return read if isinstance(read, dict) else {}
 
 
-def one_segment(
+def make_single_segment(
     kind: Kind, n_frames: int, fps: float, provenance: Mapping[str, Any] | None = None
 ) -> Segmentation:
     """Return a table of one segment for all."""

@@ -15,7 +15,7 @@ from kineme.web.messages import LoopRow, Loops, PlayedLoop
 
 def rank_loops(opened: OpenRecording) -> Loops:
     """How good the repetitions of a recording would be as loops."""
-    table, motion = opened.table, _motion(opened)
+    table, motion = opened.table, _require_motion(opened)
     numbers = [number for number, row in enumerate(table.table) if row.level == "primitive"]
     found = ranked_loops(motion, [table.table[number] for number in numbers])
     return Loops(
@@ -34,9 +34,9 @@ def rank_loops(opened: OpenRecording) -> Loops:
     )
 
 
-def play_loop(opened: OpenRecording, number: int) -> PlayedLoop:
+def make_played_loop(opened: OpenRecording, number: int) -> PlayedLoop:
     """Return the loop that a row of the table would be written as."""
-    table, motion = opened.table, _motion(opened)
+    table, motion = opened.table, _require_motion(opened)
     if not 0 <= number < len(table):
         raise ParameterError("choose the segment to play: this one is not in the table")
     closed, carry = played_loop(motion, table.table[number])
@@ -45,7 +45,7 @@ def play_loop(opened: OpenRecording, number: int) -> PlayedLoop:
     return PlayedLoop(motion=head, numbers=numbers, turn=carry.turn, x=carry.x, z=carry.z)
 
 
-def _motion(opened: OpenRecording) -> Motion:
+def _require_motion(opened: OpenRecording) -> Motion:
     motion = opened.loaded.recording
     if not isinstance(motion, Motion):
         raise ParameterError("signals have no pose to blend, so there are no loops")

@@ -27,17 +27,17 @@ from kineme.segments.editing.carrying import count_names
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, apply_edit
-from kineme.studio.loading import LoadedRecording, digest_in
+from kineme.studio.loading import LoadedRecording, get_digest
 from kineme.studio.reading import RecordingCache
 from kineme.studio.running import Run
 from kineme.studio.storage.journal import Change, Journal
-from kineme.studio.storage.listed import ListedRecording, file_id
+from kineme.studio.storage.listed import ListedRecording, make_file_id
 from kineme.studio.storage.sidecars import (
-    notes_on_sidecars,
-    options_of,
-    video_message,
+    list_sidecar_problems,
+    make_video_message,
+    read_saved_options,
 )
-from kineme.studio.storage.tables import ChangedOnDiskError, TableFile, saved_table
+from kineme.studio.storage.tables import ChangedOnDiskError, TableFile, find_saved_table
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
 from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 
@@ -83,7 +83,7 @@ class OpenRecording:
             else:
                 table, notes = first.result()
                 self._notes = [*self._notes, *notes]
-        elif digest_in(table) not in ("", self.loaded.provenance.sha256):
+        elif get_digest(table) not in ("", self.loaded.provenance.sha256):
             self._notes = [*self._notes, f"{self.path.name} has changed since its table was made"]
         self._table, self._journal = table, Journal(self._file.path, table)
         self.revision = max(revision, self._journal.revision) - self.finding  # one more once found
@@ -124,11 +124,13 @@ class OpenRecording:
 
     def message(self) -> tuple[Recording, bool]:
         """All that a page shows, and whether another program has changed the table meanwhile."""
-        from kineme.web.page_data import recording_message
+        from kineme.web.page_data import make_recording_message
 
         with self._lock:
             anew = self._file.changed() and self._read_anew()
-            shown = recording_message(self.loaded.page_data(), self._table, name=self.listed.name)
+            shown = make_recording_message(
+                self.loaded.page_data(), self._table, name=self.listed.name
+            )
             read = self.loaded.provenance
             people = [*read.people] if len(read.people) > 1 else []
             message = structs.replace(
@@ -138,11 +140,11 @@ class OpenRecording:
                 can_undo=self._journal.can_undo,
                 can_redo=self._journal.can_redo,
                 saved=self._saved,
-                video=video_message(self.path, self.loaded.picture()),
-                read_options=options_to_json(options_of(self.path)),
+                video=make_video_message(self.path, self.loaded.picture()),
+                read_options=options_to_json(read_saved_options(self.path)),
                 take=read.take,
                 takes=[*read.takes],
-                file=file_id(self.path),
+                file=make_file_id(self.path),
                 person=read.person if people else None,
                 people=people,
                 finding=self.finding,
@@ -150,7 +152,7 @@ class OpenRecording:
                     *shown.warnings,
                     *self._notes,
                     *self._journal.notes,
-                    *notes_on_sidecars(self.path),
+                    *list_sidecar_problems(self.path),
                 ],
             )
             return message, anew
@@ -208,7 +210,7 @@ class OpenRecording:
 
         CancelledError where it is not wanted any more, or another one is.
         """
-        from kineme.web.tables import segments_message
+        from kineme.web.tables import make_segments_message
 
         detail = DEFAULT_DETAIL if request.detail is UNSET else request.detail
         former, self._previewed = self._previewed, Run(request.preset)
@@ -217,7 +219,7 @@ class OpenRecording:
         result = editing.carry_corrections(self.table, found)
         lost = [f"{result.corrections} corrections and {result.names} names"]
         return Preview(
-            segmentation=segments_message(result.segmentation if request.keep else found),
+            segmentation=make_segments_message(result.segmentation if request.keep else found),
             corrections=result.corrections,
             names=result.names,
             lost=result.lost if request.keep else lost,
@@ -244,12 +246,12 @@ class OpenRecording:
 
     def version(self, number: int) -> Comparison:
         """Return a table that was replaced, to lay beside the present one."""
-        from kineme.web.tables import segments_message
+        from kineme.web.tables import make_segments_message
 
         with self._lock:
             table = self._version(number)
             at = self._journal.versions()[number].at
-        return Comparison(name=at, segmentation=segments_message(table), scores={})
+        return Comparison(name=at, segmentation=make_segments_message(table), scores={})
 
     def _after(self, edit: Edit, files: Surroundings) -> tuple[Change, list[str]]:
         if isinstance(edit, Undo | Redo):
@@ -286,18 +288,20 @@ class OpenRecording:
     def _saved_table(self) -> tuple[TableFile, Segmentation | None, list[str]]:
         """Return what is on the disk."""
         loaded = self.loaded
-        return saved_table(self.listed, loaded.fits, self._others, of_another=loaded.is_of_another)
+        return find_saved_table(
+            self.listed, loaded.fits, self._others, of_another=loaded.is_of_another
+        )
 
     def _edited(self, notes: list[str], before: Segmentation | None = None) -> Edited:
         """Return the present table, or how it differs from the one ``before``, a revision ago."""
-        from kineme.web.tables import segments_message, table_change
+        from kineme.web.tables import make_segments_message, make_table_change
 
         of = self.revision - 1
-        change = None if before is None else table_change(before, self._table, revision=of)
+        change = None if before is None else make_table_change(before, self._table, revision=of)
         return Edited(
             revision=self.revision,
             change=change,
-            segmentation=None if change else segments_message(self._table),
+            segmentation=None if change else make_segments_message(self._table),
             can_undo=self._journal.can_undo,
             can_redo=self._journal.can_redo,
             saved=self._saved,

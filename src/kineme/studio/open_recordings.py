@@ -16,16 +16,16 @@ from kineme.formats import ReadOptions
 from kineme.labels.collections import Extent
 from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.choices import same_again
+from kineme.studio.choices import make_repeat_request
 from kineme.studio.folder import Folder
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
-from kineme.studio.overview import brief_of, saved_brief
+from kineme.studio.overview import read_brief, summarize_table
 from kineme.studio.reader import Reader
 from kineme.studio.reading import RecordingCache
 from kineme.studio.running import NOTHING, READING
 from kineme.studio.sketches import SKETCH_REVISION, Sketch, Sketcher
 from kineme.studio.storage.listed import ListedRecording
-from kineme.studio.storage.tables import usual_table
+from kineme.studio.storage.tables import find_table_path
 from kineme.web.messages import (
     BriefTable,
     Edited,
@@ -191,12 +191,12 @@ class OpenRecordings:
 
     def _brief(self, listed: ListedRecording) -> BriefTable | None:
         opened = self._open.get(listed.id)
-        at = usual_table(listed) if opened is None else opened.table_path
-        found = saved_brief(at) if at else None
+        at = find_table_path(listed) if opened is None else opened.table_path
+        found = read_brief(at) if at else None
         if found is None and opened is not None and not opened.finding:
-            return brief_of(opened.table)
+            return summarize_table(opened.table)
         initial = self.folder.first_table(listed.path) if found is None else None
-        return found if initial is None else brief_of(initial)
+        return found if initial is None else summarize_table(initial)
 
     def renew(self) -> None:
         """Show what is known of open recordings now where nobody has saved a table."""
@@ -241,7 +241,9 @@ class OpenRecordings:
             self._open.pop(name, None)
             self._sketcher.forget(name)
         for each in present:
-            is_present = each.id in self._open or self._sketcher.get(each.id) or usual_table(each)
+            is_present = (
+                each.id in self._open or self._sketcher.get(each.id) or find_table_path(each)
+            )
             if changed and is_present:
                 with suppress(ReadError):  # who is not in another take
                     self._open_anew(each, with_table=changed != {"take"})
@@ -254,7 +256,7 @@ class OpenRecordings:
         if opened.table_path.exists() and with_table:
             shown = opened if former is None else former
             signals = not opened.loaded.is_motion
-            opened.edit(opened.revision, same_again(shown.table, signals=signals), self)
+            opened.edit(opened.revision, make_repeat_request(shown.table, signals=signals), self)
         self._changed(listed.id, opened.revision)
 
     def extent(self, listed: ListedRecording) -> Extent:

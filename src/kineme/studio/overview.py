@@ -22,24 +22,24 @@ from kineme.segments.editing import comments
 from kineme.segments.editing.annotating import find_marked
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
-from kineme.studio.reading import stamp_of
+from kineme.studio.reading import read_stamp
 from kineme.web.messages import BriefTable
 
 MOST_TABLES = 10_000
 """In memory, about 10 kB each."""
 
 
-def saved_brief(path: Path) -> BriefTable | None:
+def read_brief(path: Path) -> BriefTable | None:
     """Return the table in a file in brief; None where there is none, or one that cannot be read."""
     try:
-        return _summarize_file(path, *stamp_of(path))
+        return _summarize_file(path, *read_stamp(path))
     except Exception:  # noqa: BLE001 (a table that is damaged in any way costs itself only)
         return None
 
 
-def brief_of(table: Segmentation) -> BriefTable:
+def summarize_table(table: Segmentation) -> BriefTable:
     """Return a table in brief."""
-    return _brief(table, [*table], find_marked(table, "checked"), len(comments(table)))
+    return _make_brief(table, [*table], find_marked(table, "checked"), len(comments(table)))
 
 
 class _Row(msgspec.Struct):
@@ -70,16 +70,16 @@ def _summarize_file(path: Path, *_: int) -> BriefTable | None:
         saved = msgspec.json.decode(path.read_bytes(), type=_Saved)
     except (ValueError, ReadError):
         saved = None
-    if saved is not None and saved.schema == json_table.SCHEMA and _tiles(saved):
+    if saved is not None and saved.schema == json_table.SCHEMA and _has_valid_rows(saved):
         annotation = saved.annotation
-        return _brief(saved, saved.segments, {*annotation.checked}, len(annotation.comments))
+        return _make_brief(saved, saved.segments, {*annotation.checked}, len(annotation.comments))
     try:
-        return brief_of(read_segments(path, format="json"))
+        return summarize_table(read_segments(path, format="json"))
     except KinemeError:
         return None
 
 
-def _tiles(saved: _Saved) -> bool:
+def _has_valid_rows(saved: _Saved) -> bool:
     """Whether rows are as a reader leaves them: by level, each from where the last one stops."""
     levels = [[*rows] for _, rows in groupby(saved.segments, lambda row: row.level)]
     return [rows[0].level for rows in levels] in (["activity"], ["activity", "primitive"]) and all(
@@ -91,7 +91,7 @@ def _tiles(saved: _Saved) -> bool:
     )
 
 
-def _brief(
+def _make_brief(
     table: Segmentation | _Saved,
     rows: Sequence[Segment] | Sequence[_Row],
     checked: Container[Span],

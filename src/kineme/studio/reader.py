@@ -10,7 +10,12 @@ from kineme.formats import ReadOptions
 from kineme.studio.folder import Folder
 from kineme.studio.reading import RecordingCache
 from kineme.studio.storage.listed import ListedRecording
-from kineme.studio.storage.sidecars import keep_reading, options_of, read_options, reading_of
+from kineme.studio.storage.sidecars import (
+    read_saved_options,
+    read_saved_reading,
+    resolve_read_options,
+    write_reading,
+)
 
 
 class Reader:
@@ -25,7 +30,7 @@ class Reader:
         Markers are read without being told; but which are whose people should know. A library was
         made of one of them.
         """
-        person = listed.person or read_options(listed, self._cache.read_options).person
+        person = listed.person or resolve_read_options(listed, self._cache.read_options).person
         if person or self._folder.of_library:
             return
         people = self._cache.read(listed).provenance.people
@@ -40,9 +45,9 @@ class Reader:
 
         Return the options that differ from those before, and which of several people was read.
         """
-        before, people = reading_of(listed.path)
+        before, people = read_saved_reading(listed.path)
         after, people, person = self._read(listed, options, people, everybody)
-        keep_reading(listed.path, after, people)
+        write_reading(listed.path, after, people)
         # Another person is another recording, with a table of its own.
         names = {each.name for each in fields(after)} - ({"person"} if people else set())
         return {name for name in names if getattr(after, name) != getattr(before, name)}, person
@@ -66,6 +71,6 @@ class Reader:
             return choice, known, ""
         if len(people) < 2:
             return choice, (), ""
-        first = options_of(listed.path).person if listed.person else None
+        first = read_saved_options(listed.path).person if listed.person else None
         kept = known if {*people} <= {*known} and not everybody else people
         return replace(choice, person=first), kept, found.person or ""

@@ -13,7 +13,7 @@ from kineme.labels.collections import Extent
 from kineme.methods.segmenter import SegmentOptions
 from kineme.studio.poses import require_poses
 from kineme.studio.storage.listed import ListedRecording
-from kineme.studio.storage.sidecars import read_options
+from kineme.studio.storage.sidecars import resolve_read_options
 
 if TYPE_CHECKING:
     from kineme.recordings import Motion, Signals
@@ -47,8 +47,8 @@ class RecordingCache:
         It is read as people said of it, or as a ``choice`` says. Its provenance has what there is
         to warn of.
         """
-        path, options = listed.path, read_options(listed, self.read_options, choice)
-        key = path, stamp_of(path), repr(options)
+        path, options = listed.path, resolve_read_options(listed, self.read_options, choice)
+        key = path, read_stamp(path), repr(options)
         with self._lock:
             reading = self._reading.setdefault(key, threading.Lock())
         with reading:
@@ -67,8 +67,8 @@ class RecordingCache:
 
     def extent(self, listed: ListedRecording) -> Extent:
         """How long a recording is, for which it is read once."""
-        options = read_options(listed, self.read_options)
-        key = listed.path, stamp_of(listed.path), repr(options)
+        options = resolve_read_options(listed, self.read_options)
+        key = listed.path, read_stamp(listed.path), repr(options)
         if key not in self._extents:
             found = self.read(listed)
             self._extents[key] = Extent(found.n_frames, found.fps, found.provenance.clock)
@@ -76,17 +76,19 @@ class RecordingCache:
 
     def people(self, path: Path, choice: ReadOptions) -> tuple[str, ...]:
         """Those in a file that is read so, where there are several; it is read for it."""
-        return list_people(path, read_options(ListedRecording(path), self.read_options, choice))
+        return list_people(
+            path, resolve_read_options(ListedRecording(path), self.read_options, choice)
+        )
 
     def analog(self, listed: ListedRecording) -> Signals | None:
         """Return the channels beside the motion in a file, read each time.
 
         None where there are none.
         """
-        return read_analog(listed.path, read_options(listed, self.read_options))
+        return read_analog(listed.path, resolve_read_options(listed, self.read_options))
 
 
-def stamp_of(path: Path) -> Stamp:
+def read_stamp(path: Path) -> Stamp:
     """What changes when a file is written: nanoseconds and bytes; ReadError where it is gone."""
     try:
         found = path.stat()

@@ -24,27 +24,31 @@ from kineme.formats import ReadOptions
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
-from kineme.studio.annotators import agreement_of, annotator_choices, lanes_of
-from kineme.studio.everywhere import call_everywhere
-from kineme.studio.folder import progress
+from kineme.studio.annotators import list_annotators, make_label_lanes, measure_agreement
+from kineme.studio.everywhere import rename_everywhere
+from kineme.studio.folder import count_progress
 from kineme.studio.http.bodies import (
     LIMIT,
     MessageResponse,
     Upload,
-    chunks,
-    file_response,
-    number_in,
-    recording_suffixes,
-    route,
-    safe_name,
+    list_recording_suffixes,
+    make_file_response,
+    make_route,
+    make_safe_name,
+    parse_number,
+    read_chunks,
 )
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.poses import PoseQueue, lacks_estimator, needs_poses
 from kineme.studio.sketches import SKETCH_REVISION
-from kineme.studio.storage.listed import ListedRecording, file_id
-from kineme.studio.storage.sidecars import set_offset, share_labels, shared_labels
+from kineme.studio.storage.listed import ListedRecording, make_file_id
+from kineme.studio.storage.sidecars import (
+    read_shared_labels,
+    write_shared_labels,
+    write_video_offset,
+)
 from kineme.web.annotator_messages import (
     Agreement,
     AgreementRequest,
@@ -99,40 +103,40 @@ class Api:
     def routes(self) -> list[Route]:
         one = "/api/recordings/{id}"
         return [
-            route("/api/state", self.state),
-            route("/api/tables", self.tables),
-            route("/api/names", self.names, CallEverywhere),
-            route("/api/labels", self.labels, LabelsRequest),
-            route("/api/knowledge", self.knowledge, KnowledgeRequest),
-            route("/api/annotators", self.annotators),
-            route("/api/agreement", self.agreement, AgreementRequest),
-            route("/api/export/{format}", self.export_checked),
+            make_route("/api/state", self.state),
+            make_route("/api/tables", self.tables),
+            make_route("/api/names", self.names, CallEverywhere),
+            make_route("/api/labels", self.labels, LabelsRequest),
+            make_route("/api/knowledge", self.knowledge, KnowledgeRequest),
+            make_route("/api/annotators", self.annotators),
+            make_route("/api/agreement", self.agreement, AgreementRequest),
+            make_route("/api/export/{format}", self.export_checked),
             Route("/api/recordings", self.upload, methods=["POST"]),
-            route(one, self.recording),
-            route(f"{one}/motion", self.motion),
-            route(f"{one}/matrix/{{level}}/{{row}}/{{column}}", self.tile),
-            route(f"{one}/curves", self.curves),
-            route(f"{one}/curves/{{curve}}/{{level}}/{{number}}", self.curve_tile),
-            route(f"{one}/cycles", self.cycle_channels),
-            route(f"{one}/cycles/{{cluster}}", self.cycle_curves),
-            route(f"{one}/edits", self.edit, EditRequest),
-            route(f"{one}/preview", self.preview, PreviewRequest),
-            route(f"{one}/progress", self.progress),
+            make_route(one, self.recording),
+            make_route(f"{one}/motion", self.motion),
+            make_route(f"{one}/matrix/{{level}}/{{row}}/{{column}}", self.tile),
+            make_route(f"{one}/curves", self.curves),
+            make_route(f"{one}/curves/{{curve}}/{{level}}/{{number}}", self.curve_tile),
+            make_route(f"{one}/cycles", self.cycle_channels),
+            make_route(f"{one}/cycles/{{cluster}}", self.cycle_curves),
+            make_route(f"{one}/edits", self.edit, EditRequest),
+            make_route(f"{one}/preview", self.preview, PreviewRequest),
+            make_route(f"{one}/progress", self.progress),
             Route(f"{one}/cancel", self.cancel, methods=["POST"]),
-            route(f"{one}/versions", self.versions),
-            route(f"{one}/versions/{{number}}", self.version),
-            route(f"{one}/compare", self.compare, CompareRequest),
-            route(f"{one}/lanes", self.lanes, AgreementRequest),
-            route(f"{one}/export/{{format}}", self.export),
-            route(f"{one}/clips", self.clips, ClipsRequest),
-            route(f"{one}/loops", self.loops),
-            route(f"{one}/loops/{{number}}", self.loop),
-            route(f"{one}/video", self.video),
-            route(f"{one}/video", self.offset, VideoRequest),
-            route(f"{one}/keypoints", self.keypoints),
-            route(f"{one}/reading", self.reading, ReadRequest),
-            route("/api/poses", self.poses),
-            route("/api/poses", self.estimate, PosesRequest),
+            make_route(f"{one}/versions", self.versions),
+            make_route(f"{one}/versions/{{number}}", self.version),
+            make_route(f"{one}/compare", self.compare, CompareRequest),
+            make_route(f"{one}/lanes", self.lanes, AgreementRequest),
+            make_route(f"{one}/export/{{format}}", self.export),
+            make_route(f"{one}/clips", self.clips, ClipsRequest),
+            make_route(f"{one}/loops", self.loops),
+            make_route(f"{one}/loops/{{number}}", self.loop),
+            make_route(f"{one}/video", self.video),
+            make_route(f"{one}/video", self.offset, VideoRequest),
+            make_route(f"{one}/keypoints", self.keypoints),
+            make_route(f"{one}/reading", self.reading, ReadRequest),
+            make_route("/api/poses", self.poses),
+            make_route("/api/poses", self.estimate, PosesRequest),
             Route("/api/poses/cancel", self.stop_estimating, methods=["POST"]),
             Route("/api/events", self.events),
             Route("/api{rest:path}", self.unknown),
@@ -145,20 +149,20 @@ class Api:
             [FileChoice(id=name, name=path.name) for name, path in files.items()]
             for files in (folder.knowledge_bases(), folder.annotations(recordings.values()))
         )
-        listings = [_listing(listed) for listed in recordings.values()]
+        listings = [_make_listing(listed) for listed in recordings.values()]
         return State(
             version=__version__,
             folder=str(folder.root.absolute()),
             of_library=folder.of_library,
-            suffixes=recording_suffixes(),
+            suffixes=list_recording_suffixes(),
             recordings=listings,
-            presets=choices.presets(),
+            presets=choices.list_presets(),
             default_preset=DEFAULT,
-            details=choices.details(),
-            labels=shared_labels(folder.root),
+            details=choices.list_details(),
+            labels=read_shared_labels(folder.root),
             knowledge_bases=bases,
             annotations=annotations,
-            export_formats=choices.export_formats(),
+            export_formats=choices.list_export_formats(),
             install=lacks_estimator() if any(each.needs_poses for each in listings) else "",
         )
 
@@ -166,10 +170,10 @@ class Api:
         return self._recordings.tables()
 
     def names(self, _: Request, sent: CallEverywhere) -> TablesChanged:
-        return call_everywhere(self._recordings, sent)
+        return rename_everywhere(self._recordings, sent)
 
     def labels(self, _: Request, sent: LabelsRequest) -> list[str]:
-        return share_labels(self._recordings.folder.root, sent.labels)
+        return write_shared_labels(self._recordings.folder.root, sent.labels)
 
     def knowledge(self, _: Request, sent: KnowledgeRequest) -> FileChoice:
         """Return a knowledge base of the named primitives of some recordings, in the folder."""
@@ -182,26 +186,26 @@ class Api:
             opened = self._recordings.get(name)
             motion, effectors = opened.loaded.motion, opened.loaded.effectors
             bases.append(KnowledgeBase.from_recording(motion, opened.table, effectors=effectors))
-        stem = safe_name(f"{sent.name.removesuffix('.npz')}.npz")
+        stem = make_safe_name(f"{sent.name.removesuffix('.npz')}.npz")
         path = self._recordings.folder.root / stem
         if path.exists():
             raise ParameterError(f"{path.name} is there already: take another name")
         KnowledgeBase.merged(*bases).save(path)
-        return FileChoice(id=file_id(path), name=path.name)
+        return FileChoice(id=make_file_id(path), name=path.name)
 
     def export_checked(self, request: Request) -> Response:
         """Return the recordings all of whose segments are checked, in one ZIP."""
         from kineme.studio import downloads
 
-        kind, level = request.path_params["format"], _level(request)
+        kind, level = request.path_params["format"], _parse_level(request)
         folder = self._recordings.folder
-        counts = {name: progress(listed) for name, listed in folder.recordings().items()}
+        counts = {name: count_progress(listed) for name, listed in folder.recordings().items()}
         names = [name for name, n in counts.items() if n and n.checked >= n.segments]
         if not names:
             raise ParameterError("no recording is checked yet: check all segments of one first")
         opened = [self._recordings.get(name) for name in names]
-        found = downloads.exported_together(opened, folder.root.name or "folder", kind, level)
-        return file_response(*found)
+        found = downloads.export_several(opened, folder.root.name or "folder", kind, level)
+        return make_file_response(*found)
 
     async def upload(self, request: Request) -> Response:
         length = request.headers.get("content-length", "")
@@ -212,23 +216,23 @@ class Api:
             limit=self._limit,
         )
         with upload:
-            async for chunk in chunks(request):
+            async for chunk in read_chunks(request):
                 upload.write(chunk)
             path = await run_in_threadpool(upload.finish)
         self._recordings.folder.add(path)
-        self._hub.tell(file_id(path), 0)
-        return MessageResponse(_listing(ListedRecording(path)))
+        self._hub.tell(make_file_id(path), 0)
+        return MessageResponse(_make_listing(ListedRecording(path)))
 
     def recording(self, request: Request) -> Recording:
         return self._recordings.message(request.path_params["id"])
 
     def motion(self, request: Request) -> Response:
-        n_samples = number_in(request.query_params.get("poses", ""))
+        n_samples = parse_number(request.query_params.get("poses", ""))
         poses = self._recordings.poses(request.path_params["id"], n_samples)
         return Response(poses, media_type=BINARY)
 
     def tile(self, request: Request) -> Response:
-        place = _numbers(request, "level", "row", "column")
+        place = _parse_numbers(request, "level", "row", "column")
         found = make_tile(self._opened(request).loaded.page_data().matrix, *place)
         if found is None:
             raise UnknownError("the matrix has no such tile")
@@ -238,7 +242,7 @@ class Api:
         return self._opened(request).loaded.curves().head()
 
     def curve_tile(self, request: Request) -> Response:
-        place = _numbers(request, "curve", "level", "number")
+        place = _parse_numbers(request, "curve", "level", "number")
         loaded = self._opened(request).loaded
         found = loaded.curves().tile(loaded.source, *place)
         if found is None:
@@ -250,7 +254,7 @@ class Api:
 
     def cycle_curves(self, request: Request) -> ClusterCurves:
         opened, channel = self._opened(request), request.query_params.get("channel", "")
-        (cluster,) = _numbers(request, "cluster")
+        (cluster,) = _parse_numbers(request, "cluster")
         curves, beside = opened.loaded.cycle_curves(), request.query_params.get("beside")
         if beside:
             other = self._recordings.get(beside)
@@ -279,13 +283,13 @@ class Api:
         return Versions(versions=self._opened(request).versions())
 
     def version(self, request: Request) -> Comparison:
-        return self._opened(request).version(*_numbers(request, "number"))
+        return self._opened(request).version(*_parse_numbers(request, "number"))
 
     def compare(self, request: Request, sent: CompareRequest) -> Comparison:
         from kineme.evaluation import scores
         from kineme.evaluation.inputs import agreement, differences
         from kineme.labels.collections import labels_for
-        from kineme.web.tables import segments_message
+        from kineme.web.tables import make_segments_message
 
         opened = self._opened(request)
         table = opened.table
@@ -307,7 +311,7 @@ class Api:
         found = agreement(other, table)  # the other is taken for the truth
         return Comparison(
             name=title,
-            segmentation=segments_message(other),
+            segmentation=make_segments_message(other),
             scores=found,
             meanings={
                 name: ScoreMeaning(title=scores()[name].title, help=scores()[name].help)
@@ -317,25 +321,25 @@ class Api:
         )
 
     def annotators(self, _: Request) -> list[AnnotatorChoice]:
-        return annotator_choices(self._recordings)
+        return list_annotators(self._recordings)
 
     def agreement(self, _: Request, sent: AgreementRequest) -> Agreement:
-        return agreement_of(self._recordings, sent.annotators)
+        return measure_agreement(self._recordings, sent.annotators)
 
     def lanes(self, request: Request, sent: AgreementRequest) -> list[LabelLane]:
-        return lanes_of(self._recordings, request.path_params["id"], sent.annotators)
+        return make_label_lanes(self._recordings, request.path_params["id"], sent.annotators)
 
     def export(self, request: Request) -> Response:
         from kineme.studio import downloads
 
-        kind, level = request.path_params["format"], _level(request)
-        return file_response(*downloads.export_download(self._opened(request), kind, level))
+        kind, level = request.path_params["format"], _parse_level(request)
+        return make_file_response(*downloads.export_download(self._opened(request), kind, level))
 
     def clips(self, request: Request, sent: ClipsRequest) -> Response:
         from kineme.studio import downloads
 
-        files = downloads.clip_files(self._opened(request), sent.rows, loops=sent.loops)
-        return file_response(*files)
+        files = downloads.make_clip_archive(self._opened(request), sent.rows, loops=sent.loops)
+        return make_file_response(*files)
 
     def loops(self, request: Request) -> Loops:
         from kineme.studio import loops
@@ -345,7 +349,7 @@ class Api:
     def loop(self, request: Request) -> PlayedLoop:
         from kineme.studio import loops
 
-        return loops.play_loop(self._opened(request), *_numbers(request, "number"))
+        return loops.make_played_loop(self._opened(request), *_parse_numbers(request, "number"))
 
     def video(self, request: Request) -> Response:
         found = find_video(self._recordings.listed(request.path_params["id"]).path)
@@ -360,7 +364,7 @@ class Api:
         return Response(drawn.binary, media_type=BINARY)
 
     def offset(self, request: Request, sent: VideoRequest) -> VideoRequest:
-        set_offset(self._opened(request).path, sent.offset_s)
+        write_video_offset(self._opened(request).path, sent.offset_s)
         return sent
 
     def reading(self, request: Request, sent: ReadRequest) -> list[str]:
@@ -392,12 +396,12 @@ class Api:
         return self._recordings.get(request.path_params["id"])
 
 
-def _numbers(request: Request, *names: str) -> list[int]:
+def _parse_numbers(request: Request, *names: str) -> list[int]:
     """Return the numbers in an address."""
-    return [number_in(request.path_params[name]) for name in names]
+    return [parse_number(request.path_params[name]) for name in names]
 
 
-def _level(request: Request) -> Level | None:
+def _parse_level(request: Request) -> Level | None:
     """Return the level that an address names, if it names one."""
     level = request.query_params.get("level") or None
     if level not in (None, *get_args(Level)):
@@ -405,7 +409,7 @@ def _level(request: Request) -> Level | None:
     return cast(Level | None, level)
 
 
-def _size(path: Path) -> int:
+def _get_file_size(path: Path) -> int:
     """Bytes of a file, which may have gone since it was listed."""
     try:
         return path.stat().st_size
@@ -413,13 +417,13 @@ def _size(path: Path) -> int:
         return 0
 
 
-def _listing(listed: ListedRecording) -> Listing:
-    counts = progress(listed)
+def _make_listing(listed: ListedRecording) -> Listing:
+    counts = count_progress(listed)
     return Listing(
         id=listed.id,
-        file=file_id(listed.path),
+        file=make_file_id(listed.path),
         name=listed.name,
-        bytes=_size(listed.path),
+        bytes=_get_file_size(listed.path),
         needs_poses=needs_poses(listed.path),
         corrected=counts is not None,
         segments=counts.segments if counts else 0,

@@ -17,7 +17,7 @@ import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.http.events import Hub
-from kineme.studio.http.security import DEVELOPMENT, Guard, HeadersInTime, new_token
+from kineme.studio.http.security import DEVELOPMENT, Guard, HeadersInTime, make_token
 
 if TYPE_CHECKING:
     from kineme.formats import ReadOptions
@@ -63,15 +63,14 @@ def serve(
 ) -> None:
     """Serve a folder, or some files of it, or a library, until Ctrl+C.
 
-    The port is as `listening` takes it; ``announce`` is called with the address. In ``development``
-    that is one of pages that are served from their sources, and the port, which they have to know,
-    the first.
+    ``port`` is passed to `open_socket`; ``announce`` is called with the address. In ``development``
+    the address is that of the Vite server, and the port defaults to 8750, which Vite expects.
     """
     if development and port is None:
         port = PORT
-    with listening(port) as opened, suppress(KeyboardInterrupt):
+    with open_socket(port) as opened, suppress(KeyboardInterrupt):
         number = opened.getsockname()[1]
-        token = new_token()
+        token = make_token()
         origin = DEVELOPMENT if development else f"http://{HOST}:{number}"
         address = f"{origin}/?token={token}"
         announce(address)
@@ -80,14 +79,14 @@ def serve(
         # The browser starts meanwhile; its first request waits in the socket.
         from kineme.studio.app import create_app
         from kineme.studio.folder import Folder
-        from kineme.studio.http.bodies import forget_drafts
+        from kineme.studio.http.bodies import remove_abandoned_drafts
         from kineme.studio.open_recordings import OpenRecordings
 
         hub = Hub()
         folder = Folder(root, files) if library is None else library.as_folder()
         recordings = OpenRecordings(folder, hub.tell, read_options, segment_options)
-        forget_drafts(folder.root)
-        config = configure(
+        remove_abandoned_drafts(folder.root)
+        config = make_server_config(
             create_app(
                 recordings,
                 token=token,
@@ -99,7 +98,7 @@ def serve(
         )
         ended = threading.Event()
         threading.Thread(
-            target=make_ready, args=[recordings, hub, ended], name="make ready", daemon=True
+            target=warm_up, args=[recordings, hub, ended], name="make ready", daemon=True
         ).start()
         try:
             Server(config, hub).run(sockets=[opened])
@@ -107,7 +106,7 @@ def serve(
             ended.set()
 
 
-def configure(app: Guard) -> uvicorn.Config:
+def make_server_config(app: Guard) -> uvicorn.Config:
     """Return how an application is served: plain HTTP, and nothing said of it."""
     return uvicorn.Config(
         app,
@@ -121,7 +120,7 @@ def configure(app: Guard) -> uvicorn.Config:
     )
 
 
-def listening(port: int | None) -> socket.socket:
+def open_socket(port: int | None) -> socket.socket:
     """Return a socket of this machine alone; ParameterError where the port is in use, or not one.
 
     None is the first free port from 8750, 0 any.
@@ -144,7 +143,7 @@ def listening(port: int | None) -> socket.socket:
     raise ParameterError(f"port {ports} not free ({reason}): name another with --port")
 
 
-def make_ready(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> None:
+def warm_up(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> None:
     """Open the only recording, which every page shows, and load or build the compiled code.
 
     What fails once the server has ended is not said: an interpreter that ends lets nobody start
@@ -156,7 +155,7 @@ def make_ready(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> 
             recordings.prepare(names)
         else:
             hub.listened.wait(PAGE_FIRST)
-        load_code(ended)
+        load_compiled_code(ended)
     except KinemeError:  # it will be said where it matters
         return
     except Exception:
@@ -164,16 +163,16 @@ def make_ready(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> 
             raise
 
 
-def load_code(ended: threading.Event) -> None:
+def load_compiled_code(ended: threading.Event) -> None:
     """Show and segment the bundled recording; by the default preset first."""
     from kineme.datasets import bundled_recording
     from kineme.formats import read_motion
     from kineme.methods.presets import DEFAULT, PUBLISHED
     from kineme.methods.segmenter import segment
-    from kineme.web.page_data import page_data
+    from kineme.web.page_data import make_page_data
 
     motion = read_motion(bundled_recording())
-    page_data(motion)
+    make_page_data(motion)
     segment(motion, preset=DEFAULT)
     if not ended.wait(HEAD_START):
         for name in PUBLISHED:

@@ -10,10 +10,14 @@ from msgspec import Struct
 from kineme._util.json import options_to_json
 from kineme.errors import KinemeError
 from kineme.formats import sketch
-from kineme.studio.loading import one_segment
+from kineme.studio.loading import make_single_segment
 from kineme.studio.reading import RecordingCache
 from kineme.studio.storage.listed import ListedRecording
-from kineme.studio.storage.sidecars import options_of, read_options, video_message
+from kineme.studio.storage.sidecars import (
+    make_video_message,
+    read_saved_options,
+    resolve_read_options,
+)
 from kineme.web.messages import MatrixHead, Recording
 
 LARGE = 16_000_000
@@ -81,20 +85,20 @@ def draw_sketch(listed: ListedRecording, cache: RecordingCache) -> Sketch | None
     None for a file that is soon read, or whose format has no shorter way.
     """
     from kineme.web.display import display_motion
-    from kineme.web.tables import segments_message
+    from kineme.web.tables import make_segments_message
 
     path = listed.path
     try:
         if path.stat().st_size < LARGE:
             return None
-        found = sketch(path, read_options(listed, cache.read_options), POSES)
+        found = sketch(path, resolve_read_options(listed, cache.read_options), POSES)
         if found is None:
             return None
         effectors = cache.segment_options.effectors
         head, binary = display_motion(found.motion, effectors=effectors)
     except (OSError, KinemeError):  # reading will say what is wrong
         return None
-    table = one_segment("transition", found.n_frames, found.fps)
+    table = make_single_segment("transition", found.n_frames, found.fps)
     message = Recording(
         id=listed.id,
         name=listed.name,
@@ -102,10 +106,10 @@ def draw_sketch(listed: ListedRecording, cache: RecordingCache) -> Sketch | None
         fps=found.fps,
         motion=head,
         matrix=MatrixHead(fps=1.0, tile=1, sizes=[]),
-        segmentation=segments_message(table),
+        segmentation=make_segments_message(table),
         levels=[],
-        video=video_message(path),
-        read_options=options_to_json(options_of(path)),
+        video=make_video_message(path),
+        read_options=options_to_json(read_saved_options(path)),
         revision=SKETCH_REVISION,
         can_undo=False,
         can_redo=False,

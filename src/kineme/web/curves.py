@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
 from kineme.recordings import Motion, Signals
-from kineme.web.drawn import draw_analog, draw_motion, draw_signals
+from kineme.web.drawn import list_analog_curves, list_motion_curves, list_signal_curves
 from kineme.web.messages import Curve, CurveList
 
 Pairs = NDArray[np.float32]
@@ -41,11 +41,13 @@ class Curves:
     def __init__(self, recording: Motion | Signals, analog: Signals | None = None):
         self.n_frames = recording.n_frames
         self._drawn = (
-            draw_motion(recording) if isinstance(recording, Motion) else draw_signals(recording)
+            list_motion_curves(recording)
+            if isinstance(recording, Motion)
+            else list_signal_curves(recording)
         )
         self._first_analog = len(self._drawn)
         if analog is not None:
-            self._drawn += draw_analog(analog, recording.n_frames, recording.fps)
+            self._drawn += list_analog_curves(analog, recording.n_frames, recording.fps)
         self._recent: OrderedDict[int, list[Pairs]] = OrderedDict()
         self._lock = Lock()
 
@@ -53,7 +55,7 @@ class Curves:
         """Return which curves there are, and how their tiles are asked for."""
         curves = [Curve(name=each.name, group=each.group, unit=each.unit) for each in self._drawn]
         return CurveList(
-            curves=curves, factor=FACTOR, tile=TILE, levels=len(level_sizes(self.n_frames))
+            curves=curves, factor=FACTOR, tile=TILE, levels=len(compute_level_sizes(self.n_frames))
         )
 
     def tile(
@@ -74,7 +76,7 @@ class Curves:
             levels = self._recent.get(curve)
             if levels is None:
                 source = read(curve >= self._first_analog)
-                levels = self._recent[curve] = levels_of(self._drawn[curve].with_gaps(source))
+                levels = self._recent[curve] = build_levels(self._drawn[curve].with_gaps(source))
             self._recent.move_to_end(curve)
             while len(self._recent) > MOST_IN_MEMORY:
                 # Drop the curve that was looked at longest ago.
@@ -92,7 +94,7 @@ def as_recording(recording: Motion | Signals | ArrayLike, fps: float) -> Motion 
     return Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
 
 
-def curves_of(
+def make_report_curves(
     recording: Motion | Signals | ArrayLike, fps: float, most_bytes: int = MOST_BYTES
 ) -> tuple[CurveList, dict[str, bytes]]:
     """Return the curves of signals, with tiles by "curve/level/number", for a page that cannot ask.
@@ -105,7 +107,7 @@ def curves_of(
     head, left = curves.head(), most_bytes
     # Coarse levels first: they cover the whole recording in little room.
     for level in reversed(range(head.levels)):
-        bins = level_sizes(signals.n_frames)[level]
+        bins = compute_level_sizes(signals.n_frames)[level]
         places = [(c, level, n) for c in range(len(head.curves)) for n in range(ceil(bins / TILE))]
         # Two floats of 4 bytes a bin.
         left -= 8 * bins * len(head.curves)
@@ -116,19 +118,19 @@ def curves_of(
     return head, tiles
 
 
-def levels_of(values: Floats) -> list[Pairs]:
+def build_levels(values: Floats) -> list[Pairs]:
     """Least and greatest values (bins, 2) of ever more frames; the last has `TILE` bins at most.
 
     Values are nan where nothing was seen; two are the least and the greatest of a frame.
 
     Examples
     --------
-    >>> levels_of(np.array([1.0, 3.0, 2.0]))[0].tolist()
+    >>> build_levels(np.array([1.0, 3.0, 2.0]))[0].tolist()
     [[1.0, 1.0], [3.0, 3.0], [2.0, 2.0]]
     """
     pairs = values if values.ndim == 2 else np.repeat(values[:, None], 2, axis=1)
     levels = [pairs.astype("<f4")]
-    for size in level_sizes(len(values))[1:]:
+    for size in compute_level_sizes(len(values))[1:]:
         # The first bin of each group; the last group may be shorter.
         at = np.arange(size) * FACTOR
         # `fmin` and `fmax` ignore nan unless all are nan.
@@ -138,7 +140,7 @@ def levels_of(values: Floats) -> list[Pairs]:
     return levels
 
 
-def level_sizes(n_frames: int) -> list[int]:
+def compute_level_sizes(n_frames: int) -> list[int]:
     """Return how many bins each level has."""
     sizes = [n_frames]
     while sizes[-1] > TILE:

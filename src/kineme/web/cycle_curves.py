@@ -111,14 +111,16 @@ class CycleCurves:
         with self._lock:
             self.channels()
             cycles = self._of_table(table)
-            rows = _rows_of(cycles, cluster)
+            rows = _select_group(cycles, cluster)
             if not rows.any() or (channel and channel not in self._heads):
                 return None
             measured = self._measured(cycles, [channel] if channel else self._usual)
             group = measured.select(rows)
-            name = channel or _liveliest(group, measured)[0]
-            ends = _only_ends(group)
-            return _make_message(group, name, MOST, _means(group, ends=ends)[name], ends=ends)
+            name = channel or _sort_channels_by_range(group, measured)[0]
+            ends = _has_only_ends(group)
+            return _make_message(
+                group, name, MOST, _compute_means(group, ends=ends)[name], ends=ends
+            )
 
     def beside(
         self,
@@ -138,17 +140,17 @@ class CycleCurves:
         if alone is None or alone.channel not in {head.name for head in other.channels()}:
             return alone
         cycles, other_cycles = self._together(table, other, other_table)
-        group = cycles.select(_rows_of(cycles, cluster))
+        group = cycles.select(_select_group(cycles, cluster))
         others = other_cycles.select(other_cycles.columns["group"] == group.columns["group"][0])
         if not len(others):
             return alone
         # If either side has no inner cycle, ends count for both.
-        name, ends = alone.channel, _only_ends(group) or _only_ends(others)
+        name, ends = alone.channel, _has_only_ends(group) or _has_only_ends(others)
         first, second = self._measured(group, [name]), other._measured(others, [name])
         compared = compare_curves(first, second, ends=ends)
-        drawn = _make_message(first, name, MOST, _means(first, ends=ends)[name], ends=ends)
+        drawn = _make_message(first, name, MOST, _compute_means(first, ends=ends)[name], ends=ends)
         # One digit more than for single curves.
-        digits = _digits(_extent(first.curves)) + 1
+        digits = _choose_digits(_measure_range(first.curves)) + 1
         return structs.replace(
             drawn,
             beside=OtherSession(
@@ -174,17 +176,21 @@ class CycleCurves:
             tables: list[dict[str, int]] = []
             for each in (table, *others):
                 cycles = shown if each is table else self._of_table(each)
-                groups = {k: cycles.select(_rows_of(cycles, k)) for k in _clusters(cycles)}
+                groups = {
+                    k: cycles.select(_select_group(cycles, k)) for k in _list_clusters(cycles)
+                }
                 for group in groups.values():
                     # Groups with equal spans at several details are sent once.
-                    found.setdefault(_spans(group), group)
+                    found.setdefault(_make_group_key(group), group)
                 # Numbers of groups in the order in which they were found.
                 numbers = {spans: number for number, spans in enumerate(found)}
-                tables.append({str(k): numbers[_spans(group)] for k, group in groups.items()})
+                tables.append(
+                    {str(k): numbers[_make_group_key(group)] for k, group in groups.items()}
+                )
             names = self._report_channels(shown, len(found))
             # How many curves fit, divided among the channels.
             room = MOST_NUMBERS // (shown.curves.shape[2] * len(names))
-            most = _most([len(group) for group in found.values()], room)
+            most = _count_fitting_cycles([len(group) for group in found.values()], room)
             return ReportCurves(
                 channels=[_add_opposite(heads[name], names) for name in names],
                 curves=[self._of_report(group, names, most, shown) for group in found.values()],
@@ -193,8 +199,8 @@ class CycleCurves:
 
     def _report_channels(self, cycles: Cycles, n_groups: int) -> list[str]:
         """Return the usual channels: those with the largest range in a cluster, with both sides."""
-        lively = [_liveliest(cycles.select(_rows_of(cycles, cluster)), cycles)[0]
-                  for cluster in _clusters(cycles)]  # fmt: skip
+        lively = [_sort_channels_by_range(cycles.select(_select_group(cycles, cluster)), cycles)[0]
+                  for cluster in _list_clusters(cycles)]  # fmt: skip
         sides = [
             side
             # Both sides of each channel, the liveliest first; duplicates go below.
@@ -211,11 +217,11 @@ class CycleCurves:
     ) -> dict[str, ClusterCurves]:
         """By channel, that one first which goes farthest."""
         measured = group if group.channels else self._measured(group, names)
-        ends = _only_ends(measured)
-        means = _means(measured, ends=ends)
+        ends = _has_only_ends(measured)
+        means = _compute_means(measured, ends=ends)
         return {
             name: _make_message(measured, name, most, means[name], ends=ends)
-            for name in _liveliest(measured, every)
+            for name in _sort_channels_by_range(measured, every)
             if name in names
         }
 
@@ -223,7 +229,7 @@ class CycleCurves:
         """Its cycles, without channels; measured once for all that people say of its segments."""
         from kineme.cycles.measure import cycles, drop_left_out
 
-        if self._cycles is None or not _same_segments([self._table], [table]):
+        if self._cycles is None or not _have_same_segments([self._table], [table]):
             recording = self._read()
             found = cycles(recording, _rescale_table(table, recording), channels=[])
             self._table, self._cycles = table, _add_frames(found, table)
@@ -237,7 +243,7 @@ class CycleCurves:
 
         tables = table, other_table
         with self._lock:
-            if self._both is None or not _same_segments(self._both[0], tables):
+            if self._both is None or not _have_same_segments(self._both[0], tables):
                 recordings = self._read(), other._read()
                 timed = [_rescale_table(*each) for each in zip(tables, recordings, strict=True)]
                 self._both = tables, cycles(recordings, timed, channels=[])
@@ -286,7 +292,7 @@ def _rescale_table(table: Segmentation, recording: Motion | Signals) -> Segmenta
     return replace(table, fps=recording.fps, annotation=NO_ANNOTATION)
 
 
-def _same_segments(before: Sequence[Segmentation | None], now: Sequence[Segmentation]) -> bool:
+def _have_same_segments(before: Sequence[Segmentation | None], now: Sequence[Segmentation]) -> bool:
     """Return whether the tables have the same segments, whatever people say of them."""
     return all(
         old is new or (old is not None and (old.table, old.fps) == (new.table, new.fps))
@@ -302,17 +308,17 @@ def _add_frames(cycles: Cycles, table: Segmentation) -> Cycles:
     return replace(cycles, columns=columns)
 
 
-def _clusters(cycles: Cycles) -> list[int]:
+def _list_clusters(cycles: Cycles) -> list[int]:
     return sorted({cluster for cluster in cycles.columns["cluster"].tolist() if cluster >= 0})
 
 
-def _spans(cycles: Cycles) -> tuple[object, ...]:
+def _make_group_key(cycles: Cycles) -> tuple[object, ...]:
     """Return all that curves of these cycles depend on."""
     names = ("start_s", "stop_s", "place", "excluded")
     return _count_turned(cycles), *(tuple(cycles.columns[name].tolist()) for name in names)
 
 
-def _most(sizes: Sequence[int], room: int) -> int:
+def _count_fitting_cycles(sizes: Sequence[int], room: int) -> int:
     """How many cycles of each group can be drawn, if there is room for so many curves in all."""
     most = FAR
     # Mean and deviation take two curves; one more cycle is added while all still fits.
@@ -326,7 +332,7 @@ def _add_opposite(head: CycleChannel, names: Sequence[str]) -> CycleChannel:
     return CycleChannel(name=head.name, unit=head.unit, group=head.group, opposite=opposite)
 
 
-def _rows_of(cycles: Cycles, cluster: int) -> NDArray[np.bool_]:
+def _select_group(cycles: Cycles, cluster: int) -> NDArray[np.bool_]:
     """Return which cycles are of the group of a cluster: its own, and those with the same name."""
     groups = cycles.columns["group"][cycles.columns["cluster"] == cluster]
     if cluster < 0 or len(groups) == 0:
@@ -334,27 +340,27 @@ def _rows_of(cycles: Cycles, cluster: int) -> NDArray[np.bool_]:
     return np.asarray(cycles.columns["group"] == groups[0])
 
 
-def _liveliest(group: Cycles, every: Cycles) -> list[str]:
+def _sort_channels_by_range(group: Cycles, every: Cycles) -> list[str]:
     """Return the channels, the one whose mean goes farthest first.
 
     Without a unit, as a share of what the channel spans in all cycles.
     """
-    means = _means(group, ends=_only_ends(group))
+    means = _compute_means(group, ends=_has_only_ends(group))
     extents = [
-        _extent(means[channel]["mean"])
-        / (1 if unit else _extent(every.curves[:, every.channels.index(channel)]) or 1)
+        _measure_range(means[channel]["mean"])
+        / (1 if unit else _measure_range(every.curves[:, every.channels.index(channel)]) or 1)
         for channel, unit in zip(group.channels, group.units, strict=True)
     ]
     return [group.channels[place] for place in np.argsort(-np.array(extents), kind="stable")]
 
 
-def _extent(values: Floats) -> float:
+def _measure_range(values: Floats) -> float:
     """From the least to the greatest number; 0 where there is none."""
     finite = values[np.isfinite(values)]
     return float(np.ptp(finite)) if len(finite) else 0.0
 
 
-def _means(group: Cycles, *, ends: bool) -> dict[str, Columns]:
+def _compute_means(group: Cycles, *, ends: bool) -> dict[str, Columns]:
     """By channel the mean curve."""
     # Curves of a group follow each other, channel by channel.
     tidy, points = group.mean_curves(ends=ends), group.curves.shape[2]
@@ -364,7 +370,7 @@ def _means(group: Cycles, *, ends: bool) -> dict[str, Columns]:
     }
 
 
-def _only_ends(group: Cycles) -> bool:
+def _has_only_ends(group: Cycles) -> bool:
     """Return whether the mean is of all cycles, as none is an inner one."""
     return not group.used().any()
 
@@ -390,18 +396,18 @@ def _make_message(
     # Cycles that count first, the farthest from the mean first.
     order = sorted(range(len(group)), key=lambda i: (not counts[i], -np.nan_to_num(distance[i])))
     by_hand = set(np.flatnonzero(columns["excluded"] == BY_HAND).tolist())
-    digits = _digits(_extent(curves))
+    digits = _choose_digits(_measure_range(curves))
     drawn = [
         CycleCurve(
             start_frame=int(columns["segment_frame"][i]),
             start_s=float(columns["start_s"][i]),
             stop_s=float(columns["stop_s"][i]),
             counts=bool(counts[i]),
-            note="" if counts[i] else OUT if i in by_hand else _note(columns, i),
+            note="" if counts[i] else OUT if i in by_hand else _explain_exclusion(columns, i),
             distance=None if np.isnan(distance[i]) else round(float(distance[i]), digits),
             values=_round_values(curves[i], digits),
         )
-        for i in _some(order, most, by_hand)
+        for i in _choose_cycles(order, most, by_hand)
     ]
     return ClusterCurves(
         channel=channel,
@@ -428,13 +434,13 @@ def _round_values(values: Floats, digits: int) -> list[float | None]:
     return [value if np.isfinite(value) else None for value in values.round(digits).tolist()]
 
 
-def _digits(extent: float) -> int:
+def _choose_digits(extent: float) -> int:
     """Return how many digits after the point numbers of this extent are told with."""
     # Counted from the first digit of the extent.
     return DIGITS - 1 - floor(log10(extent)) if extent > 0 else DIGITS
 
 
-def _some(order: Sequence[int], most: int, kept: set[int]) -> list[int]:
+def _choose_cycles(order: Sequence[int], most: int, kept: set[int]) -> list[int]:
     """Return first ones, which are the farthest, those kept, and of the others evenly so many."""
     if len(order) <= most:
         return list(order)
@@ -445,7 +451,7 @@ def _some(order: Sequence[int], most: int, kept: set[int]) -> list[int]:
     return [i for i in order if i in first or i in others]
 
 
-def _note(columns: Columns, row: int) -> str:
+def _explain_exclusion(columns: Columns, row: int) -> str:
     """Why a cycle does not count in the mean."""
     excluded, place = str(columns["excluded"][row]), str(columns["place"][row])
     return excluded or PLACES.get(place, "something was not recorded")

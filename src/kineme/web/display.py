@@ -57,21 +57,21 @@ def display_motion(
     positions = sample_poses(motion, fps)
     # Fine numbers take more than a byte each, so that many of them need not be tried.
     for share in (FINE, COARSE) if positions.size <= most_bytes else (COARSE,):
-        origin, step, data = encode(positions, share)
+        origin, step, data = encode_positions(positions, share)
         if len(data) <= most_bytes:
             break
     # Poses farther apart differ more, so that half of them take more than half the length.
     while len(data) > most_bytes and len(positions) > 2:
         fps *= max(0.25, 0.9 * most_bytes / len(data))
         positions = sample_poses(motion, fps)
-        origin, step, data = encode(positions, COARSE)
-    joints, angles = _facing(motion, effectors, len(positions), fps)
+        origin, step, data = encode_positions(positions, COARSE)
+    joints, angles = _find_headings(motion, effectors, len(positions), fps)
     head = MotionHead(
         n_samples=len(positions),
         sample_fps=fps,
         joints=list(motion.skeleton.names),
         parents=list(motion.skeleton.parents),
-        bones=bones(motion),
+        bones=list_bones(motion),
         origin=origin,
         step=step,
         heading=angles,
@@ -100,7 +100,9 @@ def sample_poses(motion: Motion, fps: float) -> Floats:
     return positions
 
 
-def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float], float, bytes]:
+def encode_positions(
+    positions: Floats, share: float
+) -> tuple[tuple[float, float, float], float, bytes]:
     """Origin and step in metres, and positions (samples, joints, 3) as whole numbers, compressed.
 
     The step is a share of the largest extent of the median pose. It becomes larger where 16 bits do
@@ -115,7 +117,9 @@ def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float],
     low, high = points.min(axis=0), points.max(axis=0)
     origin = (low + high) / 2
     # A step so large that 16 bits reach both ends of the recording; 1 if nothing moves.
-    step = max(share * _extent(positions, visible), float((high - low).max()) / 65000) or 1.0
+    step = (
+        max(share * _measure_extent(positions, visible), float((high - low).max()) / 65000) or 1.0
+    )
     numbers = np.full(positions.shape, MISSING, np.int16)
     if everywhere:
         # In blocks that stay in the cache, without a copy of the whole.
@@ -132,7 +136,7 @@ def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float],
     return (x, y, z), step, zlib.compress(columns.astype("<i2").tobytes(), 6)
 
 
-def bones(motion: Motion) -> list[tuple[int, int]]:
+def list_bones(motion: Motion) -> list[tuple[int, int]]:
     """Pairs of joints (parent, child) to draw a line between.
 
     Of markers only the joints made from them are joined: the markers themselves hang on the pelvis
@@ -152,7 +156,7 @@ def bones(motion: Motion) -> list[tuple[int, int]]:
     return of_bodies or pairs
 
 
-def _extent(positions: Floats, visible: NDArray[np.bool_]) -> float:
+def _measure_extent(positions: Floats, visible: NDArray[np.bool_]) -> float:
     """Largest extent of the median pose along an axis, in metres."""
     complete = np.flatnonzero(visible.all(axis=1))
     if not len(complete):
@@ -162,7 +166,7 @@ def _extent(positions: Floats, visible: NDArray[np.bool_]) -> float:
     return float(np.median(np.ptp(few, axis=1).max(axis=1)))
 
 
-def _facing(
+def _find_headings(
     motion: Motion, effectors: Names | None, n_samples: int, fps: float
 ) -> tuple[dict[str, int], list[float] | None]:
     """Joints of the parts and of the pelvis, and the heading of each sample, where known."""

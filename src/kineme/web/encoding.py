@@ -25,7 +25,7 @@ def to_json(message: object) -> bytes:
     try:
         return msgspec.json.encode(message)
     except UnicodeEncodeError:  # names of files may hold any bytes
-        return msgspec.json.encode(_unicode(msgspec.to_builtins(message)))
+        return msgspec.json.encode(_replace_invalid_unicode(msgspec.to_builtins(message)))
 
 
 def from_json(body: bytes, kind: type[Message]) -> Message:
@@ -47,9 +47,12 @@ def from_json(body: bytes, kind: type[Message]) -> Message:
         raise ParameterError("the request does not hold JSON") from error
 
 
-def _unicode(value: Any) -> Any:
+def _replace_invalid_unicode(value: Any) -> Any:
     if isinstance(value, str):
         return value.encode(errors="replace").decode()
     if isinstance(value, dict):
-        return {_unicode(name): _unicode(item) for name, item in value.items()}
-    return [_unicode(item) for item in value] if isinstance(value, list) else value
+        return {
+            _replace_invalid_unicode(name): _replace_invalid_unicode(item)
+            for name, item in value.items()
+        }
+    return [_replace_invalid_unicode(item) for item in value] if isinstance(value, list) else value

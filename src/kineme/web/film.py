@@ -14,7 +14,7 @@ from msgspec import UNSET
 
 from kineme._util.files import find_video
 from kineme.formats.keypoints.overlay import find_overlay
-from kineme.web.display import FINE, encode
+from kineme.web.display import FINE, encode_positions
 from kineme.web.messages import MotionHead, Picture, Video
 
 
@@ -35,7 +35,7 @@ def draw_picture(recording: Path, person: str | None = None) -> DrawnPicture | N
     overlay = find_overlay(recording, person)
     if overlay is None or not overlay.width:
         return None
-    origin, step, binary = encode(overlay.points * np.array([1.0, 1.0, 100.0]), FINE)
+    origin, step, binary = encode_positions(overlay.points * np.array([1.0, 1.0, 100.0]), FINE)
     head = MotionHead(
         n_samples=len(overlay.points),
         sample_fps=overlay.fps,

@@ -19,7 +19,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import make_head
 from kineme.web.messages import MotionHead, Recording, TableAtDetail
-from kineme.web.tables import find_marks, make_rows, segments_message
+from kineme.web.tables import find_marks, make_rows, make_segments_message
 
 MOST_ROWS = 12_000
 """Of all details in a report, about a fifth of a kilobyte each."""
@@ -42,7 +42,7 @@ class PageData:
     warnings: list[str] = field(default_factory=list)
 
 
-def page_data(
+def make_page_data(
     recording: Shown, *, fps: float | None = None, effectors: Names | None = None
 ) -> PageData:
     """What a page draws of a motion, of signals, or of an array (frames, channels) with its rate.
@@ -51,7 +51,7 @@ def page_data(
 
     Examples
     --------
-    >>> page_data([[0.0], [1.0], [0.0]], fps=10.0).n_frames
+    >>> make_page_data([[0.0], [1.0], [0.0]], fps=10.0).n_frames
     3
     """
     if isinstance(recording, Motion | Signals):
@@ -67,7 +67,7 @@ def page_data(
     return PageData(len(np.asarray(recording)), float(fps), None, b"", matrix)
 
 
-def recording_message(
+def make_recording_message(
     data: PageData,
     segmentation: Segmentation,
     *,
@@ -92,19 +92,19 @@ def recording_message(
         fps=data.fps,
         motion=data.motion,
         matrix=make_head(data.matrix),
-        segmentation=segments_message(segmentation),
-        levels=_levels(segmentation) if levels else [],
+        segmentation=make_segments_message(segmentation),
+        levels=_list_detail_tables(segmentation) if levels else [],
         video=None,
         read_options={},
         revision=0,
         can_undo=False,
         can_redo=False,
         saved="",
-        warnings=_warnings(data),
+        warnings=_list_warnings(data),
     )
 
 
-def _levels(segmentation: Segmentation) -> list[TableAtDetail]:
+def _list_detail_tables(segmentation: Segmentation) -> list[TableAtDetail]:
     """Return the tables at all details.
 
     None where there is one, or where they would fill the page.
@@ -120,7 +120,7 @@ def _levels(segmentation: Segmentation) -> list[TableAtDetail]:
     ]
 
 
-def _warnings(data: PageData) -> list[str]:
+def _list_warnings(data: PageData) -> list[str]:
     motion = data.motion
     if motion is None or motion.sample_fps >= min(RATE, data.fps):
         return data.warnings

@@ -25,7 +25,7 @@ Marks = dict[int, dict[str, Any]]
 """Fields of `kineme.web.messages.Segment` by the number of the row; most rows have none."""
 
 
-def segments_message(segmentation: Segmentation) -> Segments:
+def make_segments_message(segmentation: Segmentation) -> Segments:
     """Return a segment table as pages have it."""
     table, annotation = segmentation.table, segmentation.annotation
     return Segments(
@@ -81,7 +81,9 @@ def make_rows(table: SegmentTable, marks: Marks, numbers: Sequence[int] = ()) ->
     return [Segment(*row, **marks.get(i, {})) for i, row in zip(of_rows, cells, strict=True)]
 
 
-def table_change(before: Segmentation, now: Segmentation, *, revision: int) -> TableChange | None:
+def make_table_change(
+    before: Segmentation, now: Segmentation, *, revision: int
+) -> TableChange | None:
     """Return the rows in which a table differs from the one before, which has that revision.
 
     None where the table is another one: of another length, or of another provenance.
@@ -93,7 +95,7 @@ def table_change(before: Segmentation, now: Segmentation, *, revision: int) -> T
     >>> from kineme.segments import editing
     >>> table = kineme.read_segments(bundled_truth(), fps=60)
     >>> moved = editing.move_border(table, "activity", 326, 330)
-    >>> change = table_change(table, moved, revision=4)
+    >>> change = make_table_change(table, moved, revision=4)
     >>> change.removed, [row.stop_frame for row in change.rows]
     ([('activity', 326), ('primitive', 326)], [330, 380, 330, 380])
     """
@@ -104,9 +106,9 @@ def table_change(before: Segmentation, now: Segmentation, *, revision: int) -> T
     if not same_source:
         return None
     marks = find_marks(now.table, now.annotation)
-    changed = _changed_rows(before, now, marks)
+    changed = _find_changed_rows(before, now, marks)
     rows = make_rows(now.table, marks, changed) if changed else []
-    gone = ~np.isin(_places(before), _places(now))
+    gone = ~np.isin(_make_row_keys(before), _make_row_keys(now))
     levels, starts = before.table.level[gone].tolist(), before.table.start_frame[gone].tolist()
     return TableChange(
         of=revision,
@@ -116,10 +118,10 @@ def table_change(before: Segmentation, now: Segmentation, *, revision: int) -> T
     )
 
 
-def _changed_rows(before: Segmentation, now: Segmentation, marks: Marks) -> list[int]:
+def _find_changed_rows(before: Segmentation, now: Segmentation, marks: Marks) -> list[int]:
     """Return the numbers of the rows that are new or not as they were."""
     _, old, new = np.intersect1d(
-        _places(before), _places(now), assume_unique=True, return_indices=True
+        _make_row_keys(before), _make_row_keys(now), assume_unique=True, return_indices=True
     )
     same = np.ones(len(old), bool)
     for name, column in before.table.columns().items():
@@ -133,7 +135,7 @@ def _changed_rows(before: Segmentation, now: Segmentation, marks: Marks) -> list
     return changed
 
 
-def _places(segmentation: Segmentation) -> Integers:
+def _make_row_keys(segmentation: Segmentation) -> Integers:
     """Return one number for level and first frame of each row; no two rows have the same."""
     table = segmentation.table
     places: Integers = table.start_frame + segmentation.n_frames * (table.level == "primitive")

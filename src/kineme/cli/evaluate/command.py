@@ -10,7 +10,7 @@ import typer
 
 from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.messages import Failures
-from kineme.cli.options.method import SET, Constants, constants_of
+from kineme.cli.options.method import SET, Constants, parse_constants
 from kineme.cli.options.reading import Quiet, split_names
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats.options import ReadOptions
@@ -157,7 +157,7 @@ def evaluate(
                 n_clusters=clusters,
                 read_options=ReadOptions(columns=split_names(columns) or None),
                 without=split_names(without_columns),
-                constants=constants_of(names or [DEFAULT], constants) if constants else {},
+                constants=parse_constants(names or [DEFAULT], constants) if constants else {},
                 output=output,
                 as_json=as_json,
                 quiet=quiet,
@@ -177,12 +177,14 @@ def evaluate(
         else:
             if against is not None:
                 raise typer.BadParameter(f"{BENCHMARK} brings its own truth: leave out --against")
-            records = _benchmark()(names, trial, data, plot, figures, quiet=quiet or as_json)
-        _give(records, output, as_json=as_json)
+            records = _load_benchmark()(names, trial, data, plot, figures, quiet=quiet or as_json)
+        _output_records(records, output, as_json=as_json)
     failures.exit()
 
 
-def _give(records: Sequence[Mapping[str, Any]], output: Path | None, *, as_json: bool) -> None:
+def _output_records(
+    records: Sequence[Mapping[str, Any]], output: Path | None, *, as_json: bool
+) -> None:
     from kineme.evaluation.score import format_json, write_records
 
     if as_json:
@@ -191,7 +193,7 @@ def _give(records: Sequence[Mapping[str, Any]], output: Path | None, *, as_json:
         write_records(records, output)
 
 
-def _benchmark() -> Callable[..., list[dict[str, Any]]]:
+def _load_benchmark() -> Callable[..., list[dict[str, Any]]]:
     """Return what runs the benchmark: it comes with a package of its own, which names it."""
     from importlib.metadata import entry_points
 

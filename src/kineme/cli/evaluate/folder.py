@@ -9,9 +9,9 @@ from typing import Any
 import typer
 
 from kineme._util.checks import join_names
-from kineme.cli.messages import progress
+from kineme.cli.messages import show_progress
 from kineme.cli.tables import show_table
-from kineme.cli.terminal import harmless
+from kineme.cli.terminal import escape_controls
 from kineme.errors import ParameterError
 from kineme.evaluation.folder import (
     Evaluated,
@@ -55,7 +55,7 @@ def run_folder(
             check_method(name)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    with progress(folder, quiet=quiet or as_json) as stage:
+    with show_progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
         recordings = recordings_below(folder)
         found, strays = find_labels_and_strays(recordings, labels)
@@ -70,9 +70,11 @@ def run_folder(
             progress=stage,
         )
     if not quiet:
-        _tell("labels of recordings that are not there", strays)
-        _tell("without labels, left out", [path.name for path in recordings if path not in found])
-    _tell_of_recordings(result, quiet=quiet)
+        _print_names("labels of recordings that are not there", strays)
+        _print_names(
+            "without labels, left out", [path.name for path in recordings if path not in found]
+        )
+    _print_problems(result, quiet=quiet)
     if as_json:
         typer.echo(result.to_json())
     elif not quiet:
@@ -82,20 +84,20 @@ def run_folder(
     return any(not one.error for ones in result.methods.values() for one in ones)
 
 
-def _tell(what: str, names: Sequence[str]) -> None:
+def _print_names(what: str, names: Sequence[str]) -> None:
     if names:
-        typer.echo(harmless(f"{what}: {join_names(names, NAMED)}"), err=True)
+        typer.echo(escape_controls(f"{what}: {join_names(names, NAMED)}"), err=True)
 
 
-def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:
+def _print_problems(result: FolderScores, *, quiet: bool) -> None:
     """Say which recordings failed and why, and what is unusual about the labels of others."""
     for name, ones in result.methods.items():
         for one in ones:
             if one.error:
-                typer.echo(harmless(f"{one.recording}, {name}: {one.error}"), err=True)
+                typer.echo(escape_controls(f"{one.recording}, {name}: {one.error}"), err=True)
     for one in next(iter(result.methods.values())):
         if one.notes and not quiet:
-            typer.echo(harmless(f"{one.recording}: {'; '.join(one.notes)}"), err=True)
+            typer.echo(escape_controls(f"{one.recording}: {'; '.join(one.notes)}"), err=True)
 
 
 def _show(result: FolderScores) -> None:
@@ -105,7 +107,10 @@ def _show(result: FolderScores) -> None:
     counts = [name for name in ("count_error",) if any(name in one.scores for one in ones)]
     short = ("mof", "edit", "f1@50", "border_f1", *counts)
     by_method = [
-        (method if len(columns) > 1 else "", [(one.recording, _row(one, short)) for one in ones])
+        (
+            method if len(columns) > 1 else "",
+            [(one.recording, _format_row(one, short)) for one in ones],
+        )
         for method, ones in result.methods.items()
     ]
     show_table("by recording", [scores()[name].title for name in short], by_method)
@@ -117,7 +122,7 @@ def _show(result: FolderScores) -> None:
     show_table(title, list(columns), groups, note=explain_disagreement(columns))
 
 
-def _row(one: Evaluated, names: Sequence[str]) -> list[str]:
+def _format_row(one: Evaluated, names: Sequence[str]) -> list[str]:
     return ["failed" if one.error else _format_score(one.scores.get(name)) for name in names]
 
 

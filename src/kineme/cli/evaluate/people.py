@@ -7,9 +7,9 @@ from pathlib import Path
 
 import typer
 
-from kineme.cli.messages import progress
+from kineme.cli.messages import show_progress
 from kineme.cli.tables import show_table
-from kineme.cli.terminal import harmless
+from kineme.cli.terminal import escape_controls
 from kineme.errors import ReadError
 from kineme.evaluation.annotators import (
     AnnotatorAgreement,
@@ -32,7 +32,7 @@ def run_people(
     folder: Path, labels: Sequence[Path], *, output: Path | None, as_json: bool, quiet: bool
 ) -> None:
     """Print and write how far those agree who labelled the recordings of a folder."""
-    with progress(folder, quiet=quiet or as_json) as stage:
+    with show_progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
         recordings = recordings_below(folder)
         names = name_annotators(labels)
@@ -46,7 +46,7 @@ def run_people(
 
         labelled, failures = gather_labels(sources, extent)
     for failure in failures:
-        typer.echo(harmless(failure), err=True)
+        typer.echo(escape_controls(failure), err=True)
     if not any(len(sides) > 1 for sides in labelled.values()):
         raise ReadError(folder, "has no recording of which two people have labels")
     result = annotator_agreement(labelled)

@@ -11,8 +11,8 @@ import typer
 from kineme._util.checks import format_count
 from kineme._util.parallel import count_threads
 from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
-from kineme.cli.library.commands import Scheduler, path_or_url
-from kineme.cli.messages import Failures, one_line, progress, say_skipped
+from kineme.cli.library.commands import Scheduler, parse_path_or_url
+from kineme.cli.messages import Failures, format_line, print_skipped, show_progress
 from kineme.cli.options.declare import add_options, are_given
 from kineme.cli.options.inputs import Batch
 from kineme.cli.options.method import SEGMENTING
@@ -35,7 +35,7 @@ def build(
             OUTPUT,
             "Folder or URL of the library, new or to be brought up to date.",
             "--into",
-            parser=path_or_url,
+            parser=parse_path_or_url,
             metavar="LIB",
         ),
     ],
@@ -45,7 +45,7 @@ def build(
     files: Annotated[
         list[Path] | None,
         typer.Argument(
-            parser=path_or_url,
+            parser=parse_path_or_url,
             metavar="FILES",
             help=f"Recordings, folders of them, or URLs: {RECORDINGS}. They add to those that "
             "the library knows; without any, it looks at these again.",
@@ -56,7 +56,7 @@ def build(
         option(
             OUTPUT,
             "Take these files or folders out of the library; may be given again.",
-            parser=path_or_url,
+            parser=parse_path_or_url,
             metavar="PATH",
         ),
     ] = None,
@@ -85,7 +85,7 @@ def build(
     failures = Failures()
     processes = jobs or count_threads()
     with failures.caught(into):
-        if processes > 1 and scheduler is None and _is_much(files or (), into):
+        if processes > 1 and scheduler is None and _needs_processes(files or (), into):
             from kineme.library.executors import start_soon
 
             start_soon()  # what is imported next takes a while as well
@@ -95,7 +95,7 @@ def build(
 
         as_before = not are_given(context, OPTIONS)
         sources = change_sources(into, files or (), remove or ())
-        with progress(into, quiet=quiet) as stage:
+        with show_progress(into, quiet=quiet) as stage:
             built = build_library(
                 files or (),
                 into,
@@ -108,15 +108,15 @@ def build(
                 progress=stage,
             )
         if not quiet:
-            typer.echo(_summary(built))
+            typer.echo(_summarize(built))
         elsewhere = {path for path in sources if is_remote(path)}
         here = [path for path in sources if path not in elsewhere]
-        _say_elsewhere(built, elsewhere)
-        _exit(built, Batch(here, recursive=built.recursive))
+        _report_remote_failures(built, elsewhere)
+        _report_and_exit(built, Batch(here, recursive=built.recursive))
     failures.exit()
 
 
-def _is_much(files: Sequence[Path], into: Path) -> bool:
+def _needs_processes(files: Sequence[Path], into: Path) -> bool:
     """Return whether there is work for several processes, as far as a glance tells."""
     from kineme.library.storage.layout import HEAD
 
@@ -124,16 +124,16 @@ def _is_much(files: Sequence[Path], into: Path) -> bool:
     return fresh and (len(files) > 1 or any(file.is_dir() for file in files))
 
 
-def _say_elsewhere(built: Built, sources: set[Path]) -> None:
+def _report_remote_failures(built: Built, sources: set[Path]) -> None:
     """Say what failed that was to be read from URLs; end with 1 if a source itself did."""
     failed = {path: reason for path, reason in built.failed.items() if hasattr(path, "protocol")}
     for path, reason in failed.items():
-        say_skipped(one_line(reason, subject=path))
+        print_skipped(format_line(reason, subject=path))
     if sources & failed.keys():
         raise typer.Exit(1)
 
 
-def _exit(built: Built, batch: Batch) -> None:
+def _report_and_exit(built: Built, batch: Batch) -> None:
     """Say what was left out and why; end with code 1 if something named gave nothing."""
     from kineme.errors import KinemeError
 
@@ -144,7 +144,7 @@ def _exit(built: Built, batch: Batch) -> None:
     batch.exit()
 
 
-def _summary(built: Built) -> str:
+def _summarize(built: Built) -> str:
     n = len(built.paths)
     parts = [f"{format_count(n, 'recording')} in {built.folder}", f"{built.new} new"]
     parts += [f"{built.removed} taken out"] * bool(built.removed)

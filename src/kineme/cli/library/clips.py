@@ -66,17 +66,17 @@ def coverage(folder: Folder, json: Json = False) -> None:
             return
         from rich.text import Text
 
-        from kineme.cli.tables import cluster_cell, new_table
+        from kineme.cli.tables import format_cluster, make_table
         from kineme.cli.terminal import Console
 
-        table = new_table(
+        table = make_table(
             "cluster", "label", "direction", "clips", "seconds", "m/s", "turn °", "starts", "stops"
         )
         for each in covered:
             turns = [f"{each.left_deg:.0f} left"] * (each.left_deg >= 1)
             turns += [f"{each.right_deg:.0f} right"] * (each.right_deg >= 1)
             table.add_row(
-                cluster_cell(each.cluster),
+                format_cluster(each.cluster),
                 Text(each.label),
                 each.direction,
                 str(each.clips),

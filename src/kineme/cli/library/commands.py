@@ -15,7 +15,7 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.messages import Failures, one_line
+from kineme.cli.messages import Failures, format_line
 
 if TYPE_CHECKING:
     from kineme.library import Library
@@ -26,7 +26,7 @@ SHOWN = 1000
 """Rows of an answer that are printed as a table."""
 
 
-def path_or_url(text: str) -> Path:
+def parse_path_or_url(text: str) -> Path:
     """Return a place that was typed."""
     from kineme.errors import KinemeError
     from kineme.library.storage.places import place
@@ -40,7 +40,7 @@ def path_or_url(text: str) -> Path:
 Folder = Annotated[
     Path,
     typer.Argument(
-        parser=path_or_url,
+        parser=parse_path_or_url,
         metavar="LIB",
         help="Library that `kineme library build` made, a folder or a URL.",
     ),
@@ -84,7 +84,7 @@ def show(
         if pictures is not None:
             library.pictures(pictures)
         if json:
-            typer.echo(dumps(_facts(library)))
+            typer.echo(dumps(_collect_facts(library)))
         else:
             _show_library(library)
 
@@ -147,7 +147,7 @@ def merge(
         library.merge(cluster, *others)
 
 
-def _facts(library: Library) -> dict[str, Any]:
+def _collect_facts(library: Library) -> dict[str, Any]:
     return {
         "recordings": len(library),
         "hours": library.hours,
@@ -163,20 +163,20 @@ def _facts(library: Library) -> dict[str, Any]:
 def _show_library(library: Library) -> None:
     from rich.text import Text
 
-    from kineme.cli.tables import cluster_cell, new_table
+    from kineme.cli.tables import format_cluster, make_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
     console.print(Text(str(library.folder), style="bold"))
     n = len(library)
     console.print(f"{format_count(n, 'recording')}, {library.hours:.2f} h")
-    table = new_table(
+    table = make_table(
         "cluster", "label", "recordings", "activities", "repetitions", "minutes", "typical s",
         "example",
     )  # fmt: skip
     for each in library.clusters():
         table.add_row(
-            cluster_cell(each.cluster),
+            format_cluster(each.cluster),
             Text(each.label),
             *map(str, (each.recordings, each.activities, each.repetitions)),
             f"{each.seconds / 60:.1f}",
@@ -194,25 +194,25 @@ def _show_library(library: Library) -> None:
     if len(unsure) > UNSURE:
         console.print(Text(f"and {len(unsure) - UNSURE} more that are unsure", style="dim"))
     for path, reason in library.failed.items():
-        console.print(Text(f"failed: {one_line(reason, subject=path)}"), soft_wrap=True)
+        console.print(Text(f"failed: {format_line(reason, subject=path)}"), soft_wrap=True)
 
 
 def _show_answer(answer: Any) -> None:
     from rich.text import Text
 
-    from kineme.cli.tables import new_table
+    from kineme.cli.tables import make_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
-    table = new_table(*answer.column_names)
+    table = make_table(*answer.column_names)
     for row in answer.slice(0, SHOWN).to_pylist():
-        table.add_row(*(Text(_cell(value)) for value in row.values()))
+        table.add_row(*(Text(_format_cell(value)) for value in row.values()))
     console.print(table)
     if len(answer) > SHOWN:
         console.print(f"and {format_count(len(answer) - SHOWN, 'row')} more: --json prints all")
 
 
-def _cell(value: object) -> str:
+def _format_cell(value: object) -> str:
     if value is None:
         return ""
     return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -13,7 +13,7 @@ from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.library.commands import Folder, Json, Scheduler, open_library
 from kineme.cli.options.reading import Quiet
-from kineme.cli.options.targets import make_folder_of
+from kineme.cli.options.targets import make_parent_folder
 
 if TYPE_CHECKING:
     from kineme.library import Example, Hit
@@ -96,24 +96,24 @@ def search(
 
     For example: kineme library search LIB --like walk.bvh@3.5-6
     """
-    examples = [_example(text) for text in like or ()]
+    examples = [_parse_example(text) for text in like or ()]
     if (start or stop is not None) and len(examples) != 1:
         raise typer.BadParameter(
             f"--start and --stop are of a single --like; give several as {SPAN}"
         )
     if (start or stop is not None) and "@" not in (like or [""])[0]:
-        examples = [_example_of(like[0] if like else "", start, stop)]
+        examples = [_make_example(like[0] if like else "", start, stop)]
     if not examples and cluster is None:
         raise typer.BadParameter("nothing to search for: give --like or --cluster")
     with open_library(folder) as library:
         from kineme.transfer.subsequences import THRESHOLD
 
         if export is not None:
-            make_folder_of(export)
+            make_parent_folder(export)
         hits = library.search(
             examples,
             cluster=cluster,
-            unlike=[_example(text) for text in unlike or ()],
+            unlike=[_parse_example(text) for text in unlike or ()],
             threshold=THRESHOLD if threshold is None else threshold,
             top=top,
             max_per_recording=max_per_recording,
@@ -131,18 +131,18 @@ def search(
                 typer.echo(f"{format_count(len(clips), 'clip')} in {export}")
 
 
-def _example(text: str) -> Example:
+def _parse_example(text: str) -> Example:
     """Return a recording and its span, as typed; one whose name looks like that is itself."""
     found = None if Path(text).exists() else _SPAN.fullmatch(text)
     if found is None:
-        return _example_of(text, 0.0, None)
+        return _make_example(text, 0.0, None)
     try:
-        return _example_of(found["name"], float(found["start"]), float(found["stop"]))
+        return _make_example(found["name"], float(found["start"]), float(found["stop"]))
     except ValueError as error:
         raise typer.BadParameter(f"{text!r} is not {SPAN}") from error
 
 
-def _example_of(name: str, start: float, stop: float | None) -> Example:
+def _make_example(name: str, start: float, stop: float | None) -> Example:
     from kineme.errors import ParameterError
     from kineme.library import Example
 
@@ -155,15 +155,15 @@ def _example_of(name: str, start: float, stop: float | None) -> Example:
 def _show(hits: list[Hit]) -> None:
     from rich.text import Text
 
-    from kineme.cli.tables import cluster_cell, new_table
+    from kineme.cli.tables import format_cluster, make_table
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
-    table = new_table("#", "recording", "start s", "stop s", "distance", "cluster", "label")
+    table = make_table("#", "recording", "start s", "stop s", "distance", "cluster", "label")
     for number, hit in enumerate(hits):
         span = f"{hit.start_s:.2f}", f"{hit.stop_s:.2f}", f"{hit.distance:.2f}"
         table.add_row(
-            str(number), Text(hit.recording), *span, cluster_cell(hit.cluster), Text(hit.label)
+            str(number), Text(hit.recording), *span, format_cluster(hit.cluster), Text(hit.label)
         )
     n, recordings = len(hits), len({hit.recording for hit in hits})
     if hits:

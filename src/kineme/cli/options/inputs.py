@@ -16,9 +16,9 @@ import typer
 
 from kineme._util.files import add_person
 from kineme.cli.help import INPUT, RECORDINGS, option
-from kineme.cli.messages import one_line, progress, say_error, say_skipped
-from kineme.cli.options.reading import options_by_name
-from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for
+from kineme.cli.messages import format_line, print_error, print_skipped, show_progress
+from kineme.cli.options.reading import expand_read_options
+from kineme.cli.options.targets import choose_files, choose_folders, find_tables, make_absolute
 from kineme.errors import KinemeError, ReadError, WriteError
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class Batch:
                 continue
             found = self._recordings_in(path, recursive=recursive) if path.is_dir() else [path]
             for recording in found:
-                origins = self._given_as.setdefault(absolute(recording), set())
+                origins = self._given_as.setdefault(make_absolute(recording), set())
                 if not origins:
                     self.paths.append(recording)
                 origins.add(path)
@@ -90,9 +90,9 @@ class Batch:
         together = self.paths
         if len(together) > 1:
             self.paths = together[:1]
-            first = self._given_as[absolute(together[0])]
+            first = self._given_as[make_absolute(together[0])]
             for path in together[1:]:
-                first |= self._given_as[absolute(path)]
+                first |= self._given_as[make_absolute(path)]
         return together
 
     def targets(self, option: str, given: Path | None, suffix: str) -> list[Path | None]:
@@ -104,19 +104,19 @@ class Batch:
     def files(self, option: str, given: Path, suffix: str = "") -> list[Path]:
         """Return the same where the option is never left out."""
         with self._nothing_without():
-            return files_for(option, given, self.paths, suffix)
+            return choose_files(option, given, self.paths, suffix)
 
     def folders(self, option: str, given: Path) -> list[Path]:
         """Return the folder that each recording gets; the one given where it is a single one's."""
         with self._nothing_without():
-            return folders_for(option, given, self.paths, single=self.single)
+            return choose_folders(option, given, self.paths, single=self.single)
 
     def tables(self, option: str, given: Path | None, person: str = "") -> list[Path | None]:
         """Return table or label file that belongs to each recording, or to this person in it."""
         if given is None:
             return [None] * len(self.paths)
         with self._nothing_without():
-            return [*tables_for(option, given, self.paths, person)]
+            return [*find_tables(option, given, self.paths, person)]
 
     def table(self, path: Path, option: str, given: Path | None, person: str = "") -> Path | None:
         """That of a recording among `tables`."""
@@ -142,7 +142,7 @@ class Batch:
         """
         with self.caught(path):
             failures = []
-            for person, options in options_by_name(path, read_options):
+            for person, options in expand_read_options(path, read_options):
                 table = self.table(path, *tables, options.person or "")
                 places = [each and add_person(each, person) for each in targets]
                 try:
@@ -161,21 +161,21 @@ class Batch:
         except KinemeError as error:
             unwritten = isinstance(error, WriteError)  # not the fault of the recording
             self._unwritten |= unwritten
-            say = say_error if unwritten or self._is_named(path) else say_skipped
-            self._messages.append((say, one_line(error, subject=path)))
+            say = print_error if unwritten or self._is_named(path) else print_skipped
+            self._messages.append((say, format_line(error, subject=path)))
         else:
-            self._missing -= self._given_as[absolute(path)]
+            self._missing -= self._given_as[make_absolute(path)]
 
     def leave_out(self, path: Path, reason: str) -> None:
         """Say why a recording that could be read has no part in the result."""
         named = self._is_named(path)
-        self._messages.append((say_error if named else say_skipped, f"{path}: {reason}"))
+        self._messages.append((print_error if named else print_skipped, f"{path}: {reason}"))
         self._missing |= {path} if named else set()
 
     def progress(self, path: Path) -> AbstractContextManager[Callable[[str], None]]:
         """Return a function that shows the stage at work on the recording whose turn it is."""
         turn = f" ({self._at} of {len(self.paths)})" if len(self.paths) > 1 else ""
-        return progress(f"{path.name}{turn}", quiet=self._quiet)
+        return show_progress(f"{path.name}{turn}", quiet=self._quiet)
 
     def exit(self) -> None:
         """Say what was left out and why.
@@ -192,7 +192,7 @@ class Batch:
 
         listing = scan_folder(folder, recursive=recursive)
         self._messages += [
-            (say_skipped, f"{path}: {reason}") for path, reason in listing.passed_over
+            (print_skipped, f"{path}: {reason}") for path, reason in listing.passed_over
         ]
         names = ", ".join(path.name for path in listing.folders[:3])
         more = ", …" if len(listing.folders) > 3 else ""
@@ -202,15 +202,15 @@ class Batch:
                 alone = any(path.suffix.lower() == SKELETON for path in folder.iterdir())
                 why = "a skeleton (.asf) needs the motion (.amc) beside it" if alone else ""
                 reasons = filter(None, ("there is no recording in this folder", why, deeper))
-                self._messages.append((say_error, f"{folder}: {'; '.join(reasons)}"))
+                self._messages.append((print_error, f"{folder}: {'; '.join(reasons)}"))
         elif deeper:
-            self._messages.append((say_skipped, f"{folder}: {deeper}"))
+            self._messages.append((print_skipped, f"{folder}: {deeper}"))
         return listing.recordings
 
     def _is_named(self, path: Path) -> bool:
         """Return whether a recording was asked for by its own name, not found in a folder."""
-        place = absolute(path)
-        return any(absolute(origin) == place for origin in self._given_as[place])
+        place = make_absolute(path)
+        return any(make_absolute(origin) == place for origin in self._given_as[place])
 
     @contextmanager
     def _nothing_without(self) -> Iterator[None]:
@@ -218,6 +218,6 @@ class Batch:
         try:
             yield
         except (ReadError, WriteError) as error:
-            self._messages.append((say_error, one_line(error)))
+            self._messages.append((print_error, format_line(error)))
             self._missing.add(Path(error.path))
             self.exit()

@@ -77,8 +77,8 @@ def make_segment_options(
     try:
         return SegmentOptions(
             preset=chosen,
-            constants=constants_of([chosen], constants or ()),
-            effectors=effector_names(effectors),
+            constants=parse_constants([chosen], constants or ()),
+            effectors=parse_effectors(effectors),
             detail=DEFAULT_DETAIL if detail is None else detail,
             emg=emg,
         )
@@ -86,7 +86,7 @@ def make_segment_options(
         raise typer.BadParameter(str(error), param_hint="--detail") from error
 
 
-def effector_names(text: str | None) -> Mapping[str, str] | list[str] | None:
+def parse_effectors(text: str | None) -> Mapping[str, str] | list[str] | None:
     """Return joint names as `end_effectors` takes them."""
     if text is None:
         return None
@@ -97,7 +97,7 @@ def effector_names(text: str | None) -> Mapping[str, str] | list[str] | None:
     return {part.strip().replace(" ", "_"): name for part, _, name in pairs}
 
 
-def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:
+def parse_constants(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:
     """Return the constants in texts such as ``min_action=2``, checked.
 
     Each preset takes those it has.
@@ -106,7 +106,7 @@ def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]
 
     Examples
     --------
-    >>> constants_of(["kineme"], ["min-action=2", "bands=0.5,2"])
+    >>> parse_constants(["kineme"], ["min-action=2", "bands=0.5,2"])
     {'min_action': 2.0, 'bands': (0.5, 2.0)}
     """
     typed = dict(map(_split_setting, given))
@@ -146,9 +146,9 @@ def parse_value(constant: Constant, text: str) -> Any:
     (None, (-0.1, 0.0, 0.1))
     """
     try:
-        return _value(constant.hint, text.strip())
+        return _convert_text(constant.hint, text.strip())
     except (ValueError, KeyError):
-        words = f"{_words(constant.hint)} {constant.allowed} {constant.unit}"
+        words = f"{_describe_type(constant.hint)} {constant.allowed} {constant.unit}"
         advice = " ".join(words.split())
         raise ParameterError(f"{constant.name} must be {advice}, not {text!r:.60}") from None
 
@@ -172,7 +172,7 @@ def format_value(value: Any) -> str:
     return "none" if value is None else str(value)
 
 
-def _words(hint: Any) -> str:
+def _describe_type(hint: Any) -> str:
     """Return what values of a type are, before the values that they may take."""
     members = get_args(hint)
     if NoneType in members:
@@ -184,15 +184,15 @@ def _words(hint: Any) -> str:
     return {int: "a whole number,", float: "a number,"}.get(hint, "one of")
 
 
-def _value(hint: Any, text: str) -> Any:
+def _convert_text(hint: Any, text: str) -> Any:
     members = get_args(hint)
     if NoneType in members:
-        return None if text.lower() == "none" else _value(_drop_none(hint), text)
+        return None if text.lower() == "none" else _convert_text(_drop_none(hint), text)
     if get_origin(hint) is Literal:
         return {str(member): member for member in members}[text]
     if get_origin(hint) is tuple:
         parts = text.split() if get_origin(members[0]) is tuple else text.split(",")
-        return tuple(_value(members[0], part) for part in parts)
+        return tuple(_convert_text(members[0], part) for part in parts)
     if hint is bool:
         return {"true": True, "yes": True, "false": False, "no": False}[text.lower()]
     return hint(text)

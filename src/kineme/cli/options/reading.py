@@ -98,7 +98,7 @@ def split_names(*texts: str | None) -> tuple[str, ...]:
     return tuple(name for name in names if name)
 
 
-def options_by_name(path: Path, options: ReadOptions) -> list[tuple[str, ReadOptions]]:
+def expand_read_options(path: Path, options: ReadOptions) -> list[tuple[str, ReadOptions]]:
     """Return the people and takes in a file where all are asked for, and how each is read.
 
     A single one, or the one that was named, goes without a name.
@@ -110,7 +110,7 @@ def options_by_name(path: Path, options: ReadOptions) -> list[tuple[str, ReadOpt
         return [
             ("_".join(filter(None, (take, who))), each)
             for take in takes
-            for who, each in options_by_name(path, replace(options, take=take))
+            for who, each in expand_read_options(path, replace(options, take=take))
         ]
     if options.person != EVERYTHING:
         return [("", options)]

@@ -28,10 +28,10 @@ PAGES = (".html", ".htm")
 _FIELD = re.compile(r"\{(name|parent)\}")
 
 
-def files_for(option: str, given: Path, inputs: list[Path], suffix: str = "") -> list[Path]:
+def choose_files(option: str, given: Path, inputs: list[Path], suffix: str = "") -> list[Path]:
     """One path per recording, none of which is a recording itself."""
     pattern = given / f"{NAME}{suffix}" if _is_folder(given) else given
-    paths = _one_each(option, pattern, inputs)
+    paths = _fill_patterns(option, pattern, inputs)
     recordings = {path.resolve() for path in inputs}
     for path in paths:
         if path.resolve() in recordings:
@@ -39,36 +39,36 @@ def files_for(option: str, given: Path, inputs: list[Path], suffix: str = "") ->
                 f"{path} would take the place of a recording; give another folder or name",
                 param_hint=option,
             )
-    check_place(pattern)
+    check_target_folder(pattern)
     return paths
 
 
-def folders_for(option: str, given: Path, inputs: list[Path], *, single: bool) -> list[Path]:
+def choose_folders(option: str, given: Path, inputs: list[Path], *, single: bool) -> list[Path]:
     """One folder per recording: the one given for a single one, else one of its own in it."""
     if single and not _FIELD.search(str(given)):
         return [given]
     pattern = given if _FIELD.search(str(given)) else given / NAME
-    paths = _one_each(option, pattern, inputs)
-    check_place(pattern)
+    paths = _fill_patterns(option, pattern, inputs)
+    check_target_folder(pattern)
     return paths
 
 
-def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -> list[Path]:
+def find_tables(option: str, given: Path, inputs: list[Path], person: str = "") -> list[Path]:
     """Return table of each recording: a file of all, by a pattern, or that of its name in a folder.
 
     In a folder that of this ``person`` in it, where there is one.
     """
     if not _is_folder(given):
         of_all = "recording" in read_columns(given)  # a table that says whose each row is
-        return [given] * len(inputs) if of_all else _one_each(option, given, inputs)
+        return [given] * len(inputs) if of_all else _fill_patterns(option, given, inputs)
     if not given.exists() and not _FIELD.search(str(given)):
         raise ReadError(given, "there is no such file or folder")
-    recordings, paths = set(inputs), _one_each(option, given / NAME, inputs)
-    usual = [_find_kept(path, recordings) for path in paths]
+    recordings, paths = set(inputs), _fill_patterns(option, given / NAME, inputs)
+    usual = [_find_table_file(path, recordings) for path in paths]
     if not person:
         return usual
     named = [
-        _find_kept(path.with_name(f"{path.name}{make_person_suffix(person)}"), recordings)
+        _find_table_file(path.with_name(f"{path.name}{make_person_suffix(person)}"), recordings)
         for path in paths
     ]
     return [
@@ -77,7 +77,7 @@ def tables_for(option: str, given: Path, inputs: list[Path], person: str = "") -
     ]
 
 
-def check_place(pattern: Path) -> None:
+def check_target_folder(pattern: Path) -> None:
     """WriteError where the folder that is to hold all results has none to lie in."""
     fixed = pattern.parent
     while _FIELD.search(str(fixed)):
@@ -101,10 +101,10 @@ def check_writable(
             continue
         if path.suffix.lower() not in suffixes:
             raise WriteError(path, f"the suffix must be one of {', '.join(suffixes)}")
-        make_folder_of(path)
+        make_parent_folder(path)
 
 
-def make_folder_of(path: Path) -> None:
+def make_parent_folder(path: Path) -> None:
     """Make the folder that a file or a folder is to lie in; WriteError if that cannot be."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -115,7 +115,7 @@ def make_folder_of(path: Path) -> None:
         raise WriteError(path, f"the folder {path.parent} may not be written to")
 
 
-def absolute(path: Path) -> Path:
+def make_absolute(path: Path) -> Path:
     """Return the path from the root, under the names that it was given: links are not followed."""
     return Path(os.path.abspath(path))  # noqa: PTH100
 
@@ -124,14 +124,14 @@ def _is_folder(given: Path) -> bool:
     return given.is_dir() or not given.suffix
 
 
-def _one_each(option: str, pattern: Path, inputs: list[Path]) -> list[Path]:
+def _fill_patterns(option: str, pattern: Path, inputs: list[Path]) -> list[Path]:
     """Return the pattern filled in for each recording, all of them different."""
     if len(inputs) > 1 and not _FIELD.search(str(pattern)):
         raise typer.BadParameter(
             f"one file for {len(inputs)} recordings; give a folder or a name with {NAME} in it",
             param_hint=option,
         )
-    names, folders = _names(inputs), [absolute(path).parts[1:-1] for path in inputs]
+    names, folders = _make_names(inputs), [make_absolute(path).parts[1:-1] for path in inputs]
     depths = [0] * len(inputs)
     while True:
         paths = [
@@ -153,7 +153,7 @@ def _one_each(option: str, pattern: Path, inputs: list[Path]) -> list[Path]:
     return paths
 
 
-def _names(inputs: list[Path]) -> list[str]:
+def _make_names(inputs: list[Path]) -> list[str]:
     """Names without suffixes, but for recordings that differ in nothing else."""
     count = Counter(path.with_suffix("") for path in inputs)
     return [
@@ -174,7 +174,7 @@ def _fill_pattern(pattern: Path, name: str, folders: tuple[str, ...], depth: int
     return Path(_FIELD.sub(lambda field: values[field[1]], str(pattern)))
 
 
-def _find_kept(path: Path, recordings: set[Path]) -> Path:
+def _find_table_file(path: Path, recordings: set[Path]) -> Path:
     """Return the first file of a name, with one of the suffixes of tables, that is no recording."""
     from kineme.labels import list_written_suffixes
 

@@ -51,26 +51,26 @@ class MessageResponse(JSONResponse):
         return to_json(content)
 
 
-def file_response(name: str, content: bytes) -> Response:
+def make_file_response(name: str, content: bytes) -> Response:
     """Return a file to keep; what is not Unicode in its name becomes "?"."""
     quoted = quote(name.encode(errors="replace"), safe="")
     headers = {"content-disposition": f"attachment; filename*=UTF-8''{quoted}"}
     return Response(content, headers=headers, media_type="application/octet-stream")
 
 
-def number_in(text: str) -> int:
+def parse_number(text: str) -> int:
     """Return the number in an address; -1, which nothing has, for anything else."""
     return int(text) if text.isascii() and text.isdigit() and len(text) < 9 else -1
 
 
-def route(path: str, work: Callable[..., object], sent: Any = None) -> Route:
+def make_route(path: str, work: Callable[..., object], sent: Any = None) -> Route:
     """An address that is answered from a thread of its own; with ``sent``, by what is sent there.
 
     ``work`` takes the request and the message of that type, and gives a message or a response.
     """
 
     async def answer(request: Request) -> Response:
-        given = () if sent is None else (from_json(await body(request), sent),)
+        given = () if sent is None else (from_json(await read_body(request), sent),)
         found = await run_in_threadpool(work, request, *given)
         return found if isinstance(found, Response) else MessageResponse(found)
 
@@ -85,7 +85,7 @@ class TooLargeError(Exception):
     """More bytes than an upload may have, or than there is room for."""
 
 
-async def chunks(request: Request) -> AsyncIterator[bytes]:
+async def read_chunks(request: Request) -> AsyncIterator[bytes]:
     """Yield what is sent, piece by piece; TooSlowError where the next one does not come."""
     sent = request.stream()
     while True:
@@ -99,10 +99,10 @@ async def chunks(request: Request) -> AsyncIterator[bytes]:
         yield chunk
 
 
-async def body(request: Request) -> bytes:
+async def read_body(request: Request) -> bytes:
     """Return what was sent, which is read no farther than a request may be long."""
     sent = bytearray()
-    async for chunk in chunks(request):
+    async for chunk in read_chunks(request):
         sent += chunk
         if len(sent) > MOST_JSON:
             raise TooLargeError(f"a request has at most {MOST_JSON} bytes")
@@ -118,9 +118,9 @@ class Upload:
     """
 
     def __init__(self, root: Path, name: str, *, length: int | None = None, limit: int = LIMIT):
-        self.name = safe_name(name)
-        if Path(self.name).suffix.lower() not in _suffixes():
-            allowed = ", ".join(sorted(_suffixes()))
+        self.name = make_safe_name(name)
+        if Path(self.name).suffix.lower() not in _list_upload_suffixes():
+            allowed = ", ".join(sorted(_list_upload_suffixes()))
             raise ParameterError(
                 f"{self.name!r} has no suffix of a recording or its labels: {allowed}"
             )
@@ -160,11 +160,11 @@ class Upload:
     def finish(self) -> Path:
         """Return the path under which the file is there now, or was before."""
         self._file.close()
-        for path in _free_names(self._root / self.name):
+        for path in _list_candidate_paths(self._root / self.name):
             # The same content is there already.
             if path.is_file() and self._is_in(path):
                 return path
-            if _take_name(self._draft, path):
+            if _move_if_free(self._draft, path):
                 return path
         raise WriteError(self._root / self.name, "every name like it is taken")
 
@@ -173,7 +173,7 @@ class Upload:
         return same_size and sha256(path.read_bytes()).digest() == self._digest.digest()
 
 
-def safe_name(name: str) -> str:
+def make_safe_name(name: str) -> str:
     """Return a file's name without folders, and without what some system does not allow in it."""
     # Composed letters, so that one name is not two; a path of any system loses its folders.
     last = re.split(r"[/\\]", unicodedata.normalize("NFC", name))[-1]
@@ -185,7 +185,7 @@ def safe_name(name: str) -> str:
     return ("_" if RESERVED.fullmatch(stem) else "") + stem + suffix
 
 
-def forget_drafts(root: Path) -> None:
+def remove_abandoned_drafts(root: Path) -> None:
     """Remove what a killed server left of uploads; not what another one still writes."""
     for path in root.glob(".upload-*.part"):
         if not DRAFT.fullmatch(path.name):
@@ -195,22 +195,22 @@ def forget_drafts(root: Path) -> None:
                 path.unlink()
 
 
-def recording_suffixes() -> list[str]:
+def list_recording_suffixes() -> list[str]:
     """Return the suffixes of files that can be recordings, in alphabetical order."""
     return sorted({suffix for each in supported_formats() if each.read for suffix in each.suffixes})
 
 
-def _suffixes() -> set[str]:
+def _list_upload_suffixes() -> set[str]:
     """Of all that may be sent: recordings and their skeletons, labels, knowledge bases."""
     labels = {suffix for each in label_formats().values() for suffix in each.suffixes}
-    return {*recording_suffixes(), ".asf", ".npz", *labels}
+    return {*list_recording_suffixes(), ".asf", ".npz", *labels}
 
 
-def _free_names(path: Path) -> list[Path]:
+def _list_candidate_paths(path: Path) -> list[Path]:
     return [path, *(path.with_stem(f"{path.stem}_{number}") for number in range(2, 1000))]
 
 
-def _take_name(draft: Path, path: Path) -> bool:
+def _move_if_free(draft: Path, path: Path) -> bool:
     """Return whether the draft now has this name; not if another file has."""
     try:
         # A link fails if the name exists, so two uploads cannot take one name.

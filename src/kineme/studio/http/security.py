@@ -49,7 +49,7 @@ WITHIN = 20.0
 """Seconds in which the headers of a request are there once the first of their bytes is."""
 
 
-def new_token() -> str:
+def make_token() -> str:
     """Return a token that cannot be guessed."""
     return secrets.token_urlsafe(24)
 

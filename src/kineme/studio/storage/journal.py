@@ -31,7 +31,7 @@ from kineme.labels import json_table
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.sidecars import FOLDER, delete_file, read_sidecar, write_file
-from kineme.studio.storage.tables import content_of
+from kineme.studio.storage.tables import encode_table
 from kineme.web.requests import Edit
 
 MOST_KEPT = 200
@@ -91,10 +91,10 @@ class Journal:
         self._record, self.notes = read_record(self.folder)
         self._unsaved: dict[int, Change] = {}
         history, steps = self._record.history, self._record.steps
-        digest = sha256(content_of(table)).hexdigest()
+        digest = sha256(encode_table(table)).hexdigest()
         if steps and steps[history.present].n_frames == table.n_frames:
             # The present table, else that before or after the last change, which was cut short.
-            for step in (history, _or_none(history.undone), _or_none(history.redone)):
+            for step in (history, _try_step(history.undone), _try_step(history.redone)):
                 if step is not None and self._is(step.present, table, digest):
                     if step is not history:  # the last change was cut short, and has no answer
                         names, revision = self._record.names[:-1], self._record.revision - 1
@@ -153,7 +153,7 @@ class Journal:
         # A table that could have been redone is about to be lost.
         before = [*history.future[-1:], *([history.present] if replaced else [])]
         at = datetime.now(UTC).isoformat(timespec="seconds")
-        content = content_of(table)
+        content = encode_table(table)
         step = Step(at, sha256(content).hexdigest(), table.n_frames, edit)
         record = replace(
             self._record,
@@ -237,7 +237,7 @@ class Journal:
 def read_record(folder: Path) -> tuple[Record, list[str]]:
     """Return the history in a folder, empty where none can be read, and notes on it."""
     record, notes = read_sidecar(folder / HISTORY, Record, Record())
-    complete = record.schema == SCHEMA and needed_by(record) <= record.steps.keys()
+    complete = record.schema == SCHEMA and find_needed_tables(record) <= record.steps.keys()
     if complete or record == Record():
         return record, notes
     return Record(revision=record.revision), [*notes, f"{HISTORY} was left alone: it is not whole"]
@@ -251,17 +251,17 @@ def write_record(folder: Path, record: Record) -> None:
 
 def prune_steps(record: Record) -> Record:
     """Return the record without the steps that nothing needs any more."""
-    needed = needed_by(record)
+    needed = find_needed_tables(record)
     return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})
 
 
-def needed_by(record: Record) -> set[int]:
+def find_needed_tables(record: Record) -> set[int]:
     """Return the numbers of the tables that a record names."""
     history = record.history
     return {*history.past, history.present, *history.future, *record.kept}
 
 
-def _or_none(step: Callable[[], History[int]]) -> History[int] | None:
+def _try_step(step: Callable[[], History[int]]) -> History[int] | None:
     try:
         return step()
     except ParameterError:

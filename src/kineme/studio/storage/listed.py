@@ -13,9 +13,9 @@ from pathlib import Path
 from kineme._util.files import add_person
 
 
-def file_id(path: Path) -> str:
+def make_file_id(path: Path) -> str:
     """Return the id of a file: the same for as long as it lies there."""
-    return _digest(str(path.absolute()))
+    return _compute_digest(str(path.absolute()))
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,8 @@ class ListedRecording:
     def id(self) -> str:
         """By which pages ask for it."""
         if self.is_first or not self.person:
-            return file_id(self.path)
-        return _digest(str(self.path.absolute()), self.person)
+            return make_file_id(self.path)
+        return _compute_digest(str(self.path.absolute()), self.person)
 
     @property
     def name(self) -> str:
@@ -61,6 +61,6 @@ class ListedRecording:
         return self.path if self.is_first else self.called
 
 
-def _digest(path: str, person: str = "") -> str:
+def _compute_digest(path: str, person: str = "") -> str:
     behind = f"\0{person}".encode(errors="backslashreplace") if person else b""
     return blake2b(path.encode(errors="surrogateescape") + behind, digest_size=9).hexdigest()

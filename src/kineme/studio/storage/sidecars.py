@@ -41,20 +41,20 @@ class _Offset(Struct):
     offset_s: Annotated[float, Meta(ge=-LARGEST, le=LARGEST)] | None = None
 
 
-def reading_of(recording: Path) -> tuple[ReadOptions, tuple[str, ...]]:
+def read_saved_reading(recording: Path) -> tuple[ReadOptions, tuple[str, ...]]:
     """Return how a file is read, as people said, and who is in it.
 
     These are named where each of several people is a recording of its own.
     """
-    return _reading(recording)[0]
+    return _read_reading(recording)[0]
 
 
-def options_of(recording: Path) -> ReadOptions:
+def read_saved_options(recording: Path) -> ReadOptions:
     """Return the options alone."""
-    return reading_of(recording)[0]
+    return read_saved_reading(recording)[0]
 
 
-def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
+def list_recordings(paths: Iterable[Path]) -> list[ListedRecording]:
     """Return recordings in some files: those of which the people are known have one for each."""
     present: dict[Path, set[str]] = {}
     found: list[ListedRecording] = []
@@ -62,58 +62,58 @@ def listed_in(paths: Iterable[Path]) -> list[ListedRecording]:
         folder = path.parent / FOLDER
         # One listing per folder is cheaper than a look-up for each recording.
         if folder not in present:
-            present[folder] = _names_in(folder)
-        is_present = _sidecar(path, READING).name in present[folder]
-        options, people = reading_of(path) if is_present else (ReadOptions(), ())
+            present[folder] = _list_names(folder)
+        is_present = _make_sidecar_path(path, READING).name in present[folder]
+        options, people = read_saved_reading(path) if is_present else (ReadOptions(), ())
         found += [ListedRecording(path, who, who == options.person) for who in people]
         found += [] if people else [ListedRecording(path)]
     return found
 
 
-def read_options(
+def resolve_read_options(
     listed: ListedRecording, general: ReadOptions, choice: ReadOptions | None = None
 ) -> ReadOptions:
     """Return how a recording is read: by a ``choice``, or as people said of it; else as all."""
-    options = replace(general, **options_to_json(choice or options_of(listed.path)))
+    options = replace(general, **options_to_json(choice or read_saved_options(listed.path)))
     return replace(options, person=listed.person) if listed.person else options
 
 
-def keep_reading(recording: Path, options: ReadOptions, people: Sequence[str]) -> None:
+def write_reading(recording: Path, options: ReadOptions, people: Sequence[str]) -> None:
     """Keep what people say of how a file is read, and who is in it."""
     content = {**options_to_json(options), "people": [*people]}
-    write_file(_sidecar(recording, READING), json.dumps(content).encode())
+    write_file(_make_sidecar_path(recording, READING), json.dumps(content).encode())
 
 
-def video_message(recording: Path, drawn: DrawnPicture | None = None) -> Video | None:
+def make_video_message(recording: Path, drawn: DrawnPicture | None = None) -> Video | None:
     """Return what a page is told of the video, over which ``drawn`` is drawn."""
-    return describe_video(recording, drawn, _video(recording)[0].offset_s)
+    return describe_video(recording, drawn, _read_offset(recording)[0].offset_s)
 
 
-def offset_of(recording: Path) -> float:
+def read_video_offset(recording: Path) -> float:
     """Seconds of the video at the start of the recording; 0 where nobody said."""
-    return _video(recording)[0].offset_s or 0.0
+    return _read_offset(recording)[0].offset_s or 0.0
 
 
-def set_offset(recording: Path, seconds: float) -> None:
+def write_video_offset(recording: Path, seconds: float) -> None:
     """Keep the offset of the video; WriteError where it cannot be written."""
-    write_file(_sidecar(recording, "video"), json.dumps({"offset_s": seconds}).encode())
+    write_file(_make_sidecar_path(recording, "video"), json.dumps({"offset_s": seconds}).encode())
 
 
-def shared_labels(root: Path) -> list[str]:
+def read_shared_labels(root: Path) -> list[str]:
     """Return the labels of a folder; none where nobody chose any."""
-    return _labels(root)[0]
+    return _read_labels(root)[0]
 
 
-def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
+def write_shared_labels(root: Path, labels: Sequence[str]) -> list[str]:
     """Keep these labels, each once, for the folder."""
     unique = list(dict.fromkeys(label.strip() for label in labels if label.strip()))
     write_file(root / FOLDER / LABELS, json.dumps(unique, ensure_ascii=False, indent=1).encode())
     return unique
 
 
-def notes_on_sidecars(recording: Path) -> list[str]:
+def list_sidecar_problems(recording: Path) -> list[str]:
     """Return which of the files of a recording and its folder cannot be read, and why."""
-    found = (_reading(recording), _video(recording), _labels(recording.parent))
+    found = (_read_reading(recording), _read_offset(recording), _read_labels(recording.parent))
     return [note for _, notes in found for note in notes]
 
 
@@ -135,7 +135,7 @@ def write_file(path: Path, content: bytes) -> None:
 
     WriteError where it cannot be; it, ``.kineme`` or a folder between is a link.
     """
-    root = _root_of(path)
+    root = _find_root(path)
     OwnedFolder(root).make(*path.parent.relative_to(root).parts)
     with atomic_write(path) as draft:
         draft.write_bytes(content)
@@ -143,18 +143,18 @@ def write_file(path: Path, content: bytes) -> None:
 
 def delete_file(path: Path) -> None:
     """Delete a file of ``.kineme``, unless it or a folder around it is a link."""
-    root = _root_of(path)
+    root = _find_root(path)
     with suppress(OSError, WriteError):
         OwnedFolder(root).path(*path.relative_to(root).parts).unlink()
 
 
-def _root_of(path: Path) -> Path:
+def _find_root(path: Path) -> Path:
     """Return the folder of recordings that holds the ``.kineme`` of a path."""
     return next(folder.parent for folder in path.parents if folder.name == FOLDER)
 
 
-def _reading(recording: Path) -> tuple[tuple[ReadOptions, tuple[str, ...]], list[str]]:
-    path = _sidecar(recording, READING)
+def _read_reading(recording: Path) -> tuple[tuple[ReadOptions, tuple[str, ...]], list[str]]:
+    path = _make_sidecar_path(recording, READING)
     people: tuple[str, ...] = ()
     content, notes = read_sidecar(path, dict[str, Any], {})
     try:
@@ -165,20 +165,20 @@ def _reading(recording: Path) -> tuple[tuple[ReadOptions, tuple[str, ...]], list
         return (ReadOptions(), people), [*notes, wrong]
 
 
-def _video(recording: Path) -> tuple[_Offset, list[str]]:
-    return read_sidecar(_sidecar(recording, "video"), _Offset, _Offset())
+def _read_offset(recording: Path) -> tuple[_Offset, list[str]]:
+    return read_sidecar(_make_sidecar_path(recording, "video"), _Offset, _Offset())
 
 
-def _labels(root: Path) -> tuple[list[str], list[str]]:
+def _read_labels(root: Path) -> tuple[list[str], list[str]]:
     return read_sidecar(root / FOLDER / LABELS, list[str], [])
 
 
-def _names_in(folder: Path) -> set[str]:
+def _list_names(folder: Path) -> set[str]:
     try:
         return {*os.listdir(folder)}  # noqa: PTH208 (names alone)
     except OSError:
         return set()
 
 
-def _sidecar(recording: Path, what: str) -> Path:
+def _make_sidecar_path(recording: Path, what: str) -> Path:
     return recording.parent / FOLDER / f"{recording.name}.{what}.json"

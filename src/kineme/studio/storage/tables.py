@@ -29,8 +29,8 @@ class TableFile:
 
     def __init__(self, path: Path):
         self.path = path
-        self._stamp = _stamp(path)
-        self._digest = _digest(path)
+        self._stamp = _read_stamp(path)
+        self._digest = _compute_digest(path)
 
     @property
     def exists(self) -> bool:
@@ -39,17 +39,17 @@ class TableFile:
 
     def changed(self) -> bool:
         """Return whether the file is another than the one last read or written here."""
-        if _stamp(self.path) == self._stamp:
+        if _read_stamp(self.path) == self._stamp:
             return False
-        return _digest(self.path) != self._digest
+        return _compute_digest(self.path) != self._digest
 
     def read(self) -> Segmentation:
         """Return the table in the file, which counts as seen from now on."""
-        self._stamp, self._digest = _stamp(self.path), _digest(self.path)
+        self._stamp, self._digest = _read_stamp(self.path), _compute_digest(self.path)
         return read_segments(self.path, format="json")
 
     def write(self, content: bytes) -> None:
-        """Save a table, as `content_of` has it, on the disk; all of it, or nothing.
+        """Save a table, as `encode_table` has it, on the disk; all of it, or nothing.
 
         ChangedOnDiskError where somebody else has changed the file, which stays as it is;
         WriteError where it cannot be written, or is a link to elsewhere.
@@ -59,16 +59,18 @@ class TableFile:
                 file.write(content)
             if self.changed():
                 raise ChangedOnDiskError
-            stamp = _stamp(draft)  # which stays with it under its name; later it may be another's
+            stamp = _read_stamp(
+                draft
+            )  # which stays with it under its name; later it may be another's
         self._stamp, self._digest = stamp, sha256(content).digest()
 
 
-def content_of(table: Segmentation) -> bytes:
+def encode_table(table: Segmentation) -> bytes:
     """Return what a file holds of a table."""
     return json_table.dumps(table).encode()
 
 
-def saved_table(
+def find_saved_table(
     listed: ListedRecording,
     fits: Callable[[Segmentation], bool],
     others: set[Path],
@@ -82,7 +84,7 @@ def saved_table(
     WriteError where no name is left.
     """
     notes: list[str] = []
-    for path in _candidates(listed):
+    for path in _list_candidate_paths(listed):
         file = TableFile(path)
         if path in others or path.is_symlink():
             continue
@@ -101,25 +103,25 @@ def saved_table(
     raise WriteError(listed.path, "has no name left for its table")
 
 
-def usual_tables(listed: ListedRecording) -> list[Path]:
+def list_default_table_paths(listed: ListedRecording) -> list[Path]:
     """Return the two names that nearly every recording's table has."""
     after = listed.with_table
     return [after.with_name(name + CORRECTED) for name in (after.stem, after.name)]
 
 
-def usual_table(listed: ListedRecording) -> Path | None:
+def find_table_path(listed: ListedRecording) -> Path | None:
     """That of them which is there, if one is."""
-    return next((path for path in usual_tables(listed) if path.is_file()), None)
+    return next((path for path in list_default_table_paths(listed) if path.is_file()), None)
 
 
-def _candidates(listed: ListedRecording) -> Iterator[Path]:
-    yield from usual_tables(listed)
+def _list_candidate_paths(listed: ListedRecording) -> Iterator[Path]:
+    yield from list_default_table_paths(listed)
     after = listed.with_table
     for number in count(2):
         yield after.with_name(f"{after.name}.{number}{CORRECTED}")
 
 
-def _stamp(path: Path) -> tuple[int, int, int] | None:
+def _read_stamp(path: Path) -> tuple[int, int, int] | None:
     """Return what changes when a file is written; None where there is none."""
     try:
         found = path.stat()
@@ -128,7 +130,7 @@ def _stamp(path: Path) -> tuple[int, int, int] | None:
     return found.st_ino, found.st_mtime_ns, found.st_size
 
 
-def _digest(path: Path) -> bytes | None:
+def _compute_digest(path: Path) -> bytes | None:
     try:
         refuse_pipe(path)
         return sha256(path.read_bytes()).digest()

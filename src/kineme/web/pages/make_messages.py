@@ -47,7 +47,7 @@ PLAIN: dict[Any, str] = {
 }
 
 
-def typescript(named: dict[str, Any]) -> str:
+def format_typescript(named: dict[str, Any]) -> str:
     """Return the types as TypeScript: unions and literals as ``type``, structs as ``interface``.
 
     Parameters
@@ -65,16 +65,16 @@ def typescript(named: dict[str, Any]) -> str:
         [
             HEAD,
             *(
-                f"export type {name} = {_alternatives(aliases[name], aliases)};\n"
+                f"export type {name} = {_format_alternatives(aliases[name], aliases)};\n"
                 if name in aliases
-                else _interface(kind, aliases)
+                else _format_interface(kind, aliases)
                 for name, kind in named.items()
             ),
         ]
     )
 
 
-def types_of(*modules: ModuleType) -> dict[str, Any]:
+def list_types(*modules: ModuleType) -> dict[str, Any]:
     """Return structs that modules hold, but those that are there to be derived from, and unions."""
     return {
         name: kind
@@ -96,13 +96,13 @@ def _is_struct(kind: Any) -> bool:
     return isinstance(kind, type) and issubclass(kind, Struct)
 
 
-def _interface(kind: Any, aliases: dict[str, inspect.Type]) -> str:
+def _format_interface(kind: Any, aliases: dict[str, inspect.Type]) -> str:
     info: Any = inspect.type_info(kind)
-    lines = [_comment(kind.__doc__ or ""), f"export interface {kind.__name__} {{"]
+    lines = [_format_comment(kind.__doc__ or ""), f"export interface {kind.__name__} {{"]
     if _is_struct(kind) and info.tag is not None:
         lines.append(f'  {info.tag_field}: "{info.tag}";')
     for field in info.fields:
-        said = _type(field.type, aliases)
+        said = _format_type(field.type, aliases)
         # Dataclasses are sent whole, except for unset fields, which have no default here.
         may_lack = not field.required and (_is_struct(kind) or field.default is NODEFAULT)
         null = " | null" if kind is messages.Segment and _is_nan(BARE.get(field.name)) else ""
@@ -114,7 +114,7 @@ def _is_nan(value: Any) -> bool:
     return isinstance(value, float) and math.isnan(value)  # null in JSON
 
 
-def _bare() -> str:
+def _format_bare_row() -> str:
     """Return a row of which nothing is known, to be filled."""
     cells = "".join(
         f"  {name}: {json.dumps(None if _is_nan(value) else value)},\n"
@@ -126,7 +126,7 @@ def _bare() -> str:
     )
 
 
-def _type(info: Any, aliases: dict[str, inspect.Type]) -> str:
+def _format_type(info: Any, aliases: dict[str, inspect.Type]) -> str:
     """A type as TypeScript has it; TypeError for a kind that messages have not used so far."""
     for name, known in aliases.items():
         if info == known:
@@ -137,28 +137,29 @@ def _type(info: Any, aliases: dict[str, inspect.Type]) -> str:
     if isinstance(info, inspect.StructType | inspect.DataclassType):
         return info.cls.__name__
     if isinstance(info, inspect.LiteralType | inspect.UnionType):
-        return _alternatives(info, aliases)
-    return _container(info, aliases)
+        return _format_alternatives(info, aliases)
+    return _format_container(info, aliases)
 
 
-def _container(info: Any, aliases: dict[str, inspect.Type]) -> str:
+def _format_container(info: Any, aliases: dict[str, inspect.Type]) -> str:
     if isinstance(info, inspect.ListType | inspect.VarTupleType):
-        item = _type(info.item_type, aliases)
+        item = _format_type(info.item_type, aliases)
         return f"({item})[]" if " | " in item else f"{item}[]"
     if isinstance(info, inspect.TupleType):
-        return f"[{', '.join(_type(member, aliases) for member in info.item_types)}]"
+        return f"[{', '.join(_format_type(member, aliases) for member in info.item_types)}]"
     if isinstance(info, inspect.DictType):
-        return f"Record<{_type(info.key_type, aliases)}, {_type(info.value_type, aliases)}>"
+        key, value = _format_type(info.key_type, aliases), _format_type(info.value_type, aliases)
+        return f"Record<{key}, {value}>"
     raise TypeError(f"no TypeScript type is known for {info!r}: add it here")
 
 
-def _alternatives(info: Any, aliases: dict[str, inspect.Type]) -> str:
+def _format_alternatives(info: Any, aliases: dict[str, inspect.Type]) -> str:
     if isinstance(info, inspect.LiteralType):
         return " | ".join(f'"{value}"' for value in info.values)
-    return " | ".join(_type(member, aliases) for member in info.types)
+    return " | ".join(_format_type(member, aliases) for member in info.types)
 
 
-def _comment(text: str) -> str:
+def _format_comment(text: str) -> str:
     """Return the first paragraph of a docstring as a JSDoc comment, its markup as Markdown."""
     first = text.strip().split("\n\n")[0]
     first = re.sub(r":\w+:`~?([\w.]+)`", r"`\1`", first.replace("``", "`"))
@@ -168,27 +169,27 @@ def _comment(text: str) -> str:
     return "\n".join(["/**", *(f" * {line}" for line in lines), " */"])
 
 
-def messages_typescript() -> str:
+def format_messages() -> str:
     """Return what ``messages.ts`` holds."""
     of_table = {"Level": Level, "Kind": Kind, "Segment": messages.Segment}
-    types = types_of(messages, requests, annotator_messages, library_messages, live_messages)
-    return f"{typescript(of_table | types)}\n{_bare()}"
+    types = list_types(messages, requests, annotator_messages, library_messages, live_messages)
+    return f"{format_typescript(of_table | types)}\n{_format_bare_row()}"
 
 
-def paths_typescript() -> str:
+def format_paths() -> str:
     """Return what ``studio/server/paths.ts`` holds."""
     nobody: Any = None  # routes are listed without anyone to answer
     routes = [*Api(nobody, nobody).routes(), *LibraryApi(nobody, nobody).routes()]
     return (
         "// Made from the routes of kineme/studio by make_messages.py; change them there.\n\n"
         "/** What is asked for; names in braces are filled in. */\n"
-        f"export type GetPath ={_paths(routes, 'GET')};\n\n"
+        f"export type GetPath ={_format_path_union(routes, 'GET')};\n\n"
         "/** Where something is sent to. */\n"
-        f"export type PostPath ={_paths(routes, 'POST')};\n"
+        f"export type PostPath ={_format_path_union(routes, 'POST')};\n"
     )
 
 
-def _paths(routes: list[Route], method: str) -> str:
+def _format_path_union(routes: list[Route], method: str) -> str:
     paths = sorted(route.path for route in routes if method in (route.methods or ()))
     return "".join(f'\n  | "{path}"' for path in paths if ":" not in path)  # but for any other
 
@@ -196,8 +197,8 @@ def _paths(routes: list[Route], method: str) -> str:
 def make_files() -> dict[Path, str]:
     """Return the files that are made, and what they hold."""
     return {
-        SOURCES / "messages.ts": messages_typescript(),
-        SOURCES / "studio" / "server" / "paths.ts": paths_typescript(),
+        SOURCES / "messages.ts": format_messages(),
+        SOURCES / "studio" / "server" / "paths.ts": format_paths(),
     }
 
 
